@@ -1,0 +1,31 @@
+#include "core/base/text.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright {
+
+std::string fixed(double value, int decimals) {
+    expects(std::isfinite(value), "a number that becomes text is finite");
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    const bool negative_zero = text.front() == '-' && text.find_first_of("123456789") == std::string::npos;
+    return negative_zero ? text.substr(1) : text;
+}
+
+std::string shortest(double value) {
+    expects(std::isfinite(value), "a number that becomes text is finite");
+    return fmt::format("{}", value);
+}
+
+std::string clock_time(double seconds) {
+    expects(std::isfinite(seconds) && seconds >= 0.0, "a duration is finite and not negative");
+    const auto whole = static_cast<long long>(std::ceil(seconds));
+    constexpr long long minute = 60;
+    constexpr long long hour = 3600;
+    return fmt::format("{:02}:{:02}:{:02}", whole / hour, whole % hour / minute, whole % minute);
+}
+
+} // namespace millwright

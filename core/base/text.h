@@ -1,0 +1,17 @@
+// Numbers as text, the one place where that happens: the same bytes on every machine and locale.
+#pragma once
+
+#include <string>
+
+namespace millwright {
+
+/// `value` with exactly `decimals` digits after the point, never "-0.000". Throws Defect if not finite.
+[[nodiscard]] std::string fixed(double value, int decimals);
+
+/// The shortest text that reads back as the same double. Throws Defect if not finite.
+[[nodiscard]] std::string shortest(double value);
+
+/// hh:mm:ss of a duration, rounded up to a whole second.
+[[nodiscard]] std::string clock_time(double seconds);
+
+} // namespace millwright

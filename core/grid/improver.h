@@ -1,0 +1,52 @@
+// One interface for every way of making a grid better, advanced in steps so that it can be watched, paused,
+// stepped, cancelled. Implementations: EllipticAdaptation (elliptic_adaptation.h), TrackOptimiser
+// (track_optimiser.h).
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/grid/error_model.h"
+#include "core/grid/grid.h"
+
+#include <string>
+
+namespace millwright::grid {
+
+enum class ImproverStatus {
+    running,
+    converged,       ///< the method's own stop criterion holds
+    iteration_limit, ///< stopped by the cap that the user set
+    no_gain,         ///< nothing better than the start was found; `best` is the start
+    folded,          ///< a cell turned over; `best` is from before
+    not_finite,      ///< a number left the finite range; `best` is from before
+    singular,        ///< a node's 2 x 2 system had no solution; `best` is from before
+};
+
+/// What a person watches. `best` is never worse than the start in the mean error.
+struct ImproverState {
+    ImproverStatus status = ImproverStatus::running;
+    int round = 0;        ///< outer loops (elliptic) or stages and sweeps (tracks) done
+    int iteration = 0;    ///< inner iterations done in all rounds
+    double norm = 0.0;    ///< residual norm (elliptic) or largest node step of the last sweep (tracks)
+    NodeArray current;    ///< as it stands now; may be between two grids
+    Grid best;            ///< the best grid seen
+    ErrorSummary start;   ///< of the start grid
+    ErrorSummary now;     ///< of the last complete grid
+    ErrorSummary of_best; ///< of `best`
+    std::string note;     ///< one sentence: what was just done, or why it ended
+};
+
+class GridImprover {
+public:
+    virtual ~GridImprover() = default;
+
+    /// Does one watchable step (some inner iterations, one stage, one sweep) and returns true while there is
+    /// more to do. Throws Cancelled through `progress`, leaving the state as it was before the step.
+    virtual bool advance(const Progress& progress) = 0;
+
+    [[nodiscard]] virtual const ImproverState& state() const = 0;
+};
+
+/// Advances to the end and returns the last state.
+ImproverState run(GridImprover& improver, const Progress& progress);
+
+} // namespace millwright::grid

@@ -1,0 +1,55 @@
+#include "core/base/text.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace millwright {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Fixed, HasTheDecimalsAskedForAndNoNegativeZero) {
+    EXPECT_EQ(fixed(1.5, 3), "1.500");
+    EXPECT_EQ(fixed(-0.0004, 3), "0.000");
+    EXPECT_EQ(fixed(-0.0006, 3), "-0.001");
+    EXPECT_EQ(fixed(-2.0, 0), "-2");
+}
+
+TEST(Shortest, ReadsBackAsTheSameNumber) {
+    std::mt19937_64 random(1997);
+    std::uniform_real_distribution<double> mantissa(-1.0, 1.0);
+    std::uniform_int_distribution<int> exponent(-300, 300);
+    for (int n = 0; n < 1000; ++n) {
+        const double value = std::ldexp(mantissa(random), exponent(random));
+        EXPECT_EQ(std::stod(shortest(value)), value);
+    }
+}
+
+TEST(Numbers, BecomeTextOnlyWhenFinite) {
+    EXPECT_THROW((void)fixed(nan, 3), Defect);
+    EXPECT_THROW((void)shortest(infinity), Defect);
+}
+
+TEST(ClockTime, RoundsUpToWholeSeconds) {
+    EXPECT_EQ(clock_time(0.0), "00:00:00");
+    EXPECT_EQ(clock_time(59.2), "00:01:00");
+    EXPECT_EQ(clock_time(3725.0), "01:02:05");
+}
+
+TEST(ExactlyEqual, IsEqualityAndNothingElse) {
+    EXPECT_TRUE(exactly_equal(0.0, -0.0));
+    EXPECT_FALSE(exactly_equal(1.0, std::nextafter(1.0, 2.0)));
+    EXPECT_FALSE(exactly_equal(nan, nan));
+}
+
+} // namespace
+} // namespace millwright

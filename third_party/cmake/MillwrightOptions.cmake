@@ -1,0 +1,37 @@
+# Language, warnings and sanitizers: the same for every target of ours.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# ccache shares its results between checkouts: paths are made relative, the build folder is not hashed.
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+endif()
+
+set(MILLWRIGHT_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them; empty for none")
+option(MILLWRIGHT_CHECKED "Checked standard library and floating-point traps in core tests" OFF)
+option(MILLWRIGHT_PLAIN_THREADS "Parallel loops on std::jthread instead of oneTBB (for ThreadSanitizer)" OFF)
+option(MILLWRIGHT_FUZZ "Build the libFuzzer programs (clang only)" OFF)
+
+add_library(millwright_options INTERFACE)
+target_include_directories(millwright_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Results must not depend on the compiler fusing a*b+c.
+target_compile_options(millwright_options INTERFACE
+    -ffp-contract=off
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
+    -Wdouble-promotion -Wnull-dereference -Wformat=2 -Wcast-align -Wfloat-equal -Wundef -Werror)
+if(MILLWRIGHT_SANITIZE)
+    target_compile_options(millwright_options INTERFACE
+        -fsanitize=${MILLWRIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(millwright_options INTERFACE -fsanitize=${MILLWRIGHT_SANITIZE})
+    # Sanitized code inlines differently, and g++ 12 then sees null pointers that cannot be.
+    target_compile_options(millwright_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized)
+endif()
+if(MILLWRIGHT_CHECKED)
+    target_compile_definitions(millwright_options INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
