@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reason(int error_number) { return std::error_code(error_number, std::generic_category()).message(); }
+std::string reason(int error_number) {
+    return std::error_code(error_number, std::generic_category()).message();
+}
 
 /// A file being written: closed and removed again unless kept.
 class Draft {

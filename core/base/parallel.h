@@ -7,9 +7,12 @@
 
 namespace millwright {
 
-/// Calls `body(i)` for every i in [0, count), `chunk` indices in order by one thread. The body writes only what
-/// belongs to i and reads only what nobody writes. Rethrows the exception of the lowest chunk that threw.
-void parallel_for(std::ptrdiff_t count, std::ptrdiff_t chunk, const std::function<void(std::ptrdiff_t)>& body);
+/// Calls `body(i)` for every i in [0, count), `chunk` indices in order by one thread. The body writes only
+/// what belongs to i and reads only what nobody writes. Rethrows the exception of the lowest chunk that
+/// threw.
+void parallel_for(std::ptrdiff_t count,
+                  std::ptrdiff_t chunk,
+                  const std::function<void(std::ptrdiff_t)>& body);
 
 /// The number of threads that parallel_for uses; 0 puts the machine's own number back.
 void set_thread_count(int threads);

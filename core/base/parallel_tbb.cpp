@@ -1,6 +1,5 @@
-#include "core/base/parallel.h"
-
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -49,7 +48,8 @@ void parallel_for(std::ptrdiff_t count,
         }
     };
     tbb::task_arena arena(thread_count());
-    arena.execute([&] { tbb::parallel_for(std::ptrdiff_t{0}, chunks, run_chunk, tbb::simple_partitioner{}); });
+    arena.execute(
+        [&] { tbb::parallel_for(std::ptrdiff_t{0}, chunks, run_chunk, tbb::simple_partitioner{}); });
     for (const std::exception_ptr& exception : thrown) {
         if (exception) {
             std::rethrow_exception(exception);

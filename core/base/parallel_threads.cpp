@@ -1,6 +1,5 @@
-#include "core/base/parallel.h"
-
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 
 #include <algorithm>
 #include <atomic>

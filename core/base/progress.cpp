@@ -42,7 +42,9 @@ void Progress::report(double fraction, std::string_view text) const {
     shared_->listener(shared_->last);
 }
 
-bool Progress::cancelled() const { return shared_->stop.stop_requested(); }
+bool Progress::cancelled() const {
+    return shared_->stop.stop_requested();
+}
 
 void Progress::check() const {
     if (cancelled()) {

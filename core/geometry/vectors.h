@@ -18,7 +18,9 @@ using Frame = Eigen::Isometry3d;
 /// An axis-aligned box; empty until extended.
 using Box3 = Eigen::AlignedBox3d;
 
-[[nodiscard]] inline bool is_finite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
+[[nodiscard]] inline bool is_finite(const Vec2& p) {
+    return std::isfinite(p.x()) && std::isfinite(p.y());
+}
 [[nodiscard]] inline bool is_finite(const Vec3& p) {
     return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }

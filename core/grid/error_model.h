@@ -25,7 +25,8 @@ struct Sampling {
 inline constexpr Sampling coarse{10, 16};
 inline constexpr Sampling fine{40, 200};
 
-/// The moves between any two of a list of nodes on one track, with all that depends on one node computed once.
+/// The moves between any two of a list of nodes on one track, with all that depends on one node computed
+/// once.
 class LatticeErrors {
 public:
     virtual ~LatticeErrors() = default;

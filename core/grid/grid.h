@@ -8,7 +8,8 @@
 
 namespace millwright::grid {
 
-/// Which grid lines the tool follows. Along v (the thesis's listing): track i visits nodes (i, 0) ... (i, nv-1).
+/// Which grid lines the tool follows. Along v (the thesis's listing): track i visits nodes (i, 0) ... (i,
+/// nv-1).
 enum class TrackDirection { along_u, along_v };
 
 /// n_u x n_v nodes in [0,1] x [0,1], every cell positively oriented. Cannot exist folded or not finite.

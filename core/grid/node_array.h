@@ -1,5 +1,6 @@
 // A rectangular array of points of a plane, on its way to being a Grid or after having stopped being one: the
-// elliptic solver works on it, and it may fold. Row i runs along the first grid direction, as x_ij in the papers.
+// elliptic solver works on it, and it may fold. Row i runs along the first grid direction, as x_ij in the
+// papers.
 #pragma once
 
 #include "core/geometry/vectors.h"

@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <filesystem>
@@ -47,7 +46,6 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNoDraft) {
     EXPECT_EQ(read_file(in_folder("a.txt")), "old");
     EXPECT_EQ(file_count(), 2);
 }
-
 
 TEST_F(Files, WritingThroughALinkKeepsTheLink) {
     write_file(in_folder("real.txt"), "old");

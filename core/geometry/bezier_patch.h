@@ -1,0 +1,79 @@
+// A Bezier patch S(u,v) = sum_ij w_ij P_ij B_i(u) B_j(v) / sum_ij w_ij B_i(u) B_j(v) on [0,1]^2.
+// Source: Parasilmongkol 1997, ch. 2 eq. 13 (bicubic, all weights 1); rational form: Farin, Curves and
+// Surfaces for CAGD, ch. 13.
+#pragma once
+
+#include "core/geometry/vectors.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::geometry {
+
+/// Control points and weights, [rows x columns], row-major; the row index i belongs to u, the column to v.
+struct ControlNet {
+    int rows = 0;
+    int columns = 0;
+    std::vector<Vec3> points;    ///< mm
+    std::vector<double> weights; ///< positive; 1 everywhere for a polynomial patch
+
+    /// A net of zeros with weights 1.
+    [[nodiscard]] static ControlNet sized(int rows, int columns);
+
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j);
+    }
+    [[nodiscard]] Vec3& point(int i, int j) { return points[index(i, j)]; }
+    [[nodiscard]] const Vec3& point(int i, int j) const { return points[index(i, j)]; }
+    [[nodiscard]] double& weight(int i, int j) { return weights[index(i, j)]; }
+    [[nodiscard]] const double& weight(int i, int j) const { return weights[index(i, j)]; }
+
+    friend bool operator==(const ControlNet&, const ControlNet&) = default;
+};
+
+/// What is wrong with a net as the net of a patch, as a sentence; empty if nothing is.
+[[nodiscard]] std::string fault_of(const ControlNet& net);
+
+struct SurfaceDerivatives {
+    Vec3 position = Vec3::Zero();
+    Vec3 du = Vec3::Zero();
+    Vec3 dv = Vec3::Zero();
+    Vec3 duu = Vec3::Zero();
+    Vec3 duv = Vec3::Zero();
+    Vec3 dvv = Vec3::Zero();
+};
+
+inline constexpr int max_degree = 63; // fits the evaluation's buffers; far above any sensible design
+
+class BezierPatch {
+public:
+    /// Throws Error with `fault_of(net)` if there is one.
+    explicit BezierPatch(ControlNet net);
+
+    [[nodiscard]] const ControlNet& net() const { return net_; }
+    [[nodiscard]] int degree_u() const { return net_.rows - 1; }
+    [[nodiscard]] int degree_v() const { return net_.columns - 1; }
+    [[nodiscard]] bool rational() const { return rational_; }
+    /// The box of the control points, which holds the whole patch.
+    [[nodiscard]] const Box3& control_box() const { return box_; }
+
+    /// u and v may leave [0,1]: the polynomial goes on.
+    [[nodiscard]] Vec3 position(double u, double v) const;
+    [[nodiscard]] SurfaceDerivatives derivatives(double u, double v) const;
+
+    /// (S_u x S_v) / |S_u x S_v|; nothing where the tangents vanish or are parallel.
+    [[nodiscard]] std::optional<Vec3> unit_normal(double u, double v) const;
+    /// The same from derivatives already at hand.
+    [[nodiscard]] std::optional<Vec3> unit_normal(const SurfaceDerivatives& at) const;
+
+    friend bool operator==(const BezierPatch& a, const BezierPatch& b) { return a.net_ == b.net_; }
+
+private:
+    ControlNet net_;
+    std::vector<Eigen::Vector4d> homogeneous_; // (w x, w y, w z, w)
+    bool rational_ = false;
+    Box3 box_;
+};
+
+} // namespace millwright::geometry

@@ -1,0 +1,159 @@
+#include "core/geometry/closest_point.h"
+
+#include "core/base/error.h"
+
+#include <nanoflann.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::geometry {
+
+namespace {
+
+Vec2 clamped(const Vec2& uv) {
+    return uv.cwiseMax(0.0).cwiseMin(1.0);
+}
+
+/// Gradient and Hessian of f = |S - p|^2 / 2 at one parameter.
+struct Quadratic {
+    double f = 0.0;
+    Vec2 gradient = Vec2::Zero();
+    Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+    Eigen::Matrix2d gauss_newton = Eigen::Matrix2d::Zero();
+};
+
+Quadratic quadratic_at(const BezierPatch& patch, const Vec3& p, const Vec2& uv) {
+    const SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
+    const Vec3 r = at.position - p;
+    Quadratic q;
+    q.f = 0.5 * r.squaredNorm();
+    q.gradient = {r.dot(at.du), r.dot(at.dv)};
+    const double uu = at.du.squaredNorm();
+    const double uv_ = at.du.dot(at.dv);
+    const double vv = at.dv.squaredNorm();
+    q.gauss_newton << uu, uv_, uv_, vv;
+    q.hessian << uu + r.dot(at.duu), uv_ + r.dot(at.duv), uv_ + r.dot(at.duv), vv + r.dot(at.dvv);
+    return q;
+}
+
+/// Parameters held at a side of the square, because the descent would leave it there.
+std::array<bool, 2> held(const Vec2& uv, const Vec2& gradient) {
+    std::array<bool, 2> result{};
+    for (int k = 0; k < 2; ++k) {
+        result[static_cast<std::size_t>(k)] =
+            (uv[k] <= 0.0 && gradient[k] > 0.0) || (uv[k] >= 1.0 && gradient[k] < 0.0);
+    }
+    return result;
+}
+
+/// The Newton step on the free parameters; Gauss-Newton where the Hessian is not positive definite.
+Vec2 step(const Quadratic& q, const std::array<bool, 2>& fixed) {
+    for (const Eigen::Matrix2d* matrix : {&q.hessian, &q.gauss_newton}) {
+        Eigen::Matrix2d h = *matrix;
+        Vec2 g = q.gradient;
+        for (int k = 0; k < 2; ++k) {
+            if (fixed[static_cast<std::size_t>(k)]) {
+                h.row(k).setZero();
+                h.col(k).setZero();
+                h(k, k) = 1.0;
+                g[k] = 0.0;
+            }
+        }
+        const double det = h.determinant();
+        if (h(0, 0) > 0.0 && h(1, 1) > 0.0 && det > 1e-12 * h(0, 0) * h(1, 1)) {
+            return -(h.inverse() * g);
+        }
+    }
+    const double scale = q.gauss_newton.trace();
+    return scale > 0.0 ? Vec2(-q.gradient / scale) : Vec2(Vec2::Zero());
+}
+
+} // namespace
+
+ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start) {
+    expects(is_finite(point) && is_finite(start), "the closest point is asked for a finite point");
+    constexpr int most_steps = 50;
+    constexpr double smallest_step = 1e-13; // of the parameter: about 1e-11 mm on a part of 100 mm
+    Vec2 uv = clamped(start);
+    Quadratic now = quadratic_at(patch, point, uv);
+    for (int n = 0; n < most_steps; ++n) {
+        const Vec2 full = step(now, held(uv, now.gradient));
+        double fraction = 1.0;
+        Vec2 next = clamped(uv + full);
+        Quadratic there = quadratic_at(patch, point, next);
+        while (there.f > now.f && fraction > 1e-4) {
+            fraction *= 0.5;
+            next = clamped(uv + fraction * full);
+            there = quadratic_at(patch, point, next);
+        }
+        if (!(there.f <= now.f)) {
+            break;
+        }
+        const double moved = (next - uv).cwiseAbs().maxCoeff();
+        uv = next;
+        now = there;
+        if (moved < smallest_step) {
+            break;
+        }
+    }
+    const Vec3 position = patch.position(uv.x(), uv.y());
+    return {uv, position, (position - point).norm()};
+}
+
+struct ClosestPointSearch::Samples {
+    static constexpr int side = 48;
+    using Tree =
+        nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
+
+    explicit Samples(const BezierPatch& of) : patch(of) {
+        for (int i = 0; i <= side; ++i) {
+            for (int j = 0; j <= side; ++j) {
+                const Vec2 uv(static_cast<double>(i) / side, static_cast<double>(j) / side);
+                parameters.push_back(uv);
+                points.push_back(patch.position(uv.x(), uv.y()));
+            }
+        }
+        tree = std::make_unique<Tree>(3, *this);
+        tree->buildIndex();
+    }
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+    [[nodiscard]] double kdtree_get_pt(std::size_t n, std::size_t axis) const {
+        return points[n][static_cast<Eigen::Index>(axis)];
+    }
+    template <class BoundingBox> bool kdtree_get_bbox(BoundingBox&) const { return false; }
+
+    [[nodiscard]] Vec2 nearest(const Vec3& point) const {
+        std::size_t found = 0;
+        double squared = 0.0;
+        nanoflann::KNNResultSet<double> result(1);
+        result.init(&found, &squared);
+        tree->findNeighbors(result, point.data(), nanoflann::SearchParams());
+        return parameters[found];
+    }
+
+    BezierPatch patch;
+    std::vector<Vec3> points;
+    std::vector<Vec2> parameters;
+    std::unique_ptr<Tree> tree;
+};
+
+ClosestPointSearch::ClosestPointSearch(const BezierPatch& patch)
+    : samples_(std::make_unique<const Samples>(patch)) {}
+ClosestPointSearch::~ClosestPointSearch() = default;
+ClosestPointSearch::ClosestPointSearch(ClosestPointSearch&&) noexcept = default;
+ClosestPointSearch& ClosestPointSearch::operator=(ClosestPointSearch&&) noexcept = default;
+
+ClosestPoint ClosestPointSearch::closest(const Vec3& point) const {
+    expects(is_finite(point), "the closest point is asked for a finite point");
+    return closest_point_near(samples_->patch, point, samples_->nearest(point));
+}
+
+ClosestPoint ClosestPointSearch::closest(const Vec3& point, const Vec2& guess) const {
+    const ClosestPoint from_guess = closest_point_near(samples_->patch, point, guess);
+    const ClosestPoint from_samples = closest(point);
+    return from_guess.distance <= from_samples.distance ? from_guess : from_samples;
+}
+
+} // namespace millwright::geometry

@@ -1,0 +1,37 @@
+// The point of a patch that lies nearest to a given point: what "the error" means on a finished part.
+#pragma once
+
+#include "core/geometry/bezier_patch.h"
+
+#include <memory>
+
+namespace millwright::geometry {
+
+struct ClosestPoint {
+    Vec2 parameters = Vec2::Zero(); ///< (u, v) inside [0,1]^2
+    Vec3 position = Vec3::Zero();
+    double distance = 0.0; ///< mm
+};
+
+/// Descends from `start` to the local minimum of the distance, staying inside [0,1]^2.
+[[nodiscard]] ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start);
+
+/// Finds global minima: starts from the nearest of a raster of samples, and from a guess of the caller.
+/// Const after construction; may be asked from several threads. Holds its own copy of the patch.
+class ClosestPointSearch {
+public:
+    explicit ClosestPointSearch(const BezierPatch& patch);
+    ~ClosestPointSearch();
+    ClosestPointSearch(ClosestPointSearch&&) noexcept;
+    ClosestPointSearch& operator=(ClosestPointSearch&&) noexcept;
+
+    [[nodiscard]] ClosestPoint closest(const Vec3& point) const;
+    /// The better of the descents from `guess` and from the nearest sample.
+    [[nodiscard]] ClosestPoint closest(const Vec3& point, const Vec2& guess) const;
+
+private:
+    struct Samples;
+    std::unique_ptr<const Samples> samples_;
+};
+
+} // namespace millwright::geometry

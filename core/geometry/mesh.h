@@ -1,0 +1,21 @@
+// Triangles of a surface, for looking at it.
+#pragma once
+
+#include "core/geometry/surface.h"
+
+#include <array>
+#include <vector>
+
+namespace millwright::geometry {
+
+struct Mesh {
+    std::vector<Vec3> positions;               ///< mm
+    std::vector<Vec3> normals;                 ///< unit, one a position; the neighbour's where degenerate
+    std::vector<Vec2> parameters;              ///< (u, v), one a position
+    std::vector<std::array<int, 3>> triangles; ///< indices, counter-clockwise seen against the normal
+};
+
+/// A mesh of (nu+1) x (nv+1) points at equal parameter steps, rows along u. Throws Defect if nu or nv < 1.
+[[nodiscard]] Mesh tessellate(const BezierPatch& patch, int nu, int nv);
+
+} // namespace millwright::geometry
