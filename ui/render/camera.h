@@ -1,0 +1,69 @@
+// An orbit camera: it looks at a target from a distance, z is up. Angles rad, lengths mm.
+// Yaw: direction of the eye seen from the target, in the xy plane, counterclockwise from +x seen from above.
+// Pitch: height of the eye above that plane, -pi/2 (from below) to pi/2 (from above, y to the top for yaw
+// -pi/2).
+#pragma once
+
+#include "ui/render/bounds.h"
+#include "ui/render/pixel_size.h"
+#include "ui/render/view.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace millwright::render {
+
+enum class Projection { perspective, orthographic };
+enum class StandardView { top, bottom, front, back, left, right, iso };
+
+struct CameraPose {
+    glm::dvec3 target{0.0};
+    double distance = 300.0; ///< eye to target, also for the size of an orthographic view
+    double yaw = -0.7853981633974483;
+    double pitch = 0.6154797086703873;
+    Projection projection = Projection::perspective;
+
+    friend bool operator==(const CameraPose&, const CameraPose&) = default;
+};
+
+/// A value: moving it gives another camera. Both projections show the target plane at the same size.
+class Camera {
+public:
+    static constexpr double field_of_view = 0.6108652381980153; ///< top to bottom: 35 degrees
+
+    Camera() = default;
+    /// Throws Defect unless everything is finite and the distance positive. Pitch is held to its range.
+    explicit Camera(const CameraPose& pose);
+
+    [[nodiscard]] const CameraPose& pose() const { return pose_; }
+    [[nodiscard]] glm::dvec3 eye() const;
+    [[nodiscard]] glm::dvec3 right() const;
+    [[nodiscard]] glm::dvec3 up() const;
+    /// From the target to the eye.
+    [[nodiscard]] glm::dvec3 backward() const;
+
+    /// What the camera sees in a picture of this size; near and far planes enclose `scene`.
+    [[nodiscard]] View view(const PixelSize& size, const Bounds& scene, double content_scale = 1.0) const;
+
+    /// Turned about the target.
+    [[nodiscard]] Camera orbited(double yaw, double pitch) const;
+    /// Turned by a drag: one picture height is half a turn; the scene follows the hand.
+    [[nodiscard]] Camera orbited(const glm::dvec2& drag_px, const PixelSize& size) const;
+    /// The target plane follows the hand.
+    [[nodiscard]] Camera panned(const glm::dvec2& drag_px, const PixelSize& size) const;
+    /// Distance times `factor` (below 1: closer); what the target plane shows at `pixel` stays there.
+    [[nodiscard]] Camera zoomed(double factor, const glm::dvec2& pixel, const PixelSize& size) const;
+    /// The whole box in the picture with a small margin, seen from the same side. An empty box changes
+    /// nothing.
+    [[nodiscard]] Camera fitted(const Bounds& box, double aspect) const;
+    [[nodiscard]] Camera seen_from(StandardView side) const;
+    [[nodiscard]] Camera with(Projection projection) const;
+
+private:
+    CameraPose pose_;
+};
+
+/// Half of the height that the target plane shows, mm.
+[[nodiscard]] double half_height(const Camera& camera);
+
+} // namespace millwright::render

@@ -1,0 +1,40 @@
+// Something to draw into: colour (RGBA8) and depth, with or without several samples a pixel.
+#pragma once
+
+#include "ui/render/gl_objects.h"
+#include "ui/render/picture.h"
+#include "ui/render/pixel_size.h"
+
+namespace millwright::render {
+
+class Framebuffer {
+public:
+    /// `samples` is lowered to what the driver can do. Throws Defect if the size has no area or is refused.
+    explicit Framebuffer(const PixelSize& size, int samples = 1);
+
+    [[nodiscard]] const PixelSize& size() const { return size_; }
+    [[nodiscard]] int samples() const { return samples_; }
+
+    /// Drawing goes here, the viewport covers all of it.
+    void bind() const;
+
+    /// Brings the samples of each pixel together. To be called after drawing, before texture() or read().
+    void resolve() const;
+
+    /// The resolved colours, bottom row first.
+    [[nodiscard]] GlId texture() const { return color_.id(); }
+
+    /// The resolved colours, top row first.
+    [[nodiscard]] Picture read() const;
+
+private:
+    PixelSize size_;
+    int samples_ = 1;
+    Texture color_;
+    GlHandle<FramebufferKind> resolved_;
+    GlHandle<RenderbufferKind> depth_;
+    GlHandle<RenderbufferKind> sampled_color_;
+    GlHandle<FramebufferKind> sampled_;
+};
+
+} // namespace millwright::render

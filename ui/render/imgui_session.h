@@ -1,0 +1,42 @@
+// Dear ImGui on a context: owns ImGui's state, feeds it input, draws it into the bound framebuffer.
+// One session a context; it dies before the context. Fonts are added to ImGui's atlas (FreeType builds it)
+// between the constructor and the first frame, or before rebuild_fonts().
+#pragma once
+
+#include "ui/render/input_state.h"
+#include "ui/render/offscreen_context.h"
+#include "ui/render/window_context.h"
+
+struct ImGuiContext;
+
+namespace millwright::render {
+
+class ImGuiSession {
+public:
+    /// Mouse, keyboard, clipboard and cursor of the window. Keeps no settings file.
+    explicit ImGuiSession(WindowContext& window);
+    /// Input comes with each frame. The clipboard is the session's own.
+    explicit ImGuiSession(OffscreenContext& memory);
+    ImGuiSession(const ImGuiSession&) = delete;
+    ImGuiSession& operator=(const ImGuiSession&) = delete;
+    ~ImGuiSession();
+
+    /// Starts a frame with the window's own input; of an offscreen context with none.
+    void begin_frame();
+    /// Starts a frame with this input in place of the real one.
+    void begin_frame(const InputState& input);
+    /// Draws the frame over what the context's framebuffer shows.
+    void end_frame();
+
+    /// Makes the texture anew after fonts were changed. Not inside a frame.
+    void rebuild_fonts();
+
+private:
+    void start();
+
+    Context& context_;
+    GLFWwindow* window_;
+    ImGuiContext* imgui_;
+};
+
+} // namespace millwright::render

@@ -1,0 +1,67 @@
+// A window with a context (GLFW). Redraws on request only: a frame is drawn when wait() says so.
+#pragma once
+
+#include "ui/render/context.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace millwright::render {
+
+struct WindowOptions {
+    std::string title = "Millwright";
+    PixelSize size = {1280, 800};
+    PixelSize smallest = {800, 500};
+    bool visible = true;
+    Picture icon; ///< empty for the system's own
+};
+
+/// One at a time in a program, on the main thread.
+class WindowContext final : public Context {
+public:
+    using DropListener = std::function<void(const std::vector<std::filesystem::path>&)>;
+
+    /// Current on return. Throws Error if there is no display, no OpenGL 3.3, or no window can be opened.
+    explicit WindowContext(const WindowOptions& options);
+    ~WindowContext() override;
+
+    [[nodiscard]] PixelSize framebuffer_size() const override;
+    [[nodiscard]] double content_scale() const override;
+    void make_current() override;
+    void begin() override;
+    [[nodiscard]] Picture read_back() override;
+    void present() override;
+
+    /// Sleeps until there is input, a redraw was asked for, or `timeout_s` is over (a negative one: for
+    /// ever); runs the listeners. True if a frame has to be drawn: input came, the window was uncovered or
+    /// resized, or request_redraw() was called. False after a mere timeout.
+    [[nodiscard]] bool wait(double timeout_s);
+
+    /// The next wait() returns true at once. May be called from any thread while the window lives.
+    void request_redraw();
+
+    /// The user asked to close the window. Stays true until keep_open().
+    [[nodiscard]] bool close_requested() const;
+    void keep_open();
+
+    [[nodiscard]] bool focused() const;
+
+    void set_title(const std::string& title);
+
+    /// Called from wait() with the files that were dropped on the window.
+    void on_drop(DropListener listener);
+
+    /// For the ImGui session; nobody else calls GLFW.
+    [[nodiscard]] GLFWwindow* handle() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace millwright::render
