@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/json.h"
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
