@@ -1,4 +1,5 @@
-// Runs one folder's tests. In the checked build floating-point traps stop on the line where a NaN is born.
+// Runs one folder's tests in a shuffled order with a printed seed. In the checked build floating-point traps
+// stop a test of the core on the line where a NaN is born.
 #include <gtest/gtest.h>
 
 #ifdef MILLWRIGHT_TRAPS
@@ -9,6 +10,7 @@ int main(int argc, char** argv) {
 #ifdef MILLWRIGHT_TRAPS
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
 #endif
+    GTEST_FLAG_SET(shuffle, true);
     ::testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }

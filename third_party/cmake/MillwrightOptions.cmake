@@ -16,7 +16,6 @@ endif()
 set(MILLWRIGHT_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them; empty for none")
 option(MILLWRIGHT_CHECKED "Checked standard library and floating-point traps in core tests" OFF)
 option(MILLWRIGHT_PLAIN_THREADS "Parallel loops on std::jthread instead of oneTBB (for ThreadSanitizer)" OFF)
-option(MILLWRIGHT_FUZZ "Build the libFuzzer programs (clang only)" OFF)
 
 add_library(millwright_options INTERFACE)
 target_include_directories(millwright_options INTERFACE ${PROJECT_SOURCE_DIR})
