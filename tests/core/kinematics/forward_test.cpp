@@ -1,0 +1,97 @@
+#include "core/kinematics/forward.h"
+
+#include "core/base/units.h"
+#include "core/kinematics/inverse.h"
+#include "tests/support/machines.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::kinematics {
+namespace {
+
+MachineModel head_head_machine() {
+    MachineDescription machine;
+    machine.name = "fork head";
+    const auto axis = [](char letter, AxisKind kind, const Vec3& direction, const Vec3& point) {
+        MachineAxis result;
+        result.letter = letter;
+        result.kind = kind;
+        result.direction = direction.normalized();
+        result.point = point;
+        result.max_velocity = 1.0;
+        result.max_acceleration = 1.0;
+        return result;
+    };
+    machine.table = {axis('Y', AxisKind::linear, Vec3::UnitY(), Vec3::Zero())};
+    machine.head = {axis('X', AxisKind::linear, Vec3::UnitX(), Vec3::Zero()),
+                    axis('Z', AxisKind::linear, Vec3::UnitZ(), Vec3::Zero()),
+                    axis('C', AxisKind::rotary, Vec3::UnitZ(), {10, 0, 0}),
+                    axis('B', AxisKind::rotary, {0, 1, 0.2}, {12, 0, 150})};
+    machine.tool_tip = {12, 0, 0};
+    machine.workpiece_offset = {5, 6, 7};
+    return MachineModel(machine);
+}
+
+/// The same by multiplying frames.
+geometry::ToolPose by_frames(const MachineModel& machine, const AxisPositions& q) {
+    const Frame w_T_m = m_T_w(machine, q).inverse();
+    const char last = machine.axis(machine.head_chain().back()).letter;
+    const Frame head = carrier_motion(machine, q, last);
+    return {w_T_m * (head * machine.description().tool_tip),
+            w_T_m.linear() * (head.linear() * machine.description().tool_axis)};
+}
+
+AxisPositions random_positions(const MachineModel& machine, std::mt19937& random) {
+    std::uniform_real_distribution<double> mm(-200.0, 200.0);
+    std::uniform_real_distribution<double> rad(-pi, pi);
+    AxisPositions q(machine.axis_count());
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        q[n] = machine.axis(n).kind == AxisKind::linear ? mm(random) : rad(random);
+    }
+    return q;
+}
+
+std::vector<MachineModel> machines() {
+    return {test::machine("rotary-tilt-listing"), test::machine("ac-table"), head_head_machine()};
+}
+
+TEST(Forward, EqualsTheProductOfFrames) {
+    std::mt19937 random(3);
+    for (const MachineModel& machine : machines()) {
+        for (int n = 0; n < 200; ++n) {
+            const AxisPositions q = random_positions(machine, random);
+            const auto pose = forward(machine, q);
+            const auto frames = by_frames(machine, q);
+            EXPECT_LT((pose.tip - frames.tip).norm(), round_trip_mm) << machine.name();
+            EXPECT_LT((pose.axis - frames.axis).norm(), 1e-13) << machine.name();
+        }
+    }
+}
+
+TEST(MachineJacobian, EqualsCentralDifferences) {
+    std::mt19937 random(4);
+    constexpr double h = 1e-6;
+    for (const MachineModel& machine : machines()) {
+        for (int n = 0; n < 50; ++n) {
+            const AxisPositions q = random_positions(machine, random);
+            const Jacobian J = jacobian(machine, q);
+            for (int k = 0; k < machine.axis_count(); ++k) {
+                AxisPositions up = q, down = q;
+                up[k] += h;
+                down[k] -= h;
+                const auto a = forward(machine, up);
+                const auto b = forward(machine, down);
+                EXPECT_LT((J.col(k).head<3>() - (a.tip - b.tip) / (2 * h)).norm(), 1e-6);
+                EXPECT_LT((J.col(k).tail<3>() - (a.axis - b.axis) / (2 * h)).norm(), 1e-8);
+            }
+        }
+    }
+}
+
+TEST(CarrierMotion, OfTheBaseIsNoMotion) {
+    const MachineModel machine = test::machine("ac-table");
+    EXPECT_TRUE(carrier_motion(machine, AxisPositions::Ones(5), '\0').isApprox(Frame::Identity()));
+}
+
+} // namespace
+} // namespace millwright::kinematics

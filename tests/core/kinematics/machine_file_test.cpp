@@ -1,0 +1,73 @@
+#include "core/kinematics/machine_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/units.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+namespace millwright::kinematics {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What reading says of the shipped A-on-C table with `from` replaced by `to`.
+std::string fault(const std::string& from, const std::string& to) {
+    std::string text = read_file("assets/machines/ac-table.json");
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    text.replace(place, from.size(), to);
+    const fs::path file = fs::temp_directory_path() / ("machine_" + std::to_string(::getpid()) + ".json");
+    write_file(file, text);
+    std::string said;
+    try {
+        (void)read_machine(file);
+    } catch (const Error& error) {
+        said = error.what();
+        EXPECT_EQ(error.diagnostic().place.file, file);
+        EXPECT_GT(error.diagnostic().place.line, 0);
+    }
+    fs::remove(file);
+    return said;
+}
+
+TEST(MachineFile, ReadsDegreesIntoRadians) {
+    const MachineModel machine = read_machine("assets/machines/rotary-tilt-listing.json");
+    const MachineAxis& B = machine.axis(machine.axis_index('B'));
+    EXPECT_DOUBLE_EQ(B.zero_offset, -pi / 2.0);
+    EXPECT_DOUBLE_EQ(B.max, from_degrees(200.0));
+    EXPECT_EQ(machine.description().angle_formulas, AngleFormulas::rotary_tilt);
+}
+
+TEST(MachineFile, EveryShippedMachineReads) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator("assets/machines")) {
+        EXPECT_NO_THROW((void)read_machine(entry.path())) << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 4);
+}
+
+TEST(MachineFile, FaultsAreReportedWithLineAndField) {
+    EXPECT_NE(fault("\"max_velocity\": 60", "\"max_velocity\": \"fast\"").find("table[0]/max_velocity"),
+              std::string::npos);
+    EXPECT_NE(fault("\"rotary\"", "\"round\"").find("'round' is neither"), std::string::npos);
+    EXPECT_NE(fault("[-1, 0, 0]", "[0, 0, 0]").find("needs a length"), std::string::npos);
+    EXPECT_NE(fault("\"tool_tip\"", "\"tool_top\"").find("tool_top"), std::string::npos);
+    EXPECT_NE(fault("millwright-machine", "something-else").find("not a machine file"), std::string::npos);
+    EXPECT_NE(fault("\"version\": 1", "\"version\": 9").find("version"), std::string::npos);
+    EXPECT_NE(fault("[-120, 120]", "[120, -120]").find("lower limit"), std::string::npos);
+    EXPECT_NE(fault("\"axis\": \"C\"", "\"axis\": \"A\"").find("stands twice"), std::string::npos);
+    EXPECT_NE(fault("[0, 0, 50]", "[0, 0, 1e300]").find("workpiece_offset[2]"), std::string::npos);
+}
+
+TEST(MachineFile, AMissingFileIsNamed) {
+    EXPECT_THROW((void)read_machine("assets/machines/none.json"), Error);
+}
+
+} // namespace
+} // namespace millwright::kinematics

@@ -1,0 +1,68 @@
+#include "core/kinematics/machine_model.h"
+
+#include "core/base/error.h"
+#include "tests/support/machines.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace millwright::kinematics {
+namespace {
+
+/// What the model says of the A-on-C table after `spoil`.
+std::string fault(const std::function<void(MachineDescription&)>& spoil) {
+    MachineDescription description = test::machine("ac-table").description();
+    spoil(description);
+    try {
+        const MachineModel model(description);
+    } catch (const Error& error) {
+        return error.diagnostic().message;
+    }
+    return {};
+}
+
+TEST(MachineModel, OrdersAxesByLetterAndChainsFromTheBase) {
+    const MachineModel machine = test::machine("rotary-tilt-listing");
+    std::string letters;
+    for (const MachineAxis& axis : machine.axes()) {
+        letters += axis.letter;
+    }
+    EXPECT_EQ(letters, "XYZAB");
+    EXPECT_EQ(machine.axis(machine.table_chain()[0]).letter, 'B');
+    EXPECT_EQ(machine.axis(machine.rotary_axes()[1]).letter, 'A');
+    EXPECT_EQ(machine.axis_index('C'), -1);
+}
+
+TEST(MachineModel, RefusesMachinesThatAreNone) {
+    EXPECT_EQ(fault([](auto&) {}), "");
+    EXPECT_NE(fault([](auto& m) { m.head.pop_back(); }).find("three linear axes"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.table.pop_back(); }).find("two or no rotary"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Y'; }).find("stands twice"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Q'; }).find("none of X Y Z"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.head[0].direction = m.head[1].direction; }).find("span"),
+              std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.table[0].direction = m.table[1].direction; }).find("parallel"),
+              std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.table[0].direction *= 2.0; }).find("unit vector"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.table[0].min = m.table[0].max; }).find("lower limit"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.head[2].max_velocity = 0.0; }).find("positive"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) {
+                  m.table[0].point.x() = std::numeric_limits<double>::infinity();
+              }).find("not finite"),
+              std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.tool_axis = Vec3::Zero(); }).find("tool axis"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.bodies[0].carried_by = 'W'; }).find("axis W"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.bodies[0].size.x() = 0.0; }).find("body"), std::string::npos);
+}
+
+TEST(MachineModel, AnotherWorkpieceOffsetMovesOnlyTheWorkpiece) {
+    const MachineModel machine = test::machine("rotary-tilt-listing");
+    const MachineModel moved = machine.with_workpiece_offset({1, 2, 3});
+    EXPECT_EQ(moved.workpiece_origin(), machine.description().table_origin + Vec3(1, 2, 3));
+    EXPECT_EQ(moved.name(), machine.name());
+}
+
+} // namespace
+} // namespace millwright::kinematics
