@@ -1,0 +1,41 @@
+// The error of a whole path on a machine: what a person is shown and a report says.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/geometry/closest_point.h"
+#include "core/grid/error_model.h"
+#include "core/toolpath/sequencing.h"
+
+#include <vector>
+
+namespace millwright::toolpath {
+
+/// The worst of one move. Lengths mm, angles rad.
+struct MoveDeviation {
+    MoveKind kind = MoveKind::track;
+    double closest = 0.0; ///< largest distance of the true tip from the nearest surface point
+    double param = 0.0;   ///< largest distance from the surface point at the same fraction of the parameters
+    double axis = 0.0;    ///< largest angle between tool axis and the normal at the nearest surface point
+    double length = 0.0;  ///< of the straight move
+    double worst_at = 0.5; ///< t of the largest `closest`
+};
+
+struct ErrorField {
+    std::vector<MoveDeviation> moves; ///< one a move: points.size() - 1
+};
+
+/// Times inside each move at which the true pose is compared: t = k / (samples + 1), k = 1 ... samples;
+/// 1 is the mid-point of the thesis. Parallel over moves; the same bytes on any number of threads.
+[[nodiscard]] ErrorField error_field(const geometry::BezierPatch& patch,
+                                     const kinematics::MachineModel& machine,
+                                     const Toolpath& toolpath,
+                                     const AxisPath& axes,
+                                     int samples,
+                                     const Progress& progress);
+
+enum class Distance { closest, param };
+
+/// The figures over the moves of one kind. All zero if there is no such move.
+[[nodiscard]] grid::ErrorSummary summary(const ErrorField& field, Distance distance, MoveKind kind);
+
+} // namespace millwright::toolpath

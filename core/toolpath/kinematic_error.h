@@ -1,0 +1,31 @@
+// The error of a real machine as the grid room sees it (grid::ErrorModel).
+#pragma once
+
+#include "core/geometry/bezier_patch.h"
+#include "core/grid/error_model.h"
+#include "core/kinematics/machine_model.h"
+
+namespace millwright::toolpath {
+
+/// The move from a to b: both poses by inverse kinematics, branch of b nearest to a, axes linear in between;
+/// `tip` is the largest distance of the true tip from the surface curve between the nodes, `axis` the largest
+/// angle of the true tool axis to the normal at the nearest point of that curve. A pose on the machine's pole
+/// takes the free angle of the other end, so that the move is judged without a rotation in place.
+/// Unlike in a sequence, each move chooses its branches for itself.
+class KinematicError final : public grid::ErrorModel {
+public:
+    KinematicError(geometry::BezierPatch patch, kinematics::MachineModel machine, bool flipped);
+
+    [[nodiscard]] grid::MoveError
+    move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const override;
+    [[nodiscard]] std::unique_ptr<grid::LatticeErrors> lattice(std::span<const Vec2> nodes,
+                                                               grid::Sampling sampling) const override;
+    [[nodiscard]] double track_gap(const grid::Grid& grid, grid::TrackDirection direction) const override;
+
+private:
+    geometry::BezierPatch patch_;
+    kinematics::MachineModel machine_;
+    bool flipped_ = false;
+};
+
+} // namespace millwright::toolpath

@@ -1,0 +1,41 @@
+// From a grid to the poses of the cutter on the part, and from there to what the machine really does: strategies
+// (zigzag), the branch of every pose (sequencing), the actual trajectory between poses, the error field, the
+// machine's singular points on the surface. The tool is a point at the end of an axis along the surface normal
+// (Parasilmongkol 1997, ch. 3), so the cutter location is the cutter contact point.
+#pragma once
+
+#include "core/geometry/tool_pose.h"
+#include "core/grid/grid.h"
+
+#include <vector>
+
+namespace millwright::toolpath {
+
+/// How a path point is reached from the one before.
+enum class MoveKind {
+    start, ///< the first point: reached by an approach
+    track, ///< inside a track: cuts
+    cross, ///< from the end of a track to the start of the next
+};
+
+/// Where a path point comes from.
+struct GridOrigin {
+    int i = 0, j = 0;          ///< grid node
+    Vec2 uv = Vec2::Zero();    ///< its parameters
+};
+
+struct PathPoint {
+    geometry::ToolPose pose;
+    MoveKind reached_by = MoveKind::track;
+    GridOrigin origin;
+};
+
+struct Toolpath {
+    grid::TrackDirection direction = grid::TrackDirection::along_v;
+    std::vector<PathPoint> points; ///< nu * nv points, nu * nv - 1 moves
+};
+
+/// Length of the path with straight moves, mm.
+[[nodiscard]] double length(const Toolpath& toolpath);
+
+} // namespace millwright::toolpath
