@@ -32,7 +32,8 @@ public:
     void rebuild_fonts();
 
 private:
-    void start();
+    ImGuiSession(Context& context, GLFWwindow* window);
+    void begin_back_ends();
 
     Context& context_;
     GLFWwindow* window_;

@@ -34,11 +34,13 @@ public:
     LineBuffer(std::span<const LineVertex> vertices, LineTopology topology);
 
     [[nodiscard]] int segment_count() const { return segment_count_; }
-    [[nodiscard]] GlId vertex_array() const { return layout_ ? layout_->id() : 0U; }
+    /// The vertex array, its first instance being segment `first`. Only if there are segments.
+    [[nodiscard]] GlId vertex_array_from(int first) const;
 
 private:
     Buffer vertices_;
     std::optional<VertexArray> layout_;
+    LineTopology topology_ = LineTopology::segments;
     int segment_count_ = 0;
 };
 

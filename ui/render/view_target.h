@@ -33,7 +33,7 @@ public:
 private:
     int samples_;
     std::optional<Framebuffer> picture_;
-    int bound_before_ = 0;
+    GlId bound_before_ = 0U;
     PixelSize viewport_before_;
 };
 

@@ -1,0 +1,86 @@
+#include "ui/render/framebuffer.h"
+
+#include "core/base/error.h"
+#include "ui/render/internal/gl.h"
+#include "ui/render/internal/read_pixels.h"
+
+#include <algorithm>
+
+namespace millwright::render {
+
+namespace {
+
+GlHandle<FramebufferKind> new_framebuffer() {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    return GlHandle<FramebufferKind>(id);
+}
+
+GlHandle<RenderbufferKind> new_renderbuffer(GLenum format, const PixelSize& size, int samples) {
+    GLuint id = 0;
+    glGenRenderbuffers(1, &id);
+    glBindRenderbuffer(GL_RENDERBUFFER, id);
+    const int asked = samples > 1 ? samples : 0;
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, asked, format, size.width, size.height);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    return GlHandle<RenderbufferKind>(id);
+}
+
+void attach_depth(const GlHandle<RenderbufferKind>& depth) {
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth.id());
+}
+
+void check_complete() {
+    expects(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
+            "OpenGL accepts the framebuffer");
+}
+
+} // namespace
+
+Framebuffer::Framebuffer(const PixelSize& size, int samples) : size_(size) {
+    expects(size.width > 0 && size.height > 0, "a framebuffer has an area");
+    const KeepFramebuffers keep;
+    samples_ = std::clamp(samples, 1, std::max(gl_integer(GL_MAX_SAMPLES), 1));
+    color_ = Texture(size, {}, Filter::linear);
+    depth_ = new_renderbuffer(GL_DEPTH24_STENCIL8, size, samples_);
+    resolved_ = new_framebuffer();
+    glBindFramebuffer(GL_FRAMEBUFFER, resolved_.id());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
+    if (samples_ == 1) {
+        attach_depth(depth_);
+    }
+    check_complete();
+    if (samples_ > 1) {
+        sampled_color_ = new_renderbuffer(GL_RGBA8, size, samples_);
+        sampled_ = new_framebuffer();
+        glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, sampled_color_.id());
+        attach_depth(depth_);
+        check_complete();
+    }
+}
+
+void Framebuffer::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, samples_ > 1 ? sampled_.id() : resolved_.id());
+    cover(size_);
+}
+
+void Framebuffer::resolve() const {
+    if (samples_ == 1) {
+        return;
+    }
+    const KeepFramebuffers keep;
+    const auto [width, height] = size_;
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.id());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Picture Framebuffer::read() const {
+    const KeepFramebuffers keep;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.id());
+    return read_pixels(size_, Alpha::kept);
+}
+
+} // namespace millwright::render

@@ -1,0 +1,225 @@
+#include "ui/render/window_context.h"
+
+#include "core/base/error.h"
+#include "ui/render/internal/gl.h"
+#include "ui/render/internal/gl_version.h"
+#include "ui/render/internal/read_pixels.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <utility>
+
+namespace millwright::render {
+
+namespace {
+
+std::string glfw_reason() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text != nullptr ? text : "no reason given";
+}
+
+[[noreturn]] void no_window(const std::string& why, const std::string& hint) {
+    throw Error("cannot open a window: " + why, {}, hint);
+}
+
+class Library {
+public:
+    Library() {
+        // Asking before GLFW does gives a plainer sentence.
+        const char* display =
+            std::getenv("DISPLAY"); // NOLINT(concurrency-mt-unsafe): before any thread is made
+        const std::string hint =
+            "start the program in a desktop session, or use the commands that need no window";
+        if (display == nullptr || *display == '\0') {
+            no_window("there is no display (DISPLAY is not set)", hint);
+        }
+        if (glfwInit() == GLFW_FALSE) {
+            no_window("the display " + std::string(display) + " cannot be used: " + glfw_reason(), hint);
+        }
+    }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+    ~Library() { glfwTerminate(); }
+};
+
+void set_hints(const WindowOptions& options) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, gl_major);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, gl_minor);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "millwright");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "millwright");
+}
+
+GLFWwindow* opened_window(const WindowOptions& options) {
+    expects(options.size.width > 0 && options.size.height > 0, "a window has an area");
+    set_hints(options);
+    const auto [width, height] = options.size;
+    GLFWwindow* window = glfwCreateWindow(width, height, options.title.c_str(), nullptr, nullptr);
+    if (window == nullptr) {
+        no_window(glfw_reason(), gl_hint());
+    }
+    return window;
+}
+
+/// What the callbacks of the window leave behind for wait().
+struct Happened {
+    std::atomic<bool> redraw = true; // a new window shows nothing yet
+    std::vector<std::filesystem::path> dropped;
+};
+
+Happened& happened_in(GLFWwindow* window) {
+    return *static_cast<Happened*>(glfwGetWindowUserPointer(window));
+}
+
+/// For any callback whose arguments do not matter here: something is to be drawn.
+template <typename... Arguments> void redraw(GLFWwindow* window, Arguments... /*unused*/) {
+    happened_in(window).redraw = true;
+}
+
+void dropped(GLFWwindow* window, int count, const char** files) {
+    Happened& happened = happened_in(window);
+    happened.dropped.insert(happened.dropped.end(), files, files + count);
+    happened.redraw = true;
+}
+
+void listen(GLFWwindow* window, Happened& happened) {
+    glfwSetWindowUserPointer(window, &happened);
+    glfwSetKeyCallback(window, redraw<int, int, int, int>);
+    glfwSetCharCallback(window, redraw<unsigned int>);
+    glfwSetMouseButtonCallback(window, redraw<int, int, int>);
+    glfwSetCursorPosCallback(window, redraw<double, double>);
+    glfwSetCursorEnterCallback(window, redraw<int>);
+    glfwSetScrollCallback(window, redraw<double, double>);
+    glfwSetFramebufferSizeCallback(window, redraw<int, int>);
+    glfwSetWindowContentScaleCallback(window, redraw<float, float>);
+    glfwSetWindowRefreshCallback(window, redraw<>);
+    glfwSetWindowFocusCallback(window, redraw<int>);
+    glfwSetWindowIconifyCallback(window, redraw<int>);
+    glfwSetWindowCloseCallback(window, redraw<>);
+    glfwSetDropCallback(window, dropped);
+}
+
+void set_icon(GLFWwindow* window, const Picture& icon) {
+    if (icon.pixels.empty()) {
+        return;
+    }
+    std::vector<Pixel> pixels = icon.pixels; // GLFW takes a pointer to what it promises not to change
+    const GLFWimage image = {icon.size.width, icon.size.height, pixels.front().data()};
+    glfwSetWindowIcon(window, 1, &image);
+}
+
+} // namespace
+
+struct WindowContext::Parts {
+    explicit Parts(const WindowOptions& options) : window(opened_window(options)) {
+        listen(window, happened);
+    }
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+    ~Parts() { glfwDestroyWindow(window); }
+
+    Library library;
+    GLFWwindow* window;
+    Happened happened;
+    DropListener on_drop;
+};
+
+WindowContext::WindowContext(const WindowOptions& options) : parts_(std::make_unique<Parts>(options)) {
+    make_current();
+    if (const auto why = too_old()) {
+        no_window(*why, gl_hint());
+    }
+    glfwSwapInterval(1);
+    glfwSetWindowSizeLimits(
+        handle(), options.smallest.width, options.smallest.height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    set_icon(handle(), options.icon);
+}
+
+WindowContext::~WindowContext() = default;
+
+PixelSize WindowContext::framebuffer_size() const {
+    PixelSize size;
+    glfwGetFramebufferSize(handle(), &size.width, &size.height);
+    return size;
+}
+
+double WindowContext::content_scale() const {
+    float x = 1.0F;
+    float y = 1.0F;
+    glfwGetWindowContentScale(handle(), &x, &y);
+    return static_cast<double>(x);
+}
+
+void WindowContext::make_current() {
+    glfwMakeContextCurrent(handle());
+}
+
+void WindowContext::begin() {
+    make_current();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    cover(framebuffer_size());
+}
+
+Picture WindowContext::read_back() {
+    begin();
+    glReadBuffer(GL_BACK);
+    return read_pixels(framebuffer_size(), Alpha::opaque);
+}
+
+void WindowContext::present() {
+    glfwSwapBuffers(handle());
+}
+
+bool WindowContext::wait(double timeout_s) {
+    if (timeout_s < 0.0 && !parts_->happened.redraw) {
+        glfwWaitEvents();
+    } else if (timeout_s > 0.0 && !parts_->happened.redraw) {
+        glfwWaitEventsTimeout(timeout_s);
+    } else {
+        glfwPollEvents();
+    }
+    const auto files = std::exchange(parts_->happened.dropped, {});
+    if (!files.empty() && parts_->on_drop) {
+        parts_->on_drop(files);
+    }
+    return parts_->happened.redraw.exchange(false);
+}
+
+void WindowContext::request_redraw() {
+    parts_->happened.redraw = true;
+    glfwPostEmptyEvent();
+}
+
+bool WindowContext::close_requested() const {
+    return glfwWindowShouldClose(handle()) != GLFW_FALSE;
+}
+
+void WindowContext::keep_open() {
+    glfwSetWindowShouldClose(handle(), GLFW_FALSE);
+}
+
+bool WindowContext::focused() const {
+    return glfwGetWindowAttrib(handle(), GLFW_FOCUSED) != GLFW_FALSE;
+}
+
+void WindowContext::set_title(const std::string& title) {
+    glfwSetWindowTitle(handle(), title.c_str());
+}
+
+void WindowContext::on_drop(DropListener listener) {
+    parts_->on_drop = std::move(listener);
+}
+
+GLFWwindow* WindowContext::handle() const {
+    return parts_->window;
+}
+
+} // namespace millwright::render
