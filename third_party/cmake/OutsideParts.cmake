@@ -15,6 +15,8 @@ if(MILLWRIGHT_UI)
     find_package(Freetype REQUIRED)
     find_package(CLI11 REQUIRED)
     pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
+    # Debian's libimgui.a holds the FreeType builder, its imgui.pc does not say so.
+    target_link_libraries(PkgConfig::imgui INTERFACE Freetype::Freetype)
     pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
     pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 endif()

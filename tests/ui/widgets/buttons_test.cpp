@@ -1,0 +1,218 @@
+#include "core/base/error.h"
+#include "tests/ui/stage/stage.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::widgets {
+namespace {
+
+using test::Stage;
+
+Rect whole_window() {
+    return {0.0F, 0.0F, 400.0F, 400.0F};
+}
+
+TEST(Button, FoundByItsPathAndClickedSaysSoOnce) {
+    int presses = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        presses += ui.button("adapt", "Adapt") ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("grid/adapt");
+    stage.frames(3);
+    EXPECT_EQ(presses, 1);
+}
+
+TEST(Button, DisabledGivesNothingAndKeepsItsReason) {
+    int presses = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        presses += ui.button("adapt", "Adapt", Permission::refused("There is no surface yet.")) ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("grid/adapt");
+    EXPECT_EQ(presses, 0);
+    EXPECT_EQ(stage.reason("grid/adapt"), "There is no surface yet.");
+}
+
+TEST(Button, AnOuterRefusalReachesEverythingInside) {
+    int presses = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        const auto busy = ui.permitted(Permission::refused("A job is running."));
+        presses += ui.button("adapt", "Adapt") ? 1 : 0;
+        presses += ui.checkbox("show", "Show", false) ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("grid/adapt");
+    stage.click("grid/show");
+    EXPECT_EQ(presses, 0);
+    EXPECT_EQ(stage.reason("grid/show"), "A job is running.");
+}
+
+TEST(Button, APathUsedTwiceInAFrameIsADefect) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        ui.button("adapt", "Adapt");
+        ui.button("adapt", "Again");
+    });
+    EXPECT_THROW(stage.frames(), Defect);
+}
+
+TEST(Button, AnIconWithoutATipIsADefect) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        ui.icon_button("adapt", "+", "");
+    });
+    EXPECT_THROW(stage.frames(), Defect);
+}
+
+TEST(Checkbox, AnswersTheOppositeOnlyWhenClicked) {
+    bool on = false;
+    int answers = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("view", whole_window());
+        if (const auto now = ui.checkbox("net", "Control net", on)) {
+            on = *now;
+            ++answers;
+        }
+        if (const auto now = ui.toggle("axes", "Axes", true)) {
+            EXPECT_FALSE(*now);
+            ++answers;
+        }
+    });
+    stage.frames(2);
+    EXPECT_EQ(answers, 0);
+    stage.click("view/net");
+    EXPECT_TRUE(on);
+    stage.click("view/net");
+    EXPECT_FALSE(on);
+    stage.click("view/axes");
+    EXPECT_EQ(answers, 3);
+}
+
+constexpr auto methods = [] {
+    return std::array<Option, 3>{Option{.id = "uniform", .label = "Uniform"},
+                                 Option{.id = "elliptic", .label = "Elliptic"},
+                                 Option{.id = "tracks", .label = "Tracks"}};
+};
+
+TEST(Choice, GivesTheIndexOfTheOptionClickedInItsList) {
+    int now = 0;
+    int answers = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        if (const auto chosen = ui.choice("method", "Method", now, methods())) {
+            now = *chosen;
+            ++answers;
+        }
+    });
+    stage.frames(2);
+    stage.click("grid/method");
+    stage.frames(2);
+    stage.click("grid/method/tracks");
+    EXPECT_EQ(now, 2);
+    EXPECT_EQ(answers, 1);
+    stage.frames();
+    EXPECT_FALSE(stage.ui().place("grid/method/tracks").has_value());
+}
+
+TEST(Choice, TheOptionInForceIsNoAnswer) {
+    int answers = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        answers += ui.choice("method", "Method", 1, methods()) ? 1 : 0;
+        answers += ui.segmented("weight", "Weight", 1, methods()) ? 1 : 0;
+        answers += ui.tabs("page", 1, methods()) ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("grid/weight/elliptic");
+    stage.click("grid/page/elliptic");
+    stage.click("grid/method");
+    stage.frames(2);
+    stage.click("grid/method/elliptic");
+    EXPECT_EQ(answers, 0);
+}
+
+TEST(Segmented, GivesTheIndexClicked) {
+    std::vector<int> answers;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        if (const auto chosen = ui.segmented("weight", "Weight", 1, methods())) {
+            answers.push_back(*chosen);
+        }
+        if (const auto chosen = ui.tabs("page", 0, methods())) {
+            answers.push_back(10 + *chosen);
+        }
+    });
+    stage.frames(2);
+    stage.click("grid/weight/tracks");
+    stage.click("grid/page/elliptic");
+    EXPECT_EQ(answers, (std::vector<int>{2, 11}));
+}
+
+TEST(Section, FoldsItsContentAway) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        if (const auto section = ui.section("weight", "Weight")) {
+            ui.button("reset", "Reset");
+        }
+    });
+    stage.frames(2);
+    EXPECT_TRUE(stage.ui().place("grid/weight/reset").has_value());
+    stage.click("grid/weight");
+    stage.frames();
+    EXPECT_FALSE(stage.ui().place("grid/weight/reset").has_value());
+}
+
+TEST(Row, SharesItsLineInEqualParts) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        {
+            const auto row = ui.row(2);
+            ui.button("start", "Start");
+            ui.button("stop", "Stop");
+        }
+        ui.button("below", "Below");
+    });
+    stage.frames(2);
+    const Rect start = stage.place("grid/start");
+    const Rect stop = stage.place("grid/stop");
+    EXPECT_FLOAT_EQ(start.y, stop.y);
+    EXPECT_NEAR(static_cast<double>(start.w), static_cast<double>(stop.w), 1.0);
+    EXPECT_GT(stop.x, start.right());
+    EXPECT_GT(stage.place("grid/below").y, start.bottom());
+}
+
+TEST(Progress, CancelIsFoundBelowItsPath) {
+    int cancelled = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("status", whole_window());
+        cancelled += ui.progress("adapt", "Adapting the grid", 0.4) ? 1 : 0;
+        cancelled += ui.progress("plan", "Planning", -1.0) ? 10 : 0;
+    });
+    stage.frames(2);
+    stage.click("status/adapt/cancel");
+    EXPECT_EQ(cancelled, 1);
+    EXPECT_TRUE(stage.ui().next_change().has_value());
+}
+
+TEST(Idle, NothingChangesByItself) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("grid", whole_window());
+        ui.button("adapt", "Adapt", {}, {.tip = "Moves the nodes."});
+        ui.number(1.0, {.id = "a", .label = "A", .unit = "mm", .tip = "A length."});
+    });
+    stage.frames(3);
+    EXPECT_FALSE(stage.ui().next_change().has_value());
+    stage.move(stage.place("grid/adapt").centre());
+    stage.frames(2);
+    EXPECT_TRUE(stage.ui().next_change().has_value()); // its tip is on its way
+    stage.wait(1.0);
+    stage.frames();
+    EXPECT_FALSE(stage.ui().next_change().has_value());
+}
+
+} // namespace
+} // namespace millwright::widgets

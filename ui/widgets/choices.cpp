@@ -1,0 +1,199 @@
+#include "core/base/error.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/internal/draw.h"
+#include "ui/widgets/ui.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::widgets {
+
+namespace {
+
+constexpr double disabled_opacity = 0.45;
+
+std::string with_icon(const Option& option) {
+    return option.icon.empty() ? std::string(option.label)
+                               : std::string(option.icon) + "  " + std::string(option.label);
+}
+
+std::string option_path(const std::string& own, const Option& option) {
+    return own + "/" + std::string(option.id);
+}
+
+void expect_index(const std::string& own, int now, std::span<const Option> options) {
+    expects(now >= 0 && now < std::ssize(options), "what is chosen is one of the options: " + own);
+}
+
+/// The rows of an open popup.
+std::optional<int> popup_rows(Ui& ui, const std::string& own, int now, std::span<const Option> options) {
+    std::optional<int> chosen;
+    int index = 0;
+    for (const Option& option : options) {
+        const Slot slot(ui, 0.0F, ui.px(gaps::row));
+        const Press pressed = press(ui, option_path(own, option), slot.rect(), option.permission, option.tip);
+        const Palette& colours = ui.colours();
+        const Colour ground = index == now ? colours.selection : pressed.hovered ? colours.hover : Colour{0};
+        fill(slot.rect(), ground, ui.px(gaps::rounding));
+        const Rect words{
+            slot.rect().x + ui.px(8.0F), slot.rect().y, slot.rect().w - ui.px(16.0F), slot.rect().h};
+        draw_text(ui,
+                  ui.look().fonts.text,
+                  words,
+                  faded(colours.text, pressed.enabled ? 1.0 : disabled_opacity),
+                  with_icon(option));
+        if (pressed.clicked) {
+            chosen = index;
+            ImGui::CloseCurrentPopup();
+        }
+        ++index;
+    }
+    return chosen;
+}
+
+float popup_width(const Ui& ui, float at_least, std::span<const Option> options) {
+    float width = at_least;
+    for (const Option& option : options) {
+        width = std::max(width, text_width(ui.look().fonts.text, with_icon(option)) + ui.px(32.0F));
+    }
+    return width;
+}
+
+struct PopupFrame {
+    PopupFrame(Ui& ui, const Rect& below, float width) {
+        const float pad = ui.px(gaps::tiny);
+        ImGui::SetNextWindowPos({below.x, below.bottom() + ui.px(2.0F)});
+        ImGui::SetNextWindowSize({width, 0.0F});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
+    }
+    PopupFrame(const PopupFrame&) = delete;
+    PopupFrame& operator=(const PopupFrame&) = delete;
+    ~PopupFrame() { ImGui::PopStyleVar(2); }
+};
+
+/// One of the cells of a segmented choice.
+bool draw_segment(Ui& ui, const Rect& cell, const Press& pressed, bool chosen, const Option& option) {
+    const Palette& colours = ui.colours();
+    if (chosen || pressed.hovered) {
+        const float in = ui.px(2.0F);
+        fill({cell.x + in, cell.y + in, cell.w - 2.0F * in, cell.h - 2.0F * in},
+             chosen ? colours.selection : colours.hover,
+             ui.px(3.0F));
+    }
+    const float pad = ui.px(5.0F);
+    return draw_text(ui,
+                     ui.look().fonts.text,
+                     {cell.x + pad, cell.y, cell.w - 2.0F * pad, cell.h},
+                     faded(chosen ? colours.text : mixed(colours.muted, colours.text, 0.4),
+                           pressed.enabled ? 1.0 : disabled_opacity),
+                     with_icon(option),
+                     Align::centre);
+}
+
+} // namespace
+
+std::optional<int> Ui::choice(std::string_view id,
+                              std::string_view label,
+                              int now,
+                              std::span<const Option> options,
+                              std::string_view tip) {
+    const std::string own = path(id);
+    expect_index(own, now, options);
+    Rect field;
+    {
+        const Slot slot(*this, 0.0F, px(gaps::row));
+        field = labelled(*this, own, slot.rect(), label, tip, effective(*this, {}).allowed);
+        const Press pressed = press(*this, own, field, {}, tip);
+        const double opacity = pressed.enabled ? 1.0 : disabled_opacity;
+        fill(field, faded(pressed.hovered ? colours().hover : colours().raised, opacity), px(gaps::rounding));
+        const float arrow = px(24.0F);
+        draw_text(*this,
+                  look_.fonts.text,
+                  {field.x + px(8.0F), field.y, field.w - px(8.0F) - arrow, field.h},
+                  faded(colours().text, opacity),
+                  with_icon(options[static_cast<std::size_t>(now)]));
+        draw_text(*this,
+                  look_.fonts.small,
+                  {field.right() - arrow, field.y, arrow, field.h},
+                  faded(colours().muted, opacity),
+                  icons::chevron_down,
+                  Align::centre);
+        if (pressed.clicked) {
+            ImGui::OpenPopup(own.c_str());
+        }
+    }
+    if (!ImGui::IsPopupOpen(own.c_str())) {
+        return std::nullopt;
+    }
+    const PopupFrame frame(*this, field, popup_width(*this, field.w, options));
+    std::optional<int> chosen;
+    if (ImGui::BeginPopup(own.c_str())) {
+        chosen = popup_rows(*this, own, now, options);
+        ImGui::EndPopup();
+    }
+    return chosen == now ? std::nullopt : chosen;
+}
+
+std::optional<int> Ui::segmented(std::string_view id,
+                                 std::string_view label,
+                                 int now,
+                                 std::span<const Option> options,
+                                 std::string_view tip) {
+    const std::string own = path(id);
+    expect_index(own, now, options);
+    const Slot slot(*this, 0.0F, px(gaps::row));
+    const Rect all = labelled(*this, own, slot.rect(), label, tip, effective(*this, {}).allowed);
+    record_at(*this, own, all);
+    fill(all, colours().field, px(gaps::rounding));
+    outline(all, colours().line, px(gaps::rounding));
+    std::optional<int> chosen;
+    const float width = all.w / static_cast<float>(options.size());
+    int index = 0;
+    for (const Option& option : options) {
+        const float x = std::round(all.x + static_cast<float>(index) * width);
+        const Rect cell{x, all.y, std::round(all.x + static_cast<float>(index + 1) * width) - x, all.h};
+        const Press pressed = press(*this, option_path(own, option), cell, option.permission, option.tip);
+        const bool cut = draw_segment(*this, cell, pressed, index == now, option);
+        if (cut && option.tip.empty()) {
+            offer_tip(*this, option_path(own, option), cell, option.label);
+        }
+        if (pressed.clicked && index != now) {
+            chosen = index;
+        }
+        ++index;
+    }
+    return chosen;
+}
+
+std::optional<int> Ui::tabs(std::string_view id, int now, std::span<const Option> options) {
+    const std::string own = path(id);
+    expect_index(own, now, options);
+    const Slot slot(*this, 0.0F, px(gaps::row + 4.0F));
+    const Rect& bar = slot.rect();
+    record_at(*this, own, bar);
+    fill({bar.x, bar.bottom() - 1.0F, bar.w, 1.0F}, colours().line);
+    std::optional<int> chosen;
+    float x = bar.x;
+    int index = 0;
+    for (const Option& option : options) {
+        const ImFont* font = index == now ? look_.fonts.strong : look_.fonts.text;
+        const std::string words = with_icon(option);
+        const Rect tab{x, bar.y, std::ceil(text_width(look_.fonts.strong, words) + px(20.0F)), bar.h};
+        const Press pressed = press(*this, option_path(own, option), tab, option.permission, option.tip);
+        const Colour colour = index == now || pressed.hovered ? colours().text : colours().muted;
+        draw_text(
+            *this, font, tab, faded(colour, pressed.enabled ? 1.0 : disabled_opacity), words, Align::centre);
+        if (index == now) {
+            fill({tab.x, bar.bottom() - px(2.0F), tab.w, px(2.0F)}, colours().accent);
+        }
+        if (pressed.clicked && index != now) {
+            chosen = index;
+        }
+        x = tab.right();
+        ++index;
+    }
+    return chosen;
+}
+
+} // namespace millwright::widgets

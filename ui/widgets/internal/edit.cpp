@@ -1,0 +1,206 @@
+#include "ui/widgets/internal/edit.h"
+
+#include <imgui_stdlib.h>
+
+#include <cmath>
+#include <utility>
+
+namespace millwright::widgets {
+
+namespace {
+
+constexpr double refusal_shown = 6.0; // s
+constexpr int frames_to_refocus = 3;  // ImGui gives the keyboard back one frame later
+
+struct Parts {
+    Rect typing;
+    Rect mark;
+    Rect unit;
+};
+
+Parts parts(const Ui& ui, const EditBox& box) {
+    const ImFont* small = ui.look().fonts.text;
+    const float pad = ui.px(7.0F);
+    const float mark = box.mark.empty() ? 0.0F : text_width(small, box.mark) + ui.px(6.0F);
+    const float unit = box.unit.empty() ? 0.0F : text_width(small, box.unit) + ui.px(6.0F);
+    const Rect& all = box.rect;
+    return {.typing = {all.x + pad + mark, all.y, all.w - 2.0F * pad - mark - unit, all.h},
+            .mark = {all.x + pad, all.y, mark, all.h},
+            .unit = {all.right() - pad - unit, all.y, unit, all.h}};
+}
+
+int on_history(ImGuiInputTextCallbackData* data) {
+    const auto& stepped = *static_cast<const decltype(EditBox::stepped)*>(data->UserData);
+    const ImGuiIO& io = ImGui::GetIO();
+    const double size = io.KeyShift ? 0.1 : io.KeyCtrl ? 10.0 : 1.0;
+    const double direction = data->EventKey == ImGuiKey_UpArrow ? 1.0 : -1.0;
+    const std::string text =
+        stepped({data->Buf, static_cast<std::size_t>(data->BufTextLen)}, direction * size);
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, text.c_str());
+    data->SelectAll();
+    return 0;
+}
+
+struct Typed {
+    std::string text;
+    bool activated = false;
+    bool active = false;
+    bool left = false; ///< the keyboard went elsewhere in this frame
+    bool entered = false;
+};
+
+Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text) {
+    ImFont* font = ImGui::GetFont();
+    for (ImFont* known : {ui.look().fonts.text, ui.look().fonts.mono}) {
+        font = known == box.font ? known : font;
+    }
+    ImGui::PushFont(font);
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, 0U);
+    ImGui::PushStyleColor(ImGuiCol_NavHighlight, 0U); // the whole box gets the ring instead
+    const float pad_y = std::max(0.0F, std::floor(0.5F * (typing.h - font->FontSize)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0F, pad_y});
+    ImGui::SetCursorScreenPos(upper_left(typing));
+    ImGui::SetNextItemWidth(std::max(typing.w, 1.0F));
+    ImGuiInputTextFlags flags = ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue;
+    ImGuiInputTextCallback callback = nullptr;
+    auto stepped = box.stepped;
+    if (stepped) {
+        flags |= ImGuiInputTextFlags_CallbackHistory;
+        callback = on_history;
+    }
+    Typed typed;
+    const std::string id = "##" + box.path;
+    typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &stepped);
+    typed.activated = ImGui::IsItemActivated();
+    typed.active = ImGui::IsItemActive();
+    typed.left = ImGui::IsItemDeactivated();
+    typed.text = std::move(text);
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor(2);
+    ImGui::PopFont();
+    return typed;
+}
+
+void refuse(Ui& ui, const std::string& path, std::string reason) {
+    ui.state().refusals[path] = {std::move(reason), ImGui::GetTime() + refusal_shown};
+}
+
+/// The keyboard left the box: commit, refuse or revert.
+std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed) {
+    Ui::State::Edit& edit = ui.state().edit;
+    const std::string text = typed.text;
+    const bool reverted = key_pressed(ImGuiKey_Escape);
+    const bool changed = text != edit.initial;
+    const std::string reason = reverted || !changed ? std::string() : box.refusal(text);
+    if (!reason.empty()) {
+        refuse(ui, box.path, reason);
+        if (typed.entered) {
+            edit.text = text;
+            edit.keep = true;
+            edit.frames_kept = 0;
+            ImGui::SetKeyboardFocusHere(-1);
+            return std::nullopt;
+        }
+        if (box.keeps_refused) {
+            ui.state().drafts[box.path] = text;
+        }
+    } else {
+        ui.state().refusals.erase(box.path);
+        ui.state().drafts.erase(box.path);
+    }
+    edit = {};
+    return reason.empty() && changed && !reverted ? std::optional(text) : std::nullopt;
+}
+
+std::optional<std::string> follow(Ui& ui, const EditBox& box, const Typed& typed) {
+    Ui::State::Edit& edit = ui.state().edit;
+    if (typed.activated && edit.path != box.path) {
+        edit = {.path = box.path, .text = typed.text, .initial = std::string(box.shown)};
+    }
+    if (edit.path != box.path) {
+        return std::nullopt;
+    }
+    if (typed.left) {
+        return finish(ui, box, typed);
+    }
+    if (typed.active) {
+        edit.text = typed.text;
+        edit.keep = false;
+        const std::string reason = edit.text == edit.initial ? std::string() : box.refusal(edit.text);
+        if (reason.empty()) {
+            ui.state().refusals.erase(box.path);
+        } else {
+            refuse(ui, box.path, reason);
+        }
+    } else if (!edit.keep || ++edit.frames_kept > frames_to_refocus) {
+        edit = {};
+    }
+    return std::nullopt;
+}
+
+std::string text_now(Ui& ui, const EditBox& box) {
+    const Ui::State& state = ui.state();
+    if (state.edit.path == box.path) {
+        return state.edit.text;
+    }
+    const auto draft = state.drafts.find(box.path);
+    return draft == state.drafts.end() ? std::string(box.shown) : draft->second;
+}
+
+/// The reason that stands at this box now, if any; what is refused for good stays as long as its text.
+std::string reason_now(Ui& ui, const EditBox& box) {
+    auto& refusals = ui.state().refusals;
+    const auto refusal = refusals.find(box.path);
+    if (refusal == refusals.end()) {
+        return {};
+    }
+    const bool stays = ui.state().drafts.contains(box.path) || ui.state().edit.path == box.path;
+    if (!stays && ImGui::GetTime() > refusal->second.until) {
+        refusals.erase(refusal);
+        return {};
+    }
+    if (!stays) {
+        ui.change_in(refusal->second.until - ImGui::GetTime());
+    }
+    return refusal->second.reason;
+}
+
+} // namespace
+
+std::optional<std::string> edit_box(Ui& ui, const EditBox& box) {
+    const Permission& permission = effective(ui, box.permission);
+    const Palette& colours = ui.colours();
+    const Parts part = parts(ui, box);
+    const double opacity = permission.allowed ? 1.0 : 0.45;
+    const bool hovered = permission.allowed &&
+                         ImGui::IsMouseHoveringRect(upper_left(box.rect), lower_right(box.rect)) &&
+                         ImGui::IsWindowHovered();
+    const float round = ui.px(gaps::rounding);
+    fill(box.rect, faded(colours.field, opacity), round);
+
+    ImGui::BeginDisabled(!permission.allowed);
+    const Typed typed = type_into(ui, box, part.typing, text_now(ui, box));
+    const bool focused = typed.active || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
+    const std::optional<std::string> committed = follow(ui, box, typed);
+    ImGui::EndDisabled();
+
+    draw_text(ui, ui.look().fonts.text, part.mark, faded(box.mark_colour, opacity), box.mark);
+    draw_text(ui, ui.look().fonts.text, part.unit, faded(colours.muted, opacity), box.unit, Align::right);
+    const std::string reason = permission.allowed ? reason_now(ui, box) : permission.reason;
+    const bool is_refused = permission.allowed && !reason.empty();
+    const Colour border = is_refused ? colours.danger
+                          : focused  ? colours.accent
+                          : hovered  ? colours.muted
+                                     : colours.line;
+    outline(box.rect, faded(border, opacity), round, focused || is_refused ? ui.px(1.5F) : 1.0F);
+    record_at(ui, box.path, box.rect, permission.allowed, reason);
+    if (is_refused) {
+        ui.state().hints.push_back({box.rect, reason});
+    } else if (!typed.active) {
+        offer_tip(ui, box.path, box.rect, permission.allowed ? box.tip : std::string_view(permission.reason));
+    }
+    return committed;
+}
+
+} // namespace millwright::widgets

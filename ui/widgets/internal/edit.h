@@ -1,0 +1,35 @@
+// One line of text being typed into: the box, the keyboard, what was refused. Shared by numbers and texts.
+#pragma once
+
+#include "ui/widgets/internal/draw.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::widgets {
+
+struct EditBox {
+    std::string path;
+    Rect rect;
+    std::string_view shown; ///< the value in force, as text
+    std::string_view unit = {};
+    const ImFont* font = nullptr;
+    Permission permission = {};
+    std::string_view tip = {};
+    /// What the text shall become after `steps` presses of up (negative: down); none: the keys do nothing.
+    std::function<std::string(std::string_view text, double steps)> stepped = {};
+    /// "" if the text may be committed, else the sentence that says what is wrong with it.
+    std::function<std::string(std::string_view)> refusal;
+    /// Refused text stays in the box also when the keyboard goes elsewhere.
+    bool keeps_refused = false;
+    /// A mark at the left inside the box, such as X.
+    std::string_view mark = {};
+    Colour mark_colour = 0;
+};
+
+/// Draws the box; the text when the user committed one that is allowed and differs from `shown`.
+[[nodiscard]] std::optional<std::string> edit_box(Ui& ui, const EditBox& box);
+
+} // namespace millwright::widgets

@@ -1,0 +1,56 @@
+// What the widgets keep from frame to frame: half-typed text, refusals, folded sections, the tip on its way.
+#pragma once
+
+#include "ui/widgets/ui.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::widgets {
+
+struct Ui::State {
+    struct Edit {
+        std::string path;    ///< of the one field being typed into; empty: none
+        std::string text;    ///< as typed
+        std::string initial; ///< as it was before
+        bool keep = false;   ///< refused by Enter: the field takes the keyboard again with its text
+        int frames_kept = 0;
+    };
+    struct Refusal {
+        std::string reason;
+        double until = 0.0; ///< ImGui time
+    };
+    struct Tip {
+        std::string path;
+        std::string text;
+        Rect rect;
+        double since = 0.0; ///< ImGui time when the mouse came
+        int frame = -1;     ///< last frame in which the mouse was there
+    };
+    struct Hint {
+        Rect rect;
+        std::string reason;
+    };
+    struct Cells {
+        int count = 0;
+        int next = 0;
+        Rect line;
+    };
+
+    Places places;
+    Edit edit;
+    std::map<std::string, Refusal, std::less<>> refusals;
+    std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
+    std::map<std::string, double, std::less<>> memory;      ///< by path: scroll positions, open sections
+    Tip tip;
+    std::vector<Hint> hints;            ///< of this frame
+    std::vector<std::string> cut_texts; ///< of this frame
+    std::vector<Cells> cells;
+    std::vector<float> label_shares;
+    std::vector<Permission> permissions;
+    std::optional<double> change_at; ///< ImGui time
+};
+
+} // namespace millwright::widgets

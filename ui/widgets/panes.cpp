@@ -1,0 +1,115 @@
+#include "core/base/error.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/internal/draw.h"
+#include "ui/widgets/ui.h"
+
+#include <cmath>
+
+namespace millwright::widgets {
+
+namespace {
+
+constexpr ImGuiWindowFlags pane_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void end_pane(Ui& ui) {
+    ImGui::End();
+    ui.state().places.leave();
+}
+
+bool begin_window(Ui& ui, std::string_view id, const Rect& rect, ImGuiWindowFlags flags, ImVec2 padding) {
+    const std::string path = ui.path(id);
+    ui.state().places.record(path, {rect, true, true, {}});
+    ImGui::SetNextWindowPos(upper_left(rect));
+    ImGui::SetNextWindowSize({rect.w, rect.h});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    const bool open = ImGui::Begin(path.c_str(), nullptr, flags);
+    ImGui::PopStyleVar();
+    ui.state().places.enter(id);
+    return open;
+}
+
+} // namespace
+
+Guard Ui::pane(std::string_view id, const Rect& rect, std::string_view title) {
+    const float pad = px(gaps::pad);
+    const ImGuiWindowFlags flags = pane_flags & ~ImGuiWindowFlags_NoScrollbar;
+    const bool open = begin_window(*this, id, rect, flags, {pad, pad});
+    if (!title.empty()) {
+        heading(title);
+    }
+    return {*this, end_pane, open};
+}
+
+Guard Ui::bare_pane(std::string_view id, const Rect& rect) {
+    const bool open =
+        begin_window(*this, id, rect, pane_flags | ImGuiWindowFlags_NoScrollWithMouse, {0.0F, 0.0F});
+    return {*this, end_pane, open};
+}
+
+Rect Ui::rest() const {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 left = ImGui::GetContentRegionAvail();
+    return {at.x, at.y, left.x, left.y};
+}
+
+Guard Ui::section(std::string_view id, std::string_view title, bool open_at_first) {
+    const std::string own = path(id);
+    const auto [memory, is_new] = state_->memory.try_emplace(own, open_at_first ? 1.0 : 0.0);
+    {
+        const Slot slot(*this, 0.0F, px(gaps::row));
+        const Press now = press(*this, own, slot.rect());
+        if (now.clicked) {
+            memory->second = 1.0 - memory->second;
+        }
+        const Rect& bar = slot.rect();
+        const float icon = px(18.0F);
+        const bool open = memory->second > 0.5;
+        fill({bar.x, bar.y, bar.w, 1.0F}, colours().line);
+        draw_text(*this,
+                  look_.fonts.small,
+                  {bar.x, bar.y, icon, bar.h},
+                  now.hovered ? colours().text : colours().muted,
+                  open ? icons::chevron_down : icons::chevron_right);
+        draw_text(*this,
+                  look_.fonts.strong,
+                  {bar.x + icon, bar.y, bar.w - icon, bar.h},
+                  now.hovered ? colours().accent : colours().text,
+                  title);
+    }
+    state_->places.enter(id);
+    return {*this, [](Ui& ui) { ui.state().places.leave(); }, memory->second > 0.5};
+}
+
+Guard Ui::row(int count) {
+    expects(count > 0, "a row has at least one widget");
+    state_->cells.push_back({count, 0, {}});
+    return {*this, [](Ui& ui) { ui.state().cells.pop_back(); }};
+}
+
+Guard Ui::label_share(float share) {
+    expects(share >= 0.0F && share < 1.0F, "labels leave some width to the fields");
+    state_->label_shares.push_back(share);
+    return {*this, [](Ui& ui) { ui.state().label_shares.pop_back(); }};
+}
+
+Guard Ui::permitted(const Permission& permission) {
+    state_->permissions.push_back(permission);
+    return {*this, [](Ui& ui) { ui.state().permissions.pop_back(); }};
+}
+
+void Ui::beside() {
+    ImGui::SameLine(0.0F, px(gaps::small));
+}
+
+void Ui::gap() {
+    ImGui::Dummy({1.0F, px(gaps::small)});
+}
+
+void Ui::line() {
+    const Slot slot(*this, 0.0F, px(gaps::small));
+    fill({slot.rect().x, std::round(slot.rect().centre().y), slot.rect().w, 1.0F}, colours().line);
+}
+
+} // namespace millwright::widgets

@@ -1,0 +1,13 @@
+// The immediate-mode vocabulary in which all panels are written. Small fields, buttons and words are members
+// of Ui (ui.h); larger pieces have a header of their own. Nobody outside this room and ui/render includes
+// ImGui.
+#pragma once
+
+#include "ui/widgets/arithmetic.h"
+#include "ui/widgets/field_info.h"
+#include "ui/widgets/fonts.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/permission.h"
+#include "ui/widgets/places.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/ui.h"
