@@ -1,0 +1,54 @@
+// One grid carried all the way to its error on a machine: what is compared side by side.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/grid/improver.h"
+#include "core/toolpath/error_field.h"
+#include "core/toolpath/kinematic_error.h"
+#include "core/toolpath/sequencing.h"
+
+#include <memory>
+#include <string>
+
+namespace millwright::project {
+
+/// What a grid was made by, for the report and the people.
+struct GridOutcome {
+    grid::Grid grid;
+    grid::ImproverStatus status = grid::ImproverStatus::converged;
+    int rounds = 0;
+    int iterations = 0;
+    double norm = 0.0;
+    std::string note; ///< one sentence; empty for the uniform grid
+};
+
+struct Evaluation {
+    GridOutcome outcome;
+    toolpath::Toolpath toolpath;
+    toolpath::AxisPath axes;
+    toolpath::ErrorField field;
+    /// Over the moves inside tracks.
+    grid::ErrorSummary closest, param;
+    /// Over the moves from track to track.
+    grid::ErrorSummary cross_closest;
+    double track_gap = 0.0;   ///< mm
+    double path_length = 0.0; ///< mm
+};
+
+/// Surface, machine and direction that an evaluation is made for. Shared by all stages of one plan.
+struct Workpiece {
+    geometry::BezierPatch patch;
+    kinematics::MachineModel machine;
+    grid::TrackDirection direction = grid::TrackDirection::along_v;
+    bool flipped = false;
+    kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
+
+    [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped}; }
+};
+
+/// `samples` times inside each move, as in toolpath::error_field. Throws Error where a pose cannot be reached or
+/// a normal is degenerate.
+[[nodiscard]] Evaluation
+evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress);
+
+} // namespace millwright::project

@@ -1,0 +1,41 @@
+// Undo and redo: snapshots of the project, each named after the action that made it.
+#pragma once
+
+#include "core/project/project.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::project {
+
+class History {
+public:
+    explicit History(Project start);
+
+    [[nodiscard]] const Project& current() const { return steps_[at_].project; }
+
+    /// Makes `next` current under the action's title; what was undone before is dropped. A step that changes
+    /// nothing is none. Steps with the same non-empty `merge_key` right after each other become one (a drag).
+    void commit(Project next, std::string title, std::string merge_key = {});
+    /// Ends merging: the next commit is a step of its own.
+    void close_step();
+
+    /// The title of what undo or redo would do; empty if there is nothing.
+    [[nodiscard]] std::string undo_title() const;
+    [[nodiscard]] std::string redo_title() const;
+    /// Throws Defect if there is nothing to undo or redo.
+    void undo();
+    void redo();
+
+private:
+    struct Step {
+        Project project;
+        std::string title;
+        std::string merge_key;
+    };
+    std::vector<Step> steps_;
+    std::size_t at_ = 0;
+    static constexpr std::size_t most_steps = 500;
+};
+
+} // namespace millwright::project

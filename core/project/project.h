@@ -1,0 +1,103 @@
+// All that the user entered, as one plain value: copying it is the undo step, comparing two tells what is stale,
+// saving it is one JSON file. Everything else is derived from it (plan.h, pipeline.h) and can be thrown away.
+// People's units at this border: mm, deg, mm/min.
+#pragma once
+
+#include "core/geometry/surface.h"
+#include "core/grid/grid.h"
+#include "core/kinematics/rotary_tilt.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::project {
+
+/// The design: the nets themselves, and the preset they started from for people to see.
+struct SurfaceInput {
+    std::string preset;                       ///< id of the preset it started from; empty if none
+    std::vector<geometry::ControlNet> patches; ///< at least one
+    int machined_patch = 0;                   ///< index of the patch that the tool path covers
+    bool flipped = false;                     ///< cut on the side against S_u x S_v
+
+    friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
+};
+
+struct MachineInput {
+    std::string file = "rotary-tilt-listing"; ///< id of a shipped machine, or a path relative to the project
+    std::optional<Vec3> workpiece_offset;     ///< set-up (a, b, c), mm; the machine file's own if not set
+    kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
+
+    friend bool operator==(const MachineInput&, const MachineInput&) = default;
+};
+
+/// The grid whose path becomes the program.
+enum class GridMethod { uniform, elliptic, tracks };
+
+/// Where the weight of the elliptic adaptation comes from.
+enum class WeightSource { error, expression, w1, w2, w3, w4 };
+
+struct EllipticInput {
+    WeightSource weight = WeightSource::error;
+    std::string expression = "1 + 10*exp(-50*((u-0.5)^2+(v-0.5)^2))"; ///< of u and v; used if so chosen
+    double adaptation = 100.0;   ///< LV
+    double orthogonality = 0.0;  ///< LO
+    double tolerance = 1e-3;     ///< of the residual norm
+    int max_iterations = 250;    ///< inner, a round
+    int max_rounds = 10;         ///< outer
+    bool sliding_boundary = true;
+
+    friend bool operator==(const EllipticInput&, const EllipticInput&) = default;
+};
+
+struct TracksInput {
+    int lattice = 0;           ///< places a track to choose from; 0: max(160, 4 n)
+    double length_exponent = 2.0; ///< p of the cost sum length * error^p
+    double axis_weight = 1.0;  ///< mm that one degree of axis deviation counts
+    int polish_sweeps = 20;
+
+    friend bool operator==(const TracksInput&, const TracksInput&) = default;
+};
+
+struct GridInput {
+    int nu = 20;
+    int nv = 20;
+    grid::TrackDirection direction = grid::TrackDirection::along_v;
+    GridMethod method = GridMethod::tracks;
+    EllipticInput elliptic;
+    TracksInput tracks;
+
+    friend bool operator==(const GridInput&, const GridInput&) = default;
+};
+
+/// How the tool goes from the end of a track to the start of the next.
+enum class LinkInput { lifted, on_surface };
+
+struct ProgramInput {
+    double feed_mm_per_min = 600.0;
+    double plunge_mm_per_min = 200.0;
+    double spindle_rpm = 8000.0;
+    LinkInput link = LinkInput::lifted;
+    double link_clearance_mm = 5.0;
+    double approach_clearance_mm = 20.0;
+
+    friend bool operator==(const ProgramInput&, const ProgramInput&) = default;
+};
+
+struct Project {
+    std::string name = "Untitled";
+    SurfaceInput surface;
+    MachineInput machine;
+    GridInput grid;
+    ProgramInput program;
+
+    friend bool operator==(const Project&, const Project&) = default;
+};
+
+/// A new project on a preset surface. Throws Error if the id is unknown.
+[[nodiscard]] Project project_from_preset(std::string_view preset_id);
+
+/// What is wrong with `project` as an input, as sentences with the field's path; empty if nothing is.
+[[nodiscard]] std::vector<std::string> faults_of(const Project& project);
+
+} // namespace millwright::project
