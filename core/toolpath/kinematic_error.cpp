@@ -1,0 +1,244 @@
+#include "core/toolpath/kinematic_error.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/base/units.h"
+#include "core/kinematics/branch.h"
+#include "core/kinematics/forward.h"
+#include "core/kinematics/inverse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace millwright::toolpath {
+
+namespace {
+
+using geometry::BezierPatch;
+using geometry::ToolPose;
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The surface curve between two nodes, as chords with normals.
+struct Curve {
+    std::vector<Vec3> points;
+    std::vector<Vec3> normals;
+};
+
+/// A node with what the inverse kinematics says of it, next to the axes' zero.
+struct Node {
+    ToolPose pose;
+    std::vector<AxisPositions> branches;
+    bool on_pole = false;
+};
+
+ToolPose pose_at(const BezierPatch& patch, const Vec2& uv, bool flipped) {
+    const auto at = patch.derivatives(uv.x(), uv.y());
+    const Vec3 normal = patch.unit_normal(at).value_or(Vec3::Zero());
+    return {at.position, flipped ? Vec3(-normal) : normal};
+}
+
+Node node_at(const MachineModel& machine, const ToolPose& pose) {
+    Node node{pose, {}, false};
+    if (pose.axis.squaredNorm() > 0.5) { // a degenerate normal leaves no branch: the move is out of reach
+        node.branches =
+            kinematics::inverse_branches(machine, pose, AxisPositions::Zero(machine.axis_count()));
+        node.on_pole = kinematics::at_pole(machine, pose.axis);
+    }
+    return node;
+}
+
+/// `node` solved again with the free angle of its neighbour.
+Node off_the_pole(const MachineModel& machine, Node node, const Node& neighbour) {
+    if (node.on_pole && !neighbour.on_pole && !neighbour.branches.empty()) {
+        node.branches = kinematics::inverse_branches(machine, node.pose, neighbour.branches.front());
+    }
+    return node;
+}
+
+/// The branch of `to` nearest to `from`, in the turn nearest to it.
+AxisPositions follow(const MachineModel& machine, const AxisPositions& from, std::vector<AxisPositions> to) {
+    for (AxisPositions& branch : to) {
+        for (const int n : machine.rotary_axes()) {
+            branch[n] += 2.0 * pi * std::round((from[n] - branch[n]) / (2.0 * pi));
+        }
+    }
+    return kinematics::nearest_branch(machine, to, from);
+}
+
+struct Nearest {
+    double squared = infinity;
+    Vec3 normal = Vec3::UnitZ();
+};
+
+Nearest nearest_on(const Curve& curve, const Vec3& p) {
+    Nearest best;
+    for (std::size_t n = 1; n < curve.points.size(); ++n) {
+        const Vec3& a = curve.points[n - 1];
+        const Vec3 ab = curve.points[n] - a;
+        const double squared_length = ab.squaredNorm();
+        const double s = squared_length > 0.0 ? std::clamp((p - a).dot(ab) / squared_length, 0.0, 1.0) : 0.0;
+        const double squared = (a + s * ab - p).squaredNorm();
+        if (squared < best.squared) {
+            best.squared = squared;
+            best.normal = (1.0 - s) * curve.normals[n - 1] + s * curve.normals[n];
+        }
+    }
+    return best;
+}
+
+double curve_length(const Curve& curve) {
+    double sum = 0.0;
+    for (std::size_t n = 1; n < curve.points.size(); ++n) {
+        sum += (curve.points[n] - curve.points[n - 1]).norm();
+    }
+    return sum;
+}
+
+grid::MoveError judge(const MachineModel& machine,
+                      const Node& first,
+                      const Node& second,
+                      const Curve& curve,
+                      int tip_samples) {
+    const Node a = off_the_pole(machine, first, second);
+    const Node b = off_the_pole(machine, second, first);
+    grid::MoveError error{infinity, infinity, curve_length(curve)};
+    if (a.branches.empty() || b.branches.empty()) {
+        return error;
+    }
+    const AxisPositions& from = a.branches.front();
+    const AxisPositions step = follow(machine, from, b.branches) - from;
+    double squared = 0.0;
+    error.axis = 0.0;
+    for (int k = 1; k <= tip_samples; ++k) {
+        const double t = static_cast<double>(k) / (tip_samples + 1);
+        const ToolPose actual = kinematics::forward(machine, from + t * step);
+        const Nearest nearest = nearest_on(curve, actual.tip);
+        squared = std::max(squared, nearest.squared);
+        error.axis = std::max(error.axis, angle_between(actual.axis, nearest.normal));
+    }
+    error.tip = std::sqrt(squared);
+    return error;
+}
+
+Vec2 between(const Vec2& a, const Vec2& b, double t) { return (1.0 - t) * a + t * b; }
+
+/// Nodes and a fine raster of the curve through them, computed once for all pairs.
+class Lattice final : public grid::LatticeErrors {
+public:
+    Lattice(const BezierPatch& patch,
+            const MachineModel& machine,
+            bool flipped,
+            std::span<const Vec2> nodes,
+            grid::Sampling sampling)
+        : machine_(machine), sampling_(sampling) {
+        expects(nodes.size() >= 2, "a lattice has two nodes or more");
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            const ToolPose pose = pose_at(patch, nodes[n], flipped);
+            nodes_.push_back(node_at(machine, pose));
+            add(pose);
+            for (int s = 1; n + 1 < nodes.size() && s < raster; ++s) {
+                const double t = static_cast<double>(s) / raster;
+                add(pose_at(patch, between(nodes[n], nodes[n + 1], t), flipped));
+            }
+        }
+    }
+
+    [[nodiscard]] grid::MoveError between(int k, int l) const override {
+        expects(0 <= k && k < l && l < static_cast<int>(nodes_.size()), "a move goes forward on its lattice");
+        const int intervals = raster * (l - k);
+        const int chords = std::min(intervals, sampling_.curve);
+        Curve curve;
+        for (int c = 0; c <= chords; ++c) {
+            const auto n = static_cast<std::size_t>(raster * k + intervals * c / chords);
+            curve.points.push_back(raster_.points[n]);
+            curve.normals.push_back(raster_.normals[n]);
+        }
+        return judge(machine_, node(k), node(l), curve, sampling_.tip);
+    }
+
+private:
+    static constexpr int raster = 4; // curve points an interval
+
+    void add(const ToolPose& pose) {
+        raster_.points.push_back(pose.tip);
+        raster_.normals.push_back(pose.axis);
+    }
+    [[nodiscard]] const Node& node(int n) const { return nodes_[static_cast<std::size_t>(n)]; }
+
+    const MachineModel& machine_;
+    grid::Sampling sampling_;
+    std::vector<Node> nodes_;
+    Curve raster_;
+};
+
+/// A track on the surface as a polyline, `steps` chords a move.
+std::vector<Vec3> track_line(const BezierPatch& patch,
+                             const grid::Grid& grid,
+                             grid::TrackDirection direction,
+                             int track,
+                             int steps) {
+    std::vector<Vec3> line;
+    for (int k = 0; k + 1 < grid.nodes_per_track(direction); ++k) {
+        const Vec2& a = grid.track_node(direction, track, k);
+        const Vec2& b = grid.track_node(direction, track, k + 1);
+        for (int s = line.empty() ? 0 : 1; s <= steps; ++s) {
+            const Vec2 uv = between(a, b, static_cast<double>(s) / steps);
+            line.push_back(patch.position(uv.x(), uv.y()));
+        }
+    }
+    return line;
+}
+
+double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    const Curve curve{to, std::vector<Vec3>(to.size(), Vec3::UnitZ())};
+    double squared = 0.0;
+    for (const Vec3& p : from) {
+        squared = std::max(squared, nearest_on(curve, p).squared);
+    }
+    return std::sqrt(squared);
+}
+
+} // namespace
+
+KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool flipped)
+    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped) {}
+
+grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
+    Curve curve;
+    for (int c = 0; c <= sampling.curve; ++c) {
+        const ToolPose pose =
+            pose_at(patch_, between(a, b, static_cast<double>(c) / sampling.curve), flipped_);
+        curve.points.push_back(pose.tip);
+        curve.normals.push_back(pose.axis);
+    }
+    const Node first = node_at(machine_, {curve.points.front(), curve.normals.front()});
+    const Node second = node_at(machine_, {curve.points.back(), curve.normals.back()});
+    return judge(machine_, first, second, curve, sampling.tip);
+}
+
+std::unique_ptr<grid::LatticeErrors> KinematicError::lattice(std::span<const Vec2> nodes,
+                                                             grid::Sampling sampling) const {
+    return std::make_unique<Lattice>(patch_, machine_, flipped_, nodes, sampling);
+}
+
+double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection direction) const {
+    constexpr int steps = 4;
+    const int tracks = grid.track_count(direction);
+    std::vector<std::vector<Vec3>> lines;
+    for (int t = 0; t < tracks; ++t) {
+        lines.push_back(track_line(patch_, grid, direction, t, steps));
+    }
+    std::vector<double> gaps(static_cast<std::size_t>(tracks - 1));
+    parallel_for(tracks - 1, 1, [&](std::ptrdiff_t t) {
+        const auto n = static_cast<std::size_t>(t);
+        gaps[n] = std::max(largest_distance(lines[n], lines[n + 1]), largest_distance(lines[n + 1], lines[n]));
+    });
+    return *std::max_element(gaps.begin(), gaps.end());
+}
+
+} // namespace millwright::toolpath

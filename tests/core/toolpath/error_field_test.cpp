@@ -1,0 +1,92 @@
+#include "core/toolpath/error_field.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/toolpath/zigzag.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::toolpath {
+namespace {
+
+using grid::Grid;
+using grid::TrackDirection;
+
+struct Case {
+    geometry::BezierPatch patch;
+    kinematics::MachineModel machine;
+    Toolpath path;
+    AxisPath axes;
+
+    Case(const char* surface, const char* machine_name, int n)
+        : patch(test::patch(surface)), machine(test::machine(machine_name)),
+          path(zigzag(patch, Grid::uniform(n, n), TrackDirection::along_v, false)),
+          axes(sequence(machine, path)) {}
+
+    [[nodiscard]] ErrorField field(int samples) const {
+        return error_field(patch, machine, path, axes, samples, {});
+    }
+};
+
+TEST(ErrorField, ClosestIsNeverLargerThanParametricAndBothAreFinite) {
+    const Case dome("dome", "rotary-tilt-listing", 20);
+    for (const MoveDeviation& move : dome.field(10).moves) {
+        EXPECT_LE(move.closest, move.param + 1e-12);
+        EXPECT_TRUE(std::isfinite(move.param) && std::isfinite(move.axis));
+        EXPECT_GT(move.length, 0.0);
+    }
+}
+
+TEST(ErrorField, GrowsWithTheNumberOfSamplesOnNestedTimes) {
+    const Case dome("dome", "rotary-tilt-listing", 12);
+    const auto few = dome.field(1).moves, many = dome.field(3).moves; // 1/2 is among 1/4, 1/2, 3/4
+    for (std::size_t n = 0; n < few.size(); ++n) {
+        EXPECT_GE(many[n].closest, few[n].closest);
+    }
+}
+
+TEST(ErrorField, OfTheDomeIsLargerThanOfTheSineSheet) {
+    const Case dome("dome", "rotary-tilt-listing", 20), sine("sine", "rotary-tilt-listing", 20);
+    const auto d = summary(dome.field(10), Distance::closest, MoveKind::track);
+    const auto s = summary(sine.field(10), Distance::closest, MoveKind::track);
+    EXPECT_GT(d.mean, s.mean);
+    EXPECT_GT(d.max, s.max);
+}
+
+TEST(ErrorField, IsTheSameBytesOnAnyNumberOfThreads) {
+    const Case dome("dome", "rotary-tilt-listing", 10);
+    set_thread_count(1);
+    const auto one = dome.field(5).moves;
+    for (const int threads : {2, 7}) {
+        set_thread_count(threads);
+        const auto several = dome.field(5).moves;
+        for (std::size_t n = 0; n < one.size(); ++n) {
+            EXPECT_EQ(one[n].closest, several[n].closest);
+            EXPECT_EQ(one[n].axis, several[n].axis);
+        }
+    }
+    set_thread_count(0);
+}
+
+TEST(ErrorField, CountsTrackAndCrossMovesApart) {
+    const Case dome("dome", "rotary-tilt-listing", 6);
+    const ErrorField field = dome.field(4);
+    int cross = 0;
+    for (const MoveDeviation& move : field.moves) {
+        cross += move.kind == MoveKind::cross ? 1 : 0;
+    }
+    EXPECT_EQ(cross, 5);
+    EXPECT_EQ(std::ssize(field.moves), 35);
+}
+
+TEST(ErrorField, StopsWhenCancelled) {
+    const Case dome("dome", "rotary-tilt-listing", 6);
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)error_field(dome.patch, dome.machine, dome.path, dome.axes, 4, {nullptr, stop.get_token()}),
+                 Cancelled);
+}
+
+} // namespace
+} // namespace millwright::toolpath

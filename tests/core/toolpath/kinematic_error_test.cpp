@@ -1,0 +1,103 @@
+#include "core/toolpath/kinematic_error.h"
+
+#include "core/base/units.h"
+#include "core/toolpath/error_field.h"
+#include "core/toolpath/zigzag.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::toolpath {
+namespace {
+
+using grid::Grid;
+using grid::TrackDirection;
+
+grid::ErrorSummary uniform_summary(const KinematicError& error, int n) {
+    return grid::summary(measure(error, Grid::uniform(n, n), TrackDirection::along_v, grid::fine));
+}
+
+TEST(KinematicError, AgreesWithTheErrorFieldOfTheWholePath) {
+    // The field measures to the surface, the model to the curve: never below it, and equal where the curve is
+    // the nearest part of the surface.
+    const auto patch = test::patch("two-bell");
+    const auto machine = test::machine("ac-table");
+    const Grid grid = Grid::uniform(16, 16);
+    const Toolpath path = zigzag(patch, grid, TrackDirection::along_v, false);
+    const ErrorField field = error_field(patch, machine, path, sequence(machine, path), 10, {});
+    const auto error = test::two_bell_error();
+    for (std::size_t n = 0; n < field.moves.size(); ++n) {
+        if (field.moves[n].kind != MoveKind::track) {
+            continue;
+        }
+        const auto move = error.move(path.points[n].origin.uv, path.points[n + 1].origin.uv, {10, 200});
+        EXPECT_LE(field.moves[n].closest, move.tip + 1e-3) << n;
+        EXPECT_LE(move.tip, field.moves[n].param + 1e-3) << n;
+    }
+}
+
+TEST(KinematicError, OfALatticeEqualsThatOfSingleMoves) {
+    const auto error = test::dome_error();
+    std::vector<Vec2> nodes;
+    for (int k = 0; k <= 40; ++k) {
+        nodes.emplace_back(0.3, k / 40.0);
+    }
+    const auto lattice = error.lattice(nodes, {10, 16});
+    for (const auto& [k, l] : {std::pair{0, 4}, {3, 7}, {10, 18}, {36, 40}, {20, 24}}) {
+        const auto pair = lattice->between(k, l);
+        const auto single =
+            error.move(nodes[static_cast<std::size_t>(k)], nodes[static_cast<std::size_t>(l)], {10, 16});
+        EXPECT_NEAR(pair.tip, single.tip, 1e-9);
+        EXPECT_NEAR(pair.axis, single.axis, 1e-9);
+        EXPECT_NEAR(pair.length, single.length, 1e-9);
+    }
+}
+
+TEST(KinematicError, ShrinksWithTheSquareOfTheStepAwayFromPoles) {
+    const auto error = test::dome_error();
+    const double coarse = error.move({0.2, 0.2}, {0.2, 0.25}, grid::fine).tip;
+    const double half = error.move({0.2, 0.2125}, {0.2, 0.2375}, grid::fine).tip;
+    EXPECT_NEAR(coarse / half, 4.0, 0.3);
+}
+
+TEST(KinematicError, ADegenerateNormalIsOutOfReach) {
+    geometry::ControlNet net = test::patch("dome").net();
+    for (int j = 0; j < 4; ++j) {
+        net.point(0, j) = {10, 10, 1};
+    }
+    const KinematicError error(geometry::BezierPatch(net), test::machine("ac-table"), false);
+    EXPECT_TRUE(std::isinf(error.move({0.0, 0.2}, {0.0, 0.4}, grid::coarse).tip));
+}
+
+TEST(TrackGap, OfStraightTracksOnAPlaneIsTheirDistance) {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    net.point(1, 0) = {100, 0, 0};
+    net.point(0, 1) = {0, 60, 0};
+    net.point(1, 1) = {100, 60, 0};
+    const KinematicError error(geometry::BezierPatch(net), test::machine("ac-table"), false);
+    EXPECT_NEAR(error.track_gap(Grid::uniform(11, 4), TrackDirection::along_v), 10.0, 1e-12);
+    EXPECT_NEAR(error.track_gap(Grid::uniform(11, 4), TrackDirection::along_u), 20.0, 1e-12);
+}
+
+TEST(KinematicError, HasTheUniformFiguresOfTheDome) {
+    // Independent prototype, moves inside tracks, largest distance to the surface curve: max / mean, mm.
+    const auto error = test::dome_error();
+    const auto at10 = uniform_summary(error, 10), at20 = uniform_summary(error, 20);
+    EXPECT_NEAR(at10.max, 15.76, 0.01);
+    EXPECT_NEAR(at10.mean, 1.594, 0.001);
+    EXPECT_NEAR(at20.max, 15.86, 0.01);
+    EXPECT_NEAR(at20.mean, 0.428, 0.001);
+    EXPECT_NEAR(to_degrees(at20.axis_max), 23.1, 0.1);
+}
+
+TEST(KinematicError, HasTheUniformFiguresOfTheTwoBells) {
+    const auto error = test::two_bell_error();
+    const auto at20 = uniform_summary(error, 20), at40 = uniform_summary(error, 40);
+    EXPECT_NEAR(at20.max, 6.48, 0.01);
+    EXPECT_NEAR(at20.mean, 0.734, 0.001);
+    EXPECT_NEAR(at40.max, 6.61, 0.01);
+    EXPECT_NEAR(at40.mean, 0.199, 0.001);
+}
+
+} // namespace
+} // namespace millwright::toolpath
