@@ -1,0 +1,77 @@
+// A program: what one machine shall do, block by block, in its own axis coordinates. Lengths mm, angles rad,
+// times s, speeds mm/s. Positions are programmed ones (zero offsets not yet added), as in the listing.
+#pragma once
+
+#include "core/kinematics/machine_model.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+
+enum class BlockKind {
+    comment,
+    spindle_on, ///< clockwise, at `Block::spindle_rpm`
+    spindle_off,
+    coolant_on,
+    coolant_off,
+    dwell, ///< stands for `Block::duration`
+    rapid, ///< straight in axis space, as fast as the axes can
+    feed,  ///< straight in axis space, in `Block::duration`
+    end
+};
+
+/// What a move is for.
+enum class MoveRole { none, approach, plunge, cut, link, retract };
+
+/// A set of axes, one bit an axis index.
+class AxisSet {
+public:
+    AxisSet() = default;
+    [[nodiscard]] static AxisSet all(int axis_count);
+    [[nodiscard]] static AxisSet only(int axis);
+    [[nodiscard]] bool contains(int axis) const { return ((bits_ >> axis) & 1U) != 0; }
+
+    friend bool operator==(const AxisSet&, const AxisSet&) = default;
+
+private:
+    unsigned bits_ = 0;
+};
+
+struct Block {
+    BlockKind kind = BlockKind::comment;
+    MoveRole role = MoveRole::none;
+    kinematics::AxisPositions target; ///< after the block, exactly as written; every block has one
+    AxisSet named;                    ///< axes that a move positions, the others are where they were
+    double duration = 0.0;            ///< feed: of the move, s; dwell: s
+    double feed = 0.0;                ///< feed: mean speed of the tool tip on the part, mm/s
+    double spindle_rpm = 0.0;
+    int path_point = -1; ///< the point of the tool path where the block ends, or -1
+    std::string text;    ///< of a comment
+
+    [[nodiscard]] bool moves() const { return kind == BlockKind::rapid || kind == BlockKind::feed; }
+};
+
+struct ProgramAxis {
+    char letter = 'X';
+    kinematics::AxisKind kind = kinematics::AxisKind::linear;
+
+    friend bool operator==(const ProgramAxis&, const ProgramAxis&) = default;
+};
+
+struct Program {
+    std::string machine;             ///< name of the machine it was made for
+    std::vector<ProgramAxis> axes;   ///< in the order of MachineModel::axes()
+    kinematics::AxisPositions start; ///< where the axes are taken to be before the first block
+    std::vector<Block> blocks;
+
+    [[nodiscard]] int block_count() const { return static_cast<int>(blocks.size()); }
+};
+
+/// Where the axes stand before block `n`.
+[[nodiscard]] const kinematics::AxisPositions& position_before(const Program& program, int n);
+
+/// The block that ends at each of `point_count` points of the tool path; -1 where none does.
+[[nodiscard]] std::vector<int> blocks_of_points(const Program& program, int point_count);
+
+} // namespace millwright::gcode

@@ -1,0 +1,54 @@
+// A job: a program on its way to a machine, and how far it provably got.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/gcode/writer.h"
+#include "core/machine/driver.h"
+#include "core/motion/planner.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine {
+
+struct Job {
+    std::string name;       ///< also of its log file: letters, digits, '-', '_' and '.'
+    std::string project;    ///< file or title it comes from
+    std::string started_at; ///< date and time for people, as the caller wants it in the log; may be empty
+    std::shared_ptr<const kinematics::MachineModel> machine;
+    std::shared_ptr<const gcode::Program> program;
+    std::shared_ptr<const gcode::Listing> listing;
+    motion::PlannerSettings planner;
+};
+
+enum class JobEnd {
+    done,      ///< the driver executed every block
+    stopped,   ///< by stop(), from here or at the machine
+    cancelled, ///< by its Progress
+    fault      ///< alarm or lost link
+};
+
+[[nodiscard]] std::string_view to_text(JobEnd end);
+
+/// How a job ended. `executed_blocks` were executed for certain, `block` perhaps in part.
+struct JobOutcome {
+    JobEnd end = JobEnd::fault;
+    int executed_blocks = 0;
+    int blocks = 0;
+    double elapsed = 0.0; ///< s since the start
+    kinematics::AxisPositions position;
+    std::string sentence; ///< what happened, for people
+    std::filesystem::path log_file;
+};
+
+/// What is wrong with a job before it is sent: axes that are not the machine's, positions outside the limits,
+/// a start of the machine outside of them, a program without an end. Empty: nothing.
+[[nodiscard]] std::vector<Diagnostic> preflight(const Job& job);
+
+/// FNV-1a of the listing as 16 hexadecimal digits: tells whether a log belongs to a program, no more.
+[[nodiscard]] std::string program_hash(std::string_view listing);
+
+} // namespace millwright::machine
