@@ -46,8 +46,8 @@ struct Workpiece {
     [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped}; }
 };
 
-/// `samples` times inside each move, as in toolpath::error_field. Throws Error where a pose cannot be reached or
-/// a normal is degenerate.
+/// `samples` times inside each move, as in toolpath::error_field. Throws Error where a pose cannot be reached
+/// or a normal is degenerate.
 [[nodiscard]] Evaluation
 evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress);
 

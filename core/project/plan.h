@@ -1,5 +1,6 @@
-// The road as pure functions of a Project: surface and machine, the three grids with their errors, the program
-// of the chosen one, its trajectory. The command line calls make_plan; the workbench's Pipeline calls the parts.
+// The road as pure functions of a Project: surface and machine, the three grids with their errors, the
+// program of the chosen one, its trajectory. The command line calls make_plan; the workbench's Pipeline calls
+// the parts.
 #pragma once
 
 #include "core/gcode/program.h"

@@ -1,6 +1,6 @@
-// All that the user entered, as one plain value: copying it is the undo step, comparing two tells what is stale,
-// saving it is one JSON file. Everything else is derived from it (plan.h, pipeline.h) and can be thrown away.
-// People's units at this border: mm, deg, mm/min.
+// All that the user entered, as one plain value: copying it is the undo step, comparing two tells what is
+// stale, saving it is one JSON file. Everything else is derived from it (plan.h, pipeline.h) and can be
+// thrown away. People's units at this border: mm, deg, mm/min.
 #pragma once
 
 #include "core/geometry/surface.h"
@@ -15,10 +15,10 @@ namespace millwright::project {
 
 /// The design: the nets themselves, and the preset they started from for people to see.
 struct SurfaceInput {
-    std::string preset;                       ///< id of the preset it started from; empty if none
+    std::string preset;                        ///< id of the preset it started from; empty if none
     std::vector<geometry::ControlNet> patches; ///< at least one
-    int machined_patch = 0;                   ///< index of the patch that the tool path covers
-    bool flipped = false;                     ///< cut on the side against S_u x S_v
+    int machined_patch = 0;                    ///< index of the patch that the tool path covers
+    bool flipped = false;                      ///< cut on the side against S_u x S_v
 
     friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };
@@ -40,20 +40,20 @@ enum class WeightSource { error, expression, w1, w2, w3, w4 };
 struct EllipticInput {
     WeightSource weight = WeightSource::error;
     std::string expression = "1 + 10*exp(-50*((u-0.5)^2+(v-0.5)^2))"; ///< of u and v; used if so chosen
-    double adaptation = 100.0;   ///< LV
-    double orthogonality = 0.0;  ///< LO
-    double tolerance = 1e-3;     ///< of the residual norm
-    int max_iterations = 250;    ///< inner, a round
-    int max_rounds = 10;         ///< outer
+    double adaptation = 100.0;                                        ///< LV
+    double orthogonality = 0.0;                                       ///< LO
+    double tolerance = 1e-3;                                          ///< of the residual norm
+    int max_iterations = 250;                                         ///< inner, a round
+    int max_rounds = 10;                                              ///< outer
     bool sliding_boundary = true;
 
     friend bool operator==(const EllipticInput&, const EllipticInput&) = default;
 };
 
 struct TracksInput {
-    int lattice = 0;           ///< places a track to choose from; 0: max(160, 4 n)
+    int lattice = 0;              ///< places a track to choose from; 0: max(160, 4 n)
     double length_exponent = 2.0; ///< p of the cost sum length * error^p
-    double axis_weight = 1.0;  ///< mm that one degree of axis deviation counts
+    double axis_weight = 1.0;     ///< mm that one degree of axis deviation counts
     int polish_sweeps = 20;
 
     friend bool operator==(const TracksInput&, const TracksInput&) = default;

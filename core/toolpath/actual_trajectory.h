@@ -1,5 +1,5 @@
-// What the tool really does between two poses: the machine interpolates its axes linearly, the part sees a curve.
-// Source: Parasilmongkol 1997, ch. 3.4: M(t), A(t), B(t) linear in t, W(t) = inverse map of them.
+// What the tool really does between two poses: the machine interpolates its axes linearly, the part sees a
+// curve. Source: Parasilmongkol 1997, ch. 3.4: M(t), A(t), B(t) linear in t, W(t) = inverse map of them.
 #pragma once
 
 #include "core/geometry/tool_pose.h"

@@ -76,7 +76,8 @@ grid::ErrorSummary summary(const ErrorField& field, Distance distance, MoveKind 
     std::vector<grid::MoveError> moves;
     for (const MoveDeviation& move : field.moves) {
         if (move.kind == kind) {
-            moves.push_back({distance == Distance::closest ? move.closest : move.param, move.axis, move.length});
+            moves.push_back(
+                {distance == Distance::closest ? move.closest : move.param, move.axis, move.length});
         }
     }
     return moves.empty() ? grid::ErrorSummary{} : grid::summary(moves);

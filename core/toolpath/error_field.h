@@ -13,10 +13,10 @@ namespace millwright::toolpath {
 /// The worst of one move. Lengths mm, angles rad.
 struct MoveDeviation {
     MoveKind kind = MoveKind::track;
-    double closest = 0.0; ///< largest distance of the true tip from the nearest surface point
-    double param = 0.0;   ///< largest distance from the surface point at the same fraction of the parameters
-    double axis = 0.0;    ///< largest angle between tool axis and the normal at the nearest surface point
-    double length = 0.0;  ///< of the straight move
+    double closest = 0.0;  ///< largest distance of the true tip from the nearest surface point
+    double param = 0.0;    ///< largest distance from the surface point at the same fraction of the parameters
+    double axis = 0.0;     ///< largest angle between tool axis and the normal at the nearest surface point
+    double length = 0.0;   ///< of the straight move
     double worst_at = 0.5; ///< t of the largest `closest`
 };
 

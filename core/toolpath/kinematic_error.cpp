@@ -99,11 +99,8 @@ double curve_length(const Curve& curve) {
     return sum;
 }
 
-grid::MoveError judge(const MachineModel& machine,
-                      const Node& first,
-                      const Node& second,
-                      const Curve& curve,
-                      int tip_samples) {
+grid::MoveError judge(
+    const MachineModel& machine, const Node& first, const Node& second, const Curve& curve, int tip_samples) {
     const Node a = off_the_pole(machine, first, second);
     const Node b = off_the_pole(machine, second, first);
     grid::MoveError error{infinity, infinity, curve_length(curve)};
@@ -125,7 +122,9 @@ grid::MoveError judge(const MachineModel& machine,
     return error;
 }
 
-Vec2 between(const Vec2& a, const Vec2& b, double t) { return (1.0 - t) * a + t * b; }
+Vec2 blend(const Vec2& a, const Vec2& b, double t) {
+    return (1.0 - t) * a + t * b;
+}
 
 /// Nodes and a fine raster of the curve through them, computed once for all pairs.
 class Lattice final : public grid::LatticeErrors {
@@ -143,7 +142,7 @@ public:
             add(pose);
             for (int s = 1; n + 1 < nodes.size() && s < raster; ++s) {
                 const double t = static_cast<double>(s) / raster;
-                add(pose_at(patch, between(nodes[n], nodes[n + 1], t), flipped));
+                add(pose_at(patch, blend(nodes[n], nodes[n + 1], t), flipped));
             }
         }
     }
@@ -177,17 +176,14 @@ private:
 };
 
 /// A track on the surface as a polyline, `steps` chords a move.
-std::vector<Vec3> track_line(const BezierPatch& patch,
-                             const grid::Grid& grid,
-                             grid::TrackDirection direction,
-                             int track,
-                             int steps) {
+std::vector<Vec3> track_line(
+    const BezierPatch& patch, const grid::Grid& grid, grid::TrackDirection direction, int track, int steps) {
     std::vector<Vec3> line;
     for (int k = 0; k + 1 < grid.nodes_per_track(direction); ++k) {
         const Vec2& a = grid.track_node(direction, track, k);
         const Vec2& b = grid.track_node(direction, track, k + 1);
         for (int s = line.empty() ? 0 : 1; s <= steps; ++s) {
-            const Vec2 uv = between(a, b, static_cast<double>(s) / steps);
+            const Vec2 uv = blend(a, b, static_cast<double>(s) / steps);
             line.push_back(patch.position(uv.x(), uv.y()));
         }
     }
@@ -211,8 +207,7 @@ KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool fli
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
     Curve curve;
     for (int c = 0; c <= sampling.curve; ++c) {
-        const ToolPose pose =
-            pose_at(patch_, between(a, b, static_cast<double>(c) / sampling.curve), flipped_);
+        const ToolPose pose = pose_at(patch_, blend(a, b, static_cast<double>(c) / sampling.curve), flipped_);
         curve.points.push_back(pose.tip);
         curve.normals.push_back(pose.axis);
     }
@@ -236,7 +231,8 @@ double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection di
     std::vector<double> gaps(static_cast<std::size_t>(tracks - 1));
     parallel_for(tracks - 1, 1, [&](std::ptrdiff_t t) {
         const auto n = static_cast<std::size_t>(t);
-        gaps[n] = std::max(largest_distance(lines[n], lines[n + 1]), largest_distance(lines[n + 1], lines[n]));
+        gaps[n] =
+            std::max(largest_distance(lines[n], lines[n + 1]), largest_distance(lines[n + 1], lines[n]));
     });
     return *std::max_element(gaps.begin(), gaps.end());
 }

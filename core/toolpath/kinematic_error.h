@@ -16,8 +16,7 @@ class KinematicError final : public grid::ErrorModel {
 public:
     KinematicError(geometry::BezierPatch patch, kinematics::MachineModel machine, bool flipped);
 
-    [[nodiscard]] grid::MoveError
-    move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const override;
+    [[nodiscard]] grid::MoveError move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const override;
     [[nodiscard]] std::unique_ptr<grid::LatticeErrors> lattice(std::span<const Vec2> nodes,
                                                                grid::Sampling sampling) const override;
     [[nodiscard]] double track_gap(const grid::Grid& grid, grid::TrackDirection direction) const override;

@@ -35,9 +35,12 @@ position_at(const MachineModel& machine, const Toolpath& path, std::size_t n, co
     return kinematics::nearest_branch(machine, solution.branches, previous);
 }
 
-/// What a track's first point counts as its past: the point before, or, on a pole, the first one off the pole.
-AxisPositions
-past_of_start(const MachineModel& machine, const Toolpath& path, std::size_t n, const AxisPositions& previous) {
+/// What a track's first point counts as its past: the point before, or, on a pole, the first one off the
+/// pole.
+AxisPositions past_of_start(const MachineModel& machine,
+                            const Toolpath& path,
+                            std::size_t n,
+                            const AxisPositions& previous) {
     std::size_t next = n;
     while (next < path.points.size() && kinematics::at_pole(machine, path.points[next].pose.axis)) {
         ++next;
@@ -70,7 +73,8 @@ AxisPath sequence(const MachineModel& machine, const Toolpath& toolpath) {
     return path;
 }
 
-AxisPath sequence_by_formulas(const MachineModel& machine, const Toolpath& toolpath, kinematics::AngleMode mode) {
+AxisPath
+sequence_by_formulas(const MachineModel& machine, const Toolpath& toolpath, kinematics::AngleMode mode) {
     if (machine.description().angle_formulas != kinematics::AngleFormulas::rotary_tilt) {
         throw Error(fmt::format("machine '{}' does not offer the thesis's angle formulas", machine.name()));
     }

@@ -16,13 +16,13 @@ struct AxisPath {
 };
 
 /// Each point takes the branch with the least rotary travel from the point before; the first takes the branch
-/// nearest to the axes' zero. On a pole the free angle is that of the point before, so that no rotation in place
-/// is hidden; at the start of a track, which is reached off the part, it is that of the next point off the pole.
-/// Throws Error with the point's node and the reason where a pose cannot be reached.
+/// nearest to the axes' zero. On a pole the free angle is that of the point before, so that no rotation in
+/// place is hidden; at the start of a track, which is reached off the part, it is that of the next point off
+/// the pole. Throws Error with the point's node and the reason where a pose cannot be reached.
 [[nodiscard]] AxisPath sequence(const kinematics::MachineModel& machine, const Toolpath& toolpath);
 
-/// The same with rotary angles by the thesis's faulty formulas, point by point, for regression only: the tip is
-/// exact at every point, the tool axis is not. Throws Error if the machine does not offer these formulas.
+/// The same with rotary angles by the thesis's faulty formulas, point by point, for regression only: the tip
+/// is exact at every point, the tool axis is not. Throws Error if the machine does not offer these formulas.
 [[nodiscard]] AxisPath sequence_by_formulas(const kinematics::MachineModel& machine,
                                             const Toolpath& toolpath,
                                             kinematics::AngleMode mode);

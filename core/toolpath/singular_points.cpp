@@ -9,7 +9,8 @@ namespace millwright::toolpath {
 
 namespace {
 
-/// The part of N = S_u x S_v across the pole, with its derivatives: zero where the normal lies along the pole.
+/// The part of N = S_u x S_v across the pole, with its derivatives: zero where the normal lies along the
+/// pole.
 struct Across {
     Vec2 value;
     Eigen::Matrix2d derivative;

@@ -14,9 +14,9 @@ struct SingularPoint {
     Vec3 position = Vec3::Zero();
 };
 
-/// All points of the patch whose normal is parallel to the machine's pole direction, by Newton from a raster of
-/// 24 x 24 starts, each found once, ordered by u, then v. Curves of such points (a flat or cylindrical part)
-/// give the points that Newton meets on them. Empty for a machine without rotary axes.
+/// All points of the patch whose normal is parallel to the machine's pole direction, by Newton from a raster
+/// of 24 x 24 starts, each found once, ordered by u, then v. Curves of such points (a flat or cylindrical
+/// part) give the points that Newton meets on them. Empty for a machine without rotary axes.
 [[nodiscard]] std::vector<SingularPoint> singular_points(const geometry::BezierPatch& patch,
                                                          const kinematics::MachineModel& machine);
 

@@ -93,7 +93,8 @@ ObliqueView::ObliqueView(const std::vector<Vec3>& points) {
 
 Eigen::Vector2i ObliqueView::pixel(const Vec3& p) const {
     const double c = std::cos(listing_pi / 6.0), s = std::sin(listing_pi / 6.0);
-    return {static_cast<int>(10.0 + R_ * (p.x() + p.y() * c)), static_cast<int>(400.0 - R_ * (p.z() + p.y() * s))};
+    return {static_cast<int>(10.0 + R_ * (p.x() + p.y() * c)),
+            static_cast<int>(400.0 - R_ * (p.z() + p.y() * s))};
 }
 
 std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, int n) {
@@ -142,10 +143,8 @@ std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
     return result;
 }
 
-std::string toolpath_dat(const geometry::BezierPatch& patch,
-                         const RotaryTilt& machine,
-                         int n,
-                         ListingFaults faults) {
+std::string
+toolpath_dat(const geometry::BezierPatch& patch, const RotaryTilt& machine, int n, ListingFaults faults) {
     const std::vector<Vec3> samples = listing_samples(patch, n);
     const ObliqueView view(samples);
     const std::vector<Vec3> middles = listing_mid_points(patch, machine, n, faults);

@@ -1,7 +1,7 @@
-// From a grid to the poses of the cutter on the part, and from there to what the machine really does: strategies
-// (zigzag), the branch of every pose (sequencing), the actual trajectory between poses, the error field, the
-// machine's singular points on the surface. The tool is a point at the end of an axis along the surface normal
-// (Parasilmongkol 1997, ch. 3), so the cutter location is the cutter contact point.
+// From a grid to the poses of the cutter on the part, and from there to what the machine really does:
+// strategies (zigzag), the branch of every pose (sequencing), the actual trajectory between poses, the error
+// field, the machine's singular points on the surface. The tool is a point at the end of an axis along the
+// surface normal (Parasilmongkol 1997, ch. 3), so the cutter location is the cutter contact point.
 #pragma once
 
 #include "core/geometry/tool_pose.h"
@@ -20,8 +20,8 @@ enum class MoveKind {
 
 /// Where a path point comes from.
 struct GridOrigin {
-    int i = 0, j = 0;          ///< grid node
-    Vec2 uv = Vec2::Zero();    ///< its parameters
+    int i = 0, j = 0;       ///< grid node
+    Vec2 uv = Vec2::Zero(); ///< its parameters
 };
 
 struct PathPoint {

@@ -14,10 +14,11 @@ geometry::ToolPose pose_at(const geometry::BezierPatch& patch, const Vec2& uv, b
     const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     const auto normal = patch.unit_normal(at);
     if (!normal) {
-        throw Error(fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: its control points coincide "
-                                "or its tangents are parallel there",
-                                uv.x(),
-                                uv.y()));
+        throw Error(
+            fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: its control points coincide "
+                        "or its tangents are parallel there",
+                        uv.x(),
+                        uv.y()));
     }
     return {at.position, flipped ? Vec3(-*normal) : *normal};
 }
@@ -32,8 +33,10 @@ double length(const Toolpath& toolpath) {
     return sum;
 }
 
-Toolpath
-zigzag(const geometry::BezierPatch& patch, const grid::Grid& grid, grid::TrackDirection direction, bool flipped) {
+Toolpath zigzag(const geometry::BezierPatch& patch,
+                const grid::Grid& grid,
+                grid::TrackDirection direction,
+                bool flipped) {
     Toolpath toolpath;
     toolpath.direction = direction;
     const int tracks = grid.track_count(direction);

@@ -9,7 +9,9 @@ namespace millwright::toolpath {
 
 /// The tool axis is the surface normal, on the side of S_u x S_v, or the other one if `flipped`.
 /// Throws Error naming the parameters where the normal is degenerate.
-[[nodiscard]] Toolpath
-zigzag(const geometry::BezierPatch& patch, const grid::Grid& grid, grid::TrackDirection direction, bool flipped);
+[[nodiscard]] Toolpath zigzag(const geometry::BezierPatch& patch,
+                              const grid::Grid& grid,
+                              grid::TrackDirection direction,
+                              bool flipped);
 
 } // namespace millwright::toolpath

@@ -12,9 +12,13 @@ inline geometry::BezierPatch patch(std::string_view preset) {
 }
 
 /// The dome on the thesis's machine with the constants of the listing.
-inline toolpath::KinematicError dome_error() { return {patch("dome"), machine("rotary-tilt-listing"), false}; }
+inline toolpath::KinematicError dome_error() {
+    return {patch("dome"), machine("rotary-tilt-listing"), false};
+}
 
-/// The two bells on the A-on-C table, 50 mm above its centre.
-inline toolpath::KinematicError two_bell_error() { return {patch("two-bell"), machine("ac-table"), false}; }
+/// The two bells on the A-on-C table, whose axes meet 50 mm above the part's origin.
+inline toolpath::KinematicError two_bell_error() {
+    return {patch("two-bell"), machine("ac-table"), false};
+}
 
 } // namespace millwright::test

@@ -62,7 +62,9 @@ TEST(MachineFile, FaultsAreReportedWithLineAndField) {
     EXPECT_NE(fault("\"version\": 1", "\"version\": 9").find("version"), std::string::npos);
     EXPECT_NE(fault("[-120, 120]", "[120, -120]").find("lower limit"), std::string::npos);
     EXPECT_NE(fault("\"axis\": \"C\"", "\"axis\": \"A\"").find("stands twice"), std::string::npos);
-    EXPECT_NE(fault("[0, 0, 50]", "[0, 0, 1e300]").find("workpiece_offset[2]"), std::string::npos);
+    EXPECT_NE(fault("\"workpiece_offset\": [0, 0, 0]", "\"workpiece_offset\": [0, 0, 1e300]")
+                  .find("workpiece_offset[2]"),
+              std::string::npos);
 }
 
 TEST(MachineFile, AMissingFileIsNamed) {

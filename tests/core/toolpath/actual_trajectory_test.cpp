@@ -39,14 +39,13 @@ TEST(ActualTrajectory, MidPointDeviationEqualsTheClosedForm) {
         a << machine_from_workpiece(set, p1, A, B1), A, B1;
         b << machine_from_workpiece(set, p2, A, B2), A, B2;
         const auto plane = [&](const Vec3& p) {
-            const double q =
-                set.e + (set.a + p.x()) * std::cos(A) - (set.b + p.y()) * std::sin(A);
+            const double q = set.e + (set.a + p.x()) * std::cos(A) - (set.b + p.y()) * std::sin(A);
             return std::complex<double>(set.AB - set.c - p.z(), q);
         };
         const std::complex<double> mean = 0.5 * (plane(p1) + plane(p2)), step = plane(p2) - plane(p1);
         const double dB = B2 - B1;
-        const std::complex<double> closed = -mean * (1.0 - std::cos(dB / 2.0)) -
-                                            std::complex<double>(0.0, 0.5) * step * std::sin(dB / 2.0);
+        const std::complex<double> closed =
+            -mean * (1.0 - std::cos(dB / 2.0)) - std::complex<double>(0.0, 0.5) * step * std::sin(dB / 2.0);
         const std::complex<double> actual = plane(actual_pose(machine, a, b, 0.5).tip) - mean;
         EXPECT_LT(std::abs(actual - closed), 1e-11);
     }

@@ -84,8 +84,9 @@ TEST(ErrorField, StopsWhenCancelled) {
     const Case dome("dome", "rotary-tilt-listing", 6);
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW((void)error_field(dome.patch, dome.machine, dome.path, dome.axes, 4, {nullptr, stop.get_token()}),
-                 Cancelled);
+    EXPECT_THROW(
+        (void)error_field(dome.patch, dome.machine, dome.path, dome.axes, 4, {nullptr, stop.get_token()}),
+        Cancelled);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-// The error at all zigzag mid-points on uniform grids, by the thesis's rules: an independent program's figures
-// for Parasilmongkol 1997's surfaces, mm, to 1e-4. "chord" ignores the machine; "kin" uses the consistent
-// angles with A2 within 90 degrees of A1 and, where sqrt(i^2+j^2) <= 0.01, the other point's A.
+// The error at all zigzag mid-points on uniform grids, by the thesis's rules: an independent program's
+// figures for Parasilmongkol 1997's surfaces, mm, to 1e-4. "chord" ignores the machine; "kin" uses the
+// consistent angles with A2 within 90 degrees of A1 and, where sqrt(i^2+j^2) <= 0.01, the other point's A.
 #include "core/base/units.h"
 #include "core/geometry/closest_point.h"
 #include "core/kinematics/rotary_tilt.h"
@@ -36,9 +36,14 @@ double principal_A(const Vec3& n) {
     return rotary_tilt_angles(kinematics::AngleMode::consistent, n).A;
 }
 
-bool vertical(const Vec3& n) { return std::hypot(n.x(), n.y()) <= kinematics::vertical_threshold; }
+bool vertical(const Vec3& n) {
+    return std::hypot(n.x(), n.y()) <= kinematics::vertical_threshold;
+}
 
-Vec3 mid_point(const kinematics::MachineModel& machine, const PathPoint& from, const PathPoint& to, Mode mode) {
+Vec3 mid_point(const kinematics::MachineModel& machine,
+               const PathPoint& from,
+               const PathPoint& to,
+               Mode mode) {
     if (mode == Mode::chord) {
         return 0.5 * (from.pose.tip + to.pose.tip);
     }

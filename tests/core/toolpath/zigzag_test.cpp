@@ -47,7 +47,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes,
 TEST(ZigzagPoses, LieOnTheSurfaceWithTheToolAlongTheNormal) {
     const auto patch = test::patch("two-bell");
     for (const bool flipped : {false, true}) {
-        for (const PathPoint& p : zigzag(patch, Grid::uniform(7, 9), TrackDirection::along_u, flipped).points) {
+        for (const PathPoint& p :
+             zigzag(patch, Grid::uniform(7, 9), TrackDirection::along_u, flipped).points) {
             const Vec2& uv = p.origin.uv;
             EXPECT_EQ(p.pose.tip, patch.position(uv.x(), uv.y()));
             const Vec3 normal = patch.unit_normal(uv.x(), uv.y()).value();
