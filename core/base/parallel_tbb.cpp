@@ -47,6 +47,8 @@ void parallel_for(std::ptrdiff_t count,
             thrown[static_cast<std::size_t>(c)] = std::current_exception();
         }
     };
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(thread_count()));
     tbb::task_arena arena(thread_count());
     arena.execute(
         [&] { tbb::parallel_for(std::ptrdiff_t{0}, chunks, run_chunk, tbb::simple_partitioner{}); });
