@@ -1,0 +1,82 @@
+// Everything a user can do, as objects: menu, key, palette, button, script and test all run the same one.
+#pragma once
+
+#include "ui/actions/workbench.h"
+#include "ui/widgets/permission.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::actions {
+
+struct ActionInfo {
+    std::string_view id;       ///< "grid.adapt"; never changes once released: scripts use it
+    std::string_view menu;     ///< "File", "Edit" ...; also the detail shown in the palette
+    std::string_view title;    ///< "Adapt the grid"
+    std::string_view tip;      ///< a sentence
+    std::string_view shortcut; ///< "Ctrl+S" as people read it; empty for none
+    std::string_view icon;
+};
+
+/// What an action may lay hands on. Made by the workshop.
+struct Hands {
+    project::History& history;
+    Session& session;
+    Document& document;
+    project::Pipeline& pipeline;
+    JobRunner& jobs;
+    const Workbench& now;
+};
+
+class Action {
+public:
+    Action() = default;
+    Action(const Action&) = delete;
+    Action& operator=(const Action&) = delete;
+    virtual ~Action() = default;
+    [[nodiscard]] virtual const ActionInfo& info() const = 0;
+    /// Yes, or the sentence why not.
+    [[nodiscard]] virtual widgets::Permission permission(const Workbench& now) const = 0;
+    /// Throws Error with what went wrong; the runner tells the person and leaves everything as it was.
+    virtual void run(Hands& hands) const = 0;
+};
+
+/// All actions without arguments, in menu order. Ids are unique.
+class Catalogue {
+public:
+    Catalogue();
+    [[nodiscard]] const std::vector<std::unique_ptr<Action>>& all() const { return actions_; }
+    /// Throws Defect if there is no such action.
+    [[nodiscard]] const Action& find(std::string_view id) const;
+    [[nodiscard]] const Action* find_or_null(std::string_view id) const;
+
+private:
+    std::vector<std::unique_ptr<Action>> actions_;
+};
+
+/// What panels asked for in one frame, performed after it in order.
+class ActionQueue {
+public:
+    /// A catalogue action.
+    void run(std::string id);
+    /// A change of the project, named for undo ("Move a control point"). Steps with the same non-empty
+    /// `merge_key` become one until end_step().
+    void edit(std::string title, std::function<void(project::Project&)> change, std::string merge_key = {});
+    void end_step();
+    /// A change of what is looked at.
+    void show(std::function<void(Session&)> change);
+    /// Opens, or saves to, a chosen file.
+    void open_file(std::filesystem::path file);
+    void save_file(std::filesystem::path file);
+
+    using Request = std::function<void(class Workshop&)>;
+    [[nodiscard]] std::vector<Request> take();
+
+private:
+    std::vector<Request> requests_;
+};
+
+} // namespace millwright::actions

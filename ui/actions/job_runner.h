@@ -1,0 +1,55 @@
+// The job on the machine: runs the dispatcher in a thread of its own and keeps its last report for whoever
+// looks. hold, resume and stop act at once.
+#pragma once
+
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/job.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::actions {
+
+/// What is known of the job, for one frame.
+struct JobView {
+    bool running = false;                       ///< the dispatcher has it
+    std::string name;                           ///< empty before the first job
+    std::optional<machine::JobReport> report;   ///< the last
+    std::optional<machine::JobOutcome> outcome; ///< of the last job that ended
+    std::optional<Diagnostic> failure;          ///< it did not start, or its log could not be written
+};
+
+class JobRunner {
+public:
+    /// `wake` is called from the job's thread whenever there is something new to see.
+    JobRunner(std::filesystem::path log_folder, std::function<void()> wake);
+    JobRunner(const JobRunner&) = delete;
+    JobRunner& operator=(const JobRunner&) = delete;
+    /// Stops the machine and waits until it is at rest.
+    ~JobRunner();
+
+    /// Starts `job` on a virtual machine at `speed` times real time (0: as fast as can be computed). Throws
+    /// Defect if one is running.
+    void start(machine::Job job, double speed);
+    void hold();
+    void resume();
+    void stop();
+    void emergency_stop();
+    void set_speed(double speed);
+
+    [[nodiscard]] JobView view() const;
+    /// Blocks until no job is running.
+    void wait();
+
+private:
+    class Run;
+    std::filesystem::path log_folder_;
+    std::function<void()> wake_;
+    std::unique_ptr<Run> run_;
+};
+
+} // namespace millwright::actions

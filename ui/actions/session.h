@@ -1,0 +1,76 @@
+// What the person at the window looks at and how: everything that is neither project nor result. Losing it
+// loses no work. Kept apart from the project so that undo never moves the camera.
+#pragma once
+
+#include "core/project/project.h"
+#include "ui/viewport/scene.h"
+#include "ui/widgets/notices.h"
+#include "ui/widgets/theme.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace millwright::actions {
+
+/// A choice of panes and layers, not a mode that hides data.
+enum class Workspace { design, grid, toolpath, program, machine };
+inline constexpr int workspace_count = 5;
+
+/// What the lower pane shows.
+enum class LowerTab { plots, listing, compare, jobs, log };
+
+/// Panes that can be hidden, with their sizes in pixels at scale 1.
+struct PaneSizes {
+    float outline = 220.0F;
+    float inspector = 320.0F;
+    float lower = 190.0F;
+    bool outline_shown = true;
+    bool inspector_shown = true;
+    bool lower_shown = true;
+};
+
+/// Where the step-through stands. Time is that of the planned trajectory, s.
+struct Playback {
+    double time = 0.0;
+    bool playing = false;
+    double speed = 1.0; ///< times real time
+};
+
+/// A file that is asked for, until the person has chosen or given up.
+enum class FileQuestion { none, open, save_as };
+
+struct Session {
+    Workspace workspace = Workspace::design;
+    std::array<viewport::Layers, workspace_count> layers;    ///< one a workspace
+    std::vector<viewport::ControlPointId> selected;          ///< ascending
+    project::GridMethod shown = project::GridMethod::tracks; ///< whose path and error are drawn
+    viewport::ErrorScale error;
+    bool four_views = false;
+    Playback playback;
+    LowerTab lower_tab = LowerTab::plots;
+    PaneSizes panes;
+    widgets::Theme theme = widgets::Theme::dark;
+    double machine_speed = 1.0; ///< of the virtual machine, times real time
+    FileQuestion question = FileQuestion::none;
+    bool search_wanted = false; ///< open the palette in the next frame
+    bool fit_wanted = true;     ///< fit the view in the next frame
+    bool quit_wanted = false;
+    bool discard_agreed = false;          ///< the person has agreed to lose unsaved changes once
+    std::vector<widgets::Notice> notices; ///< to be shown; taken by the window
+    std::vector<std::string> log;         ///< every notice, newest last
+
+    [[nodiscard]] viewport::Layers& layers_now() { return layers[static_cast<std::size_t>(workspace)]; }
+    [[nodiscard]] const viewport::Layers& layers_now() const {
+        return layers[static_cast<std::size_t>(workspace)];
+    }
+};
+
+/// With the layers that people expect in each workspace.
+[[nodiscard]] Session new_session();
+
+/// Shows a notice and keeps it in the log.
+void tell(Session& session, widgets::Severity severity, std::string text, std::string place = {});
+
+} // namespace millwright::actions
