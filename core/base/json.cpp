@@ -221,6 +221,10 @@ std::optional<JsonValue> JsonValue::find(std::string_view key) const {
 }
 
 void JsonValue::expect_only(std::initializer_list<std::string_view> keys) const {
+    expect_only(std::span(keys.begin(), keys.size()));
+}
+
+void JsonValue::expect_only(std::span<const std::string_view> keys) const {
     if (node_->kind != Kind::object) {
         fail(fmt::format("expected an object, found {}", name_of(node_->kind)));
     }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,7 @@ public:
     [[nodiscard]] std::optional<JsonValue> find(std::string_view key) const;
     /// Throws Error if the object has a field that is not in `keys`.
     void expect_only(std::initializer_list<std::string_view> keys) const;
+    void expect_only(std::span<const std::string_view> keys) const;
 
     /// The elements of an array. Throws Error if this is none, or not of `count` elements where that is
     /// given.

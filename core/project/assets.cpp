@@ -1,0 +1,97 @@
+#include "core/project/assets.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+
+namespace millwright::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_assets(const fs::path& folder) {
+    std::error_code failure;
+    return fs::is_directory(folder / "machines", failure);
+}
+
+std::vector<fs::path> json_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code failure;
+    for (const auto& entry : fs::directory_iterator(folder, failure)) {
+        if (entry.path().extension() == ".json") {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+bool is_id(const std::string& name) {
+    return name.find_first_of("./") == std::string::npos;
+}
+
+} // namespace
+
+fs::path assets_folder() {
+    const char* named = std::getenv("MILLWRIGHT_ASSETS");
+    std::error_code failure;
+    return assets_folder({named == nullptr ? "" : named,
+                          fs::read_symlink("/proc/self/exe", failure),
+                          MILLWRIGHT_SOURCE_ASSETS});
+}
+
+fs::path assets_folder(const AssetsSearch& search) {
+    if (!search.named.empty()) {
+        if (!is_assets(search.named)) {
+            throw Error("no machines/ in the folder that MILLWRIGHT_ASSETS names", search.named);
+        }
+        return search.named;
+    }
+    for (fs::path above = search.executable.parent_path(); !above.empty(); above = above.parent_path()) {
+        if (is_assets(above / "assets")) {
+            return above / "assets";
+        }
+        if (above == above.root_path()) {
+            break;
+        }
+    }
+    if (!is_assets(search.fallback)) {
+        throw Error("the folder assets/ that ships with the program is not there",
+                    search.fallback,
+                    "set MILLWRIGHT_ASSETS to it");
+    }
+    return search.fallback;
+}
+
+fs::path machine_path(const Project& project, const fs::path& project_folder, const fs::path& assets) {
+    const std::string& name = project.machine.file;
+    const fs::path file = is_id(name) ? assets / "machines" / (name + ".json") : project_folder / name;
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) {
+        const std::string known = fmt::format("known: {}; or a path relative to the project file",
+                                              fmt::join(machine_ids(assets), ", "));
+        throw is_id(name) ? Error(fmt::format("machine/file: unknown machine '{}'", name), {}, known)
+                          : Error("machine/file: no such machine file", file, known);
+    }
+    return file;
+}
+
+std::vector<std::string> machine_ids(const fs::path& assets) {
+    std::vector<std::string> ids;
+    for (const fs::path& file : json_files(assets / "machines")) {
+        ids.push_back(file.stem().string());
+    }
+    return ids;
+}
+
+std::vector<fs::path> sample_projects(const fs::path& assets) {
+    return json_files(assets / "projects");
+}
+
+} // namespace millwright::project

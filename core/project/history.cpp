@@ -1,0 +1,58 @@
+#include "core/project/history.h"
+
+#include "core/base/error.h"
+
+#include <utility>
+
+namespace millwright::project {
+
+History::History(Project start) {
+    steps_.push_back({std::move(start), {}, {}});
+}
+
+void History::commit(Project next, std::string title, std::string merge_key) {
+    if (next == current()) {
+        return;
+    }
+    steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, steps_.end());
+    if (at_ > 0 && !merge_key.empty() && steps_[at_].merge_key == merge_key) {
+        steps_[at_].project = std::move(next);
+        if (steps_[at_].project == steps_[at_ - 1].project) { // dragged back to where it began
+            steps_.pop_back();
+            --at_;
+        }
+        return;
+    }
+    steps_.push_back({std::move(next), std::move(title), std::move(merge_key)});
+    if (steps_.size() > most_steps + 1) {
+        steps_.erase(steps_.begin());
+    }
+    at_ = steps_.size() - 1;
+}
+
+void History::close_step() {
+    steps_[at_].merge_key.clear();
+}
+
+std::string History::undo_title() const {
+    return at_ > 0 ? steps_[at_].title : std::string();
+}
+
+std::string History::redo_title() const {
+    return at_ + 1 < steps_.size() ? steps_[at_ + 1].title : std::string();
+}
+
+void History::undo() {
+    expects(at_ > 0, "there is a step to undo");
+    steps_[at_].merge_key.clear();
+    --at_;
+    close_step();
+}
+
+void History::redo() {
+    expects(at_ + 1 < steps_.size(), "there is a step to redo");
+    ++at_;
+    close_step();
+}
+
+} // namespace millwright::project

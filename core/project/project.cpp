@@ -1,0 +1,104 @@
+#include "core/project/project.h"
+
+#include "core/geometry/presets.h"
+#include "core/project/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+using Faults = std::vector<std::string>;
+
+template <class Owner>
+void check(Faults& faults,
+           std::string_view path,
+           const Owner& owner,
+           std::span<const NumberSetting<Owner>> settings) {
+    for (const NumberSetting<Owner>& setting : settings) {
+        const double value = setting.value(owner);
+        if (!(value >= setting.min && value <= setting.max)) {
+            faults.push_back(fmt::format(
+                "{}/{}: {} is not between {} and {}", path, setting.id, value, setting.min, setting.max));
+        }
+    }
+}
+
+bool within(const Vec3& point, double farthest) {
+    return is_finite(point) && point.cwiseAbs().maxCoeff() <= farthest;
+}
+
+void check_net(Faults& faults, const std::string& path, const geometry::ControlNet& net) {
+    if (std::string fault = geometry::fault_of(net); !fault.empty()) {
+        faults.push_back(path + ": " + fault);
+        return;
+    }
+    const auto inside = [](const Vec3& point) { return within(point, farthest_point_mm); };
+    if (!std::all_of(net.points.begin(), net.points.end(), inside)) {
+        faults.push_back(fmt::format(
+            "{}: a control point is farther than {} mm from the origin", path, farthest_point_mm));
+    }
+}
+
+void check_surface(Faults& faults, const SurfaceInput& surface) {
+    const auto count = static_cast<int>(surface.patches.size());
+    if (count == 0) {
+        faults.emplace_back("surface/patches: a surface needs at least one patch");
+    }
+    for (int n = 0; n < count; ++n) {
+        check_net(
+            faults, fmt::format("surface/patches[{}]", n), surface.patches[static_cast<std::size_t>(n)]);
+    }
+    if (surface.machined_patch < 0 || surface.machined_patch >= std::max(count, 1)) {
+        faults.push_back(fmt::format("surface/machined_patch: there is no patch {} among {}, counted from 0",
+                                     surface.machined_patch,
+                                     count));
+    }
+    const auto presets = geometry::surface_presets();
+    const bool known = std::any_of(
+        presets.begin(), presets.end(), [&](const auto& preset) { return preset.id == surface.preset; });
+    if (!surface.preset.empty() && !known) {
+        faults.push_back(fmt::format("surface/preset: unknown surface preset '{}'", surface.preset));
+    }
+}
+
+void check_machine(Faults& faults, const MachineInput& machine) {
+    if (machine.file.empty()) {
+        faults.emplace_back("machine/file: no machine is named");
+    }
+    if (machine.workpiece_offset && !within(*machine.workpiece_offset, farthest_point_mm)) {
+        faults.push_back(
+            fmt::format("machine/workpiece_offset: not finite, or more than {} mm", farthest_point_mm));
+    }
+}
+
+} // namespace
+
+Project project_from_preset(std::string_view preset_id) {
+    const geometry::SurfacePreset& preset = geometry::surface_preset(preset_id);
+    Project project;
+    project.name = preset.title;
+    project.surface.preset = preset.id;
+    const geometry::Surface surface = preset.make();
+    for (const geometry::BezierPatch& patch : surface.patches()) {
+        project.surface.patches.push_back(patch.net());
+    }
+    return project;
+}
+
+std::vector<std::string> faults_of(const Project& project) {
+    Faults faults;
+    check_surface(faults, project.surface);
+    check_machine(faults, project.machine);
+    check<GridInput>(faults, "grid", project.grid, grid_numbers());
+    check<EllipticInput>(faults, "grid/elliptic", project.grid.elliptic, elliptic_numbers());
+    check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
+    check<ProgramInput>(faults, "program", project.program, program_numbers());
+    return faults;
+}
+
+} // namespace millwright::project

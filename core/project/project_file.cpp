@@ -1,0 +1,350 @@
+#include "core/project/project_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/json.h"
+#include "core/base/numbers.h"
+#include "core/geometry/presets.h"
+#include "core/project/internal/json_text.h"
+#include "core/project/settings.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view format_name = "millwright-project";
+constexpr int format_version = 1;
+
+template <class Value> Value choice(const JsonValue& value, std::span<const Choice<Value>> choices) {
+    const std::string text = value.text();
+    std::string known;
+    for (const Choice<Value>& row : choices) {
+        if (row.id == text) {
+            return row.value;
+        }
+        known += (known.empty() ? "known: " : ", ") + std::string(row.id);
+    }
+    value.fail(fmt::format("'{}' is none of the choices", text), known);
+}
+
+template <class Value>
+void read_choice(const JsonValue& from,
+                 std::string_view key,
+                 std::span<const Choice<Value>> choices,
+                 Value& to) {
+    if (const auto value = from.find(key)) {
+        to = choice(*value, choices);
+    }
+}
+
+void read_flag(const JsonValue& from, std::string_view key, bool& to) {
+    if (const auto value = from.find(key)) {
+        to = value->flag();
+    }
+}
+
+template <class Owner>
+void read_numbers(const JsonValue& from, std::span<const NumberSetting<Owner>> settings, Owner& to) {
+    for (const NumberSetting<Owner>& setting : settings) {
+        if (const auto value = from.find(setting.id)) {
+            const double number =
+                setting.whole() ? value->integer(static_cast<int>(setting.min), static_cast<int>(setting.max))
+                                : value->number(setting.min, setting.max);
+            setting.set(to, number);
+        }
+    }
+}
+
+/// Refuses fields that are neither a number of the table nor one of `others`.
+template <class Owner>
+void expect_fields(const JsonValue& value,
+                   std::span<const NumberSetting<Owner>> numbers,
+                   std::initializer_list<std::string_view> others) {
+    std::vector<std::string_view> keys;
+    for (const NumberSetting<Owner>& setting : numbers) {
+        keys.push_back(setting.id);
+    }
+    keys.insert(keys.end(), others);
+    value.expect_only(keys);
+}
+
+Vec3 point(const JsonValue& value) {
+    const auto items = value.items(3);
+    Vec3 p;
+    for (std::size_t n = 0; n < 3; ++n) {
+        p[static_cast<Eigen::Index>(n)] = items[n].number(-farthest_point_mm, farthest_point_mm);
+    }
+    return p;
+}
+
+/// The elements of a list of equally long lists, row by row.
+std::vector<std::vector<JsonValue>> table(const JsonValue& value) {
+    std::vector<std::vector<JsonValue>> rows;
+    for (const JsonValue& row : value.items()) {
+        rows.push_back(rows.empty() ? row.items() : row.items(rows.front().size()));
+    }
+    constexpr std::size_t most = geometry::max_degree + 1;
+    if (rows.size() < 2 || rows.size() > most || rows.front().size() < 2 || rows.front().size() > most) {
+        value.fail(fmt::format("a control net has 2 to {} rows and columns", most));
+    }
+    return rows;
+}
+
+geometry::ControlNet net(const JsonValue& value) {
+    value.expect_only({"points", "weights"});
+    const auto points = table(value.at("points"));
+    const int rows = static_cast<int>(points.size());
+    const int columns = static_cast<int>(points.front().size());
+    geometry::ControlNet result = geometry::ControlNet::sized(rows, columns);
+    const auto weights = value.find("weights");
+    const auto weight_rows = weights ? table(*weights) : std::vector<std::vector<JsonValue>>{};
+    if (weights &&
+        (weight_rows.size() != points.size() || weight_rows.front().size() != points.front().size())) {
+        weights->fail(fmt::format("expected {} x {} weights, one a point", rows, columns));
+    }
+    constexpr double largest_weight = 1e6;
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const auto row = static_cast<std::size_t>(i);
+            const auto column = static_cast<std::size_t>(j);
+            result.point(i, j) = point(points[row][column]);
+            if (weights) {
+                result.weight(i, j) = weight_rows[row][column].number(1.0 / largest_weight, largest_weight);
+            }
+        }
+    }
+    return result;
+}
+
+void read_preset(const JsonValue& value, SurfaceInput& surface) {
+    surface.preset = value.text();
+    try {
+        surface.patches = project_from_preset(surface.preset).surface.patches;
+    } catch (const Error& unknown) {
+        value.fail(unknown.diagnostic().message, unknown.diagnostic().hint);
+    }
+}
+
+SurfaceInput surface(const JsonValue& value) {
+    value.expect_only({"preset", "patches", "machined_patch", "flipped"});
+    SurfaceInput result;
+    if (const auto preset = value.find("preset")) {
+        read_preset(*preset, result);
+    }
+    if (const auto patches = value.find("patches")) {
+        result.patches.clear();
+        for (const JsonValue& patch : patches->items()) {
+            result.patches.push_back(net(patch));
+        }
+    }
+    if (result.patches.empty()) {
+        value.fail("a surface needs a \"preset\" or at least one of \"patches\"");
+    }
+    if (const auto machined = value.find("machined_patch")) {
+        result.machined_patch = machined->integer(0, static_cast<int>(result.patches.size()) - 1);
+    }
+    read_flag(value, "flipped", result.flipped);
+    return result;
+}
+
+MachineInput machine(const JsonValue& value) {
+    value.expect_only({"file", "workpiece_offset", "angle_mode"});
+    MachineInput result;
+    result.file = value.at("file").text();
+    if (result.file.empty()) {
+        value.at("file").fail("no machine is named");
+    }
+    if (const auto offset = value.find("workpiece_offset")) {
+        result.workpiece_offset = point(*offset);
+    }
+    read_choice(value, "angle_mode", angle_modes(), result.angle_mode);
+    return result;
+}
+
+EllipticInput elliptic(const JsonValue& value) {
+    expect_fields<EllipticInput>(value, elliptic_numbers(), {"weight", "expression", "sliding_boundary"});
+    EllipticInput result;
+    read_numbers<EllipticInput>(value, elliptic_numbers(), result);
+    read_choice(value, "weight", weight_sources(), result.weight);
+    if (const auto expression = value.find("expression")) {
+        result.expression = expression->text();
+    }
+    read_flag(value, "sliding_boundary", result.sliding_boundary);
+    return result;
+}
+
+TracksInput tracks(const JsonValue& value) {
+    expect_fields<TracksInput>(value, tracks_numbers(), {});
+    TracksInput result;
+    read_numbers<TracksInput>(value, tracks_numbers(), result);
+    return result;
+}
+
+GridInput grid_input(const JsonValue& value) {
+    expect_fields<GridInput>(value, grid_numbers(), {"direction", "method", "elliptic", "tracks"});
+    GridInput result;
+    read_numbers<GridInput>(value, grid_numbers(), result);
+    read_choice(value, "direction", track_directions(), result.direction);
+    read_choice(value, "method", grid_methods(), result.method);
+    if (const auto settings = value.find("elliptic")) {
+        result.elliptic = elliptic(*settings);
+    }
+    if (const auto settings = value.find("tracks")) {
+        result.tracks = tracks(*settings);
+    }
+    return result;
+}
+
+ProgramInput program(const JsonValue& value) {
+    expect_fields<ProgramInput>(value, program_numbers(), {"link"});
+    ProgramInput result;
+    read_numbers<ProgramInput>(value, program_numbers(), result);
+    read_choice(value, "link", links(), result.link);
+    return result;
+}
+
+Project project(const JsonValue& root) {
+    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program"});
+    if (root.at("format").text() != format_name) {
+        root.at("format").fail("not a project file", fmt::format("expected \"{}\"", format_name));
+    }
+    (void)root.at("version").integer(format_version, format_version);
+    Project result;
+    result.name = root.at("name").text();
+    result.surface = surface(root.at("surface"));
+    result.machine = machine(root.at("machine"));
+    if (const auto value = root.find("grid")) {
+        result.grid = grid_input(*value);
+    }
+    if (const auto value = root.find("program")) {
+        result.program = program(*value);
+    }
+    return result;
+}
+
+Json json_of(const Vec3& p) {
+    return Json::array({p.x(), p.y(), p.z()});
+}
+
+template <class Of> Json table_of(const geometry::ControlNet& net, Of of) {
+    Json rows = Json::array();
+    for (int i = 0; i < net.rows; ++i) {
+        Json row = Json::array();
+        for (int j = 0; j < net.columns; ++j) {
+            row.push_back(of(i, j));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json json_of(const geometry::ControlNet& net) {
+    Json json;
+    json["points"] = table_of(net, [&](int i, int j) { return json_of(net.point(i, j)); });
+    const auto is_one = [](double weight) { return exactly_equal(weight, 1.0); };
+    if (!std::all_of(net.weights.begin(), net.weights.end(), is_one)) {
+        json["weights"] = table_of(net, [&](int i, int j) { return net.weight(i, j); });
+    }
+    return json;
+}
+
+template <class Owner>
+void add_numbers(Json& json, std::span<const NumberSetting<Owner>> settings, const Owner& owner) {
+    for (const NumberSetting<Owner>& setting : settings) {
+        const double value = setting.value(owner);
+        if (setting.whole()) {
+            json[std::string(setting.id)] = static_cast<int>(value);
+        } else {
+            json[std::string(setting.id)] = value;
+        }
+    }
+}
+
+Json json_of(const SurfaceInput& surface) {
+    Json json;
+    if (!surface.preset.empty()) {
+        json["preset"] = surface.preset;
+    }
+    json["patches"] = Json::array();
+    for (const geometry::ControlNet& net : surface.patches) {
+        json["patches"].push_back(json_of(net));
+    }
+    json["machined_patch"] = surface.machined_patch;
+    json["flipped"] = surface.flipped;
+    return json;
+}
+
+Json json_of(const MachineInput& machine) {
+    Json json;
+    json["file"] = machine.file;
+    if (machine.workpiece_offset) {
+        json["workpiece_offset"] = json_of(*machine.workpiece_offset);
+    }
+    json["angle_mode"] = row_of(angle_modes(), machine.angle_mode).id;
+    return json;
+}
+
+Json json_of(const GridInput& grid) {
+    Json json;
+    add_numbers<GridInput>(json, grid_numbers(), grid);
+    json["direction"] = row_of(track_directions(), grid.direction).id;
+    json["method"] = row_of(grid_methods(), grid.method).id;
+    Json& elliptic = json["elliptic"];
+    elliptic["weight"] = row_of(weight_sources(), grid.elliptic.weight).id;
+    elliptic["expression"] = grid.elliptic.expression;
+    add_numbers<EllipticInput>(elliptic, elliptic_numbers(), grid.elliptic);
+    elliptic["sliding_boundary"] = grid.elliptic.sliding_boundary;
+    add_numbers<TracksInput>(json["tracks"], tracks_numbers(), grid.tracks);
+    return json;
+}
+
+Json json_of(const ProgramInput& program) {
+    Json json;
+    add_numbers<ProgramInput>(json, program_numbers(), program);
+    json["link"] = row_of(links(), program.link).id;
+    return json;
+}
+
+} // namespace
+
+Project read_project(const std::filesystem::path& file) {
+    return project_from_text(read_file(file), file);
+}
+
+Project project_from_text(std::string_view text, const std::filesystem::path& named) {
+    return project(JsonValue::parse(text, named));
+}
+
+std::string project_text(const Project& project) {
+    if (const auto faults = faults_of(project); !faults.empty()) {
+        throw Error(faults.front());
+    }
+    Json json;
+    json["format"] = format_name;
+    json["version"] = format_version;
+    json["name"] = project.name;
+    json["surface"] = json_of(project.surface);
+    json["machine"] = json_of(project.machine);
+    json["grid"] = json_of(project.grid);
+    json["program"] = json_of(project.program);
+    try {
+        return json_text(json);
+    } catch (const Json::type_error&) { // a text that is not UTF-8
+        throw Error("a text of the project is not valid UTF-8");
+    }
+}
+
+void write_project(const Project& project, const std::filesystem::path& file) {
+    write_file(file, project_text(project));
+}
+
+} // namespace millwright::project

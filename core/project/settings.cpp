@@ -1,0 +1,240 @@
+#include "core/project/settings.h"
+
+#include <array>
+
+namespace millwright::project {
+
+namespace {
+
+constexpr int most_nodes = 400; // a path of 160,000 moves
+
+constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
+    {"nu",
+     "Nodes along u",
+     "",
+     "Grid nodes along u, the boundary's included",
+     2,
+     most_nodes,
+     0,
+     field<&GridInput::nu>},
+    {"nv",
+     "Nodes along v",
+     "",
+     "Grid nodes along v, the boundary's included",
+     2,
+     most_nodes,
+     0,
+     field<&GridInput::nv>},
+}};
+
+constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
+    {"adaptation",
+     "Adaptation",
+     "",
+     "LV: how strongly the weight pulls cells together, against smoothness",
+     0.0,
+     1e4,
+     2,
+     field<&EllipticInput::adaptation>},
+    {"orthogonality",
+     "Orthogonality",
+     "",
+     "LO: how strongly grid lines are kept at right angles, against smoothness",
+     0.0,
+     1e4,
+     2,
+     field<&EllipticInput::orthogonality>},
+    {"tolerance",
+     "Residual tolerance",
+     "",
+     "A round ends when half the largest |R_X| + |R_Y| of a node is not above it",
+     1e-12,
+     1e3,
+     6,
+     field<&EllipticInput::tolerance>},
+    {"max_iterations",
+     "Iterations a round",
+     "",
+     "A round ends after so many iterations of the solver at the latest",
+     1,
+     100000,
+     0,
+     field<&EllipticInput::max_iterations>},
+    {"max_rounds",
+     "Rounds",
+     "",
+     "How often the error is measured anew and turned into the weight",
+     1,
+     1000,
+     0,
+     field<&EllipticInput::max_rounds>},
+}};
+
+constexpr std::array<NumberSetting<TracksInput>, 4> of_tracks{{
+    {"lattice",
+     "Places a track",
+     "",
+     "Lattice points a track that its nodes are chosen from; 0 takes max(160, 4 n) for n nodes",
+     0,
+     4000,
+     0,
+     field<&TracksInput::lattice>},
+    {"error_exponent",
+     "Error exponent",
+     "",
+     "p of the cost of a move, length * error^p: the larger, the more the worst moves count",
+     1.0,
+     16.0,
+     1,
+     field<&TracksInput::error_exponent>},
+    {"axis_weight",
+     "Weight of the axis",
+     "mm/deg",
+     "How much error one degree between tool axis and surface normal counts as",
+     0.0,
+     100.0,
+     3,
+     field<&TracksInput::axis_weight>},
+    {"polish_sweeps",
+     "Polishing sweeps",
+     "",
+     "How often each node is moved by itself after the best lattice points are found",
+     0,
+     1000,
+     0,
+     field<&TracksInput::polish_sweeps>},
+}};
+
+constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
+    {"feed_mm_per_min",
+     "Feed",
+     "mm/min",
+     "Speed of the tool tip on the part while cutting; less where an axis cannot follow",
+     0.1,
+     1e5,
+     1,
+     field<&ProgramInput::feed_mm_per_min>},
+    {"plunge_mm_per_min",
+     "Plunge feed",
+     "mm/min",
+     "Speed of the tool tip towards the part",
+     0.1,
+     1e5,
+     1,
+     field<&ProgramInput::plunge_mm_per_min>},
+    {"spindle_rpm",
+     "Spindle",
+     "1/min",
+     "Turning speed of the spindle; 0 leaves it alone",
+     0.0,
+     2e5,
+     0,
+     field<&ProgramInput::spindle_rpm>},
+    {"link_clearance_mm",
+     "Link clearance",
+     "mm",
+     "How far the tool is lifted off the part between two tracks",
+     0.01,
+     1e4,
+     2,
+     field<&ProgramInput::link_clearance_mm>},
+    {"approach_clearance_mm",
+     "Approach clearance",
+     "mm",
+     "Height above the first and the last pose at which the tool comes and goes",
+     0.01,
+     1e4,
+     2,
+     field<&ProgramInput::approach_clearance_mm>},
+}};
+
+using grid::TrackDirection;
+using kinematics::AngleMode;
+
+constexpr std::array<Choice<TrackDirection>, 2> of_direction{{
+    {TrackDirection::along_u, "along-u", "Along u", "Tracks follow the lines of constant v"},
+    {TrackDirection::along_v,
+     "along-v",
+     "Along v",
+     "Tracks follow the lines of constant u, as in the thesis's listing"},
+}};
+
+constexpr std::array<Choice<GridMethod>, 3> of_method{{
+    {GridMethod::uniform, "uniform", "Uniform", "Equal parameter steps, no adaptation"},
+    {GridMethod::elliptic,
+     "elliptic",
+     "Elliptic",
+     "Brackbill and Saltzman's elliptic grid, weighted by the error"},
+    {GridMethod::tracks,
+     "tracks",
+     "Track optimiser",
+     "The nodes of each track placed so that its error is least"},
+}};
+
+constexpr std::array<Choice<WeightSource>, 6> of_weight{{
+    {WeightSource::error, "error", "Error density", "The measured error, e/h^2, scaled and smoothed once"},
+    {WeightSource::expression, "expression", "Expression", "A formula of u and v"},
+    {WeightSource::w1, "w1", "W1 (circle)", "exp(-|25 - (x-10)^2 - (y-10)^2|) + 0.01 in node coordinates"},
+    {WeightSource::w2,
+     "w2",
+     "W2 (circle of nodes)",
+     "exp(-|n_x - (x-10)^2 - (y-10)^2|) + 0.01 in node coordinates"},
+    {WeightSource::w3,
+     "w3",
+     "W3 (quarter circle)",
+     "exp(-|25 - (x-n_x)^2 - (y-n_y)^2|) + 0.01 in node coordinates"},
+    {WeightSource::w4,
+     "w4",
+     "W4 (waves)",
+     "sin(2 pi x/25) sin(2 pi y/25) / 1000 in node coordinates; changes sign, so the grid may fold"},
+}};
+
+constexpr std::array<Choice<LinkInput>, 2> of_link{{
+    {LinkInput::lifted, "lifted", "Lifted", "Off the part along the tool axis, across, and back down"},
+    {LinkInput::on_surface, "on-surface", "On the surface", "Straight to the next track, cutting"},
+}};
+
+constexpr std::array<Choice<AngleMode>, 3> of_angles{{
+    {AngleMode::consistent, "consistent", "Consistent", "The tool axis lies along the surface normal"},
+    {AngleMode::faulty_text,
+     "faulty-text",
+     "Faulty (text)",
+     "The table of the thesis's chapter 3, which tilts by the complement. For regression only"},
+    {AngleMode::faulty_listing,
+     "faulty-listing",
+     "Faulty (listing)",
+     "The thesis's listing, with a wrong sign of A as well. For regression only"},
+}};
+
+} // namespace
+
+std::span<const NumberSetting<GridInput>> grid_numbers() {
+    return of_grid;
+}
+std::span<const NumberSetting<EllipticInput>> elliptic_numbers() {
+    return of_elliptic;
+}
+std::span<const NumberSetting<TracksInput>> tracks_numbers() {
+    return of_tracks;
+}
+std::span<const NumberSetting<ProgramInput>> program_numbers() {
+    return of_program;
+}
+
+std::span<const Choice<TrackDirection>> track_directions() {
+    return of_direction;
+}
+std::span<const Choice<GridMethod>> grid_methods() {
+    return of_method;
+}
+std::span<const Choice<WeightSource>> weight_sources() {
+    return of_weight;
+}
+std::span<const Choice<LinkInput>> links() {
+    return of_link;
+}
+std::span<const Choice<AngleMode>> angle_modes() {
+    return of_angles;
+}
+
+} // namespace millwright::project

@@ -1,0 +1,151 @@
+#include "core/project/project_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/project/assets.h"
+#include "core/project/settings.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+namespace millwright::project {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+}
+
+std::string fault_in(const std::string& text) {
+    try {
+        (void)project_from_text(text, "part.json");
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "no fault";
+}
+
+/// What reading says of the dome's project with `from` replaced by `to`.
+std::string fault(const std::string& from, const std::string& to) {
+    return fault_in(replaced(project_text(project_from_preset("dome")), from, to));
+}
+
+TEST(ProjectFile, WhatIsWrittenIsRead) {
+    std::mt19937 random(1997);
+    std::uniform_real_distribution<double> coordinate(-1e4, 1e4);
+    Project project = project_from_preset("two-bell");
+    project.name = "A \"quoted\" näme\n";
+    for (Vec3& p : project.surface.patches[0].points) {
+        p = {coordinate(random), coordinate(random), coordinate(random)};
+    }
+    project.surface.patches.push_back(project.surface.patches[0]);
+    project.surface.patches[1].weight(1, 1) = 1.0 / 3.0;
+    project.surface.machined_patch = 1;
+    project.surface.flipped = true;
+    project.machine = {"../ours.json", Vec3(0.1, 1e-9, -3.0), kinematics::AngleMode::faulty_text};
+    project.grid.direction = grid::TrackDirection::along_u;
+    project.grid.method = GridMethod::elliptic;
+    project.grid.elliptic.weight = WeightSource::expression;
+    project.grid.elliptic.expression = "1 + u*v";
+    project.grid.elliptic.sliding_boundary = false;
+    project.program.link = LinkInput::on_surface;
+    for (const auto& setting : program_numbers()) {
+        setting.set(project.program, 0.5 * (setting.min + setting.default_value()));
+    }
+    EXPECT_EQ(project_from_text(project_text(project), "x"), project);
+}
+
+TEST(ProjectFile, TheSameProjectGivesTheSameBytes) {
+    const Project project = project_from_preset("sine");
+    EXPECT_EQ(project_text(project), project_text(project_from_text(project_text(project), "x")));
+}
+
+TEST(ProjectFile, SampleProjectsReadAndAreWrittenAsTheyStand) {
+    for (const fs::path& file : sample_projects("assets")) {
+        const Project project = read_project(file);
+        EXPECT_EQ(project_text(project), read_file(file)) << file;
+        EXPECT_NO_THROW((void)machine_path(project, file.parent_path(), "assets")) << file;
+    }
+    EXPECT_EQ(read_project("assets/projects/dome.json").machine.file, "rotary-tilt-listing");
+    EXPECT_EQ(read_project("assets/projects/two-bell.json").machine.file, "ac-table");
+    EXPECT_EQ(read_project("assets/projects/sine.json").machine.file, "rotary-tilt-listing");
+}
+
+TEST(ProjectFile, APresetAloneIsEnoughOfASurface) {
+    const Project project =
+        project_from_text(R"({"format": "millwright-project", "version": 1, "name": "Dome",
+        "surface": {"preset": "dome"}, "machine": {"file": "rotary-tilt-listing"}})",
+                          "x");
+    EXPECT_EQ(project, project_from_preset("dome"));
+}
+
+TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
+    EXPECT_EQ(fault_in("{\n  \"format\": 3\n}"), "part.json:2:13: format: expected a text, found a number");
+    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": \"20\""), HasSubstr("grid/nu: expected a number, found a text"));
+    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 400"));
+    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 20.5"), HasSubstr("grid/nu: expected a whole number"));
+    EXPECT_THAT(fault("\"nu\": 20", "\"nx\": 20"), HasSubstr("grid/nx: the field \"nx\" is not known here"));
+    EXPECT_THAT(fault("\"flipped\": false", "\"flipped\": 0"),
+                HasSubstr("surface/flipped: expected true or"));
+    EXPECT_THAT(fault("\"along-v\"", "\"along-w\""),
+                AllOf(HasSubstr("grid/direction: 'along-w'"), HasSubstr("known: along-u, along-v")));
+    EXPECT_THAT(fault("\"preset\": \"dome\"", "\"preset\": \"doom\""),
+                AllOf(HasSubstr("surface/preset: unknown surface preset 'doom'"), HasSubstr("known: dome")));
+    EXPECT_THAT(fault("\"version\": 1", "\"version\": 2"), HasSubstr("version: 2 is not between 1 and 1"));
+    EXPECT_THAT(fault("millwright-project", "millwright-machine"), HasSubstr("format: not a project file"));
+    EXPECT_THAT(fault("\"rotary-tilt-listing\"", "\"\""), HasSubstr("machine/file: no machine is named"));
+    EXPECT_THAT(fault("\"machined_patch\": 0", "\"machined_patch\": 1"),
+                HasSubstr("surface/machined_patch: 1"));
+}
+
+TEST(ProjectFile, NetsMustBeRectangularAndFinite) {
+    EXPECT_THAT(fault("[10, 10, 1]", "[10, 10]"),
+                HasSubstr("surface/patches[0]/points[0][0]: expected a list of 3, found 2"));
+    EXPECT_THAT(fault("[10, 10, 1], ", ""), HasSubstr("expected a list of 3, found 4"));
+    EXPECT_THAT(fault("[10, 10, 1]", "[1e300, 10, 1]"), HasSubstr("is not between -100000 and 100000"));
+    EXPECT_THAT(fault("[10, 10, 1]", "[1e400, 10, 1]"), HasSubstr("the number 1e400 is too large"));
+    EXPECT_THAT(fault("[10, 10, 1]", "[NaN, 10, 1]"), HasSubstr("not valid JSON near"));
+    EXPECT_THAT(
+        fault_in(R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
+        "surface": {"patches": [{"points": [[[0,0,0],[1,0,0]],[[0,1,0],[1,1,0]]], "weights": [[1,1,1],[1,1,1]]}]}})"),
+        HasSubstr("surface/patches[0]/weights: expected 2 x 2 weights"));
+    EXPECT_THAT(
+        fault_in(R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
+        "surface": {"patches": []}})"),
+        HasSubstr("surface: a surface needs"));
+}
+
+TEST(ProjectFile, AMissingFileIsNamed) {
+    try {
+        (void)read_project("no/such.json");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(to_text(error.diagnostic()), StartsWith("no/such.json: cannot read: No such file"));
+    }
+}
+
+TEST(ProjectFile, AFaultyProjectIsNotWrittenAndTheOldFileStays) {
+    const test::ScratchFolder scratch;
+    Project project = project_from_preset("dome");
+    write_project(project, scratch / "part.json");
+    const std::string before = read_file(scratch / "part.json");
+    project.grid.nv = 0;
+    EXPECT_THROW(write_project(project, scratch / "part.json"), Error);
+    project.grid.nv = 20;
+    project.name = "\xff";
+    EXPECT_THROW(write_project(project, scratch / "part.json"), Error);
+    EXPECT_EQ(read_file(scratch / "part.json"), before);
+}
+
+} // namespace
+} // namespace millwright::project

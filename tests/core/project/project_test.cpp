@@ -1,0 +1,74 @@
+#include "core/project/project.h"
+
+#include "core/base/error.h"
+#include "core/geometry/presets.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace millwright::project {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Project, EveryPresetGivesAFaultlessProject) {
+    for (const auto& preset : geometry::surface_presets()) {
+        const Project project = project_from_preset(preset.id);
+        EXPECT_TRUE(faults_of(project).empty()) << preset.id;
+        EXPECT_EQ(project.name, preset.title);
+    }
+    EXPECT_THROW((void)project_from_preset("doom"), Error);
+}
+
+TEST(Project, CopiesAreEqualUntilOneChanges) {
+    const Project project = project_from_preset("sine");
+    Project copy = project;
+    EXPECT_EQ(copy, project);
+    copy.surface.patches[0].point(1, 1).z() += 1e-9;
+    EXPECT_NE(copy, project);
+}
+
+TEST(Project, FaultsNameTheFieldAndItsRange) {
+    Project project = project_from_preset("dome");
+    project.grid.nu = 1;
+    EXPECT_THAT(faults_of(project), ElementsAre("grid/nu: 1 is not between 2 and 400"));
+}
+
+TEST(Project, ANumberThatIsNoneIsAFault) {
+    Project project = project_from_preset("dome");
+    project.program.feed_mm_per_min = nan;
+    project.grid.elliptic.adaptation = std::numeric_limits<double>::infinity();
+    project.surface.patches[0].point(1, 2).x() = nan;
+    project.machine.workpiece_offset = Vec3(0.0, nan, 0.0);
+    EXPECT_THAT(faults_of(project), Contains(HasSubstr("program/feed_mm_per_min: nan")));
+    EXPECT_THAT(faults_of(project), Contains(HasSubstr("grid/elliptic/adaptation: inf")));
+    EXPECT_THAT(faults_of(project),
+                Contains(HasSubstr("surface/patches[0]: control point (1,2) is not finite")));
+    EXPECT_THAT(faults_of(project), Contains(HasSubstr("machine/workpiece_offset")));
+}
+
+TEST(Project, ASurfaceNeedsItsPatches) {
+    Project project = project_from_preset("dome");
+    project.surface.machined_patch = 1;
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("there is no patch 1 among 1")));
+    project.surface.patches.clear();
+    project.surface.machined_patch = 0;
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("at least one patch")));
+}
+
+TEST(Project, AnUnknownPresetOrNoMachineIsAFault) {
+    Project project = project_from_preset("dome");
+    project.surface.preset = "doom";
+    project.machine.file.clear();
+    EXPECT_THAT(faults_of(project),
+                ElementsAre(HasSubstr("unknown surface preset 'doom'"), HasSubstr("no machine is named")));
+}
+
+} // namespace
+} // namespace millwright::project
