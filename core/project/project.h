@@ -51,15 +51,9 @@ struct EllipticInput {
 };
 
 struct TracksInput {
-<<<<<<< HEAD
-    int lattice = 0;              ///< places a track to choose from; 0: max(160, 4 n)
-    double length_exponent = 2.0; ///< p of the cost sum length * error^p
-    double axis_weight = 1.0;     ///< mm that one degree of axis deviation counts
-=======
     int lattice = 0;             ///< places a track to choose from; 0: max(160, 4 n)
     double error_exponent = 2.0; ///< p of the cost sum length * error^p
     double axis_weight = 1.0;    ///< mm that one degree of axis deviation counts
->>>>>>> 170fdd3 (Project room: project files with every fault placed, settings that describe themselves, undo, shipped assets)
     int polish_sweeps = 20;
 
     friend bool operator==(const TracksInput&, const TracksInput&) = default;

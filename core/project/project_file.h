@@ -21,17 +21,4 @@ void write_project(const Project& project, const std::filesystem::path& file);
 /// `named` stands in diagnostics.
 [[nodiscard]] Project project_from_text(std::string_view text, const std::filesystem::path& named);
 
-<<<<<<< HEAD
-/// The machine file that `project` names: an id is looked up in `assets`/machines, a path is taken relative
-/// to the project file's folder. Throws Error naming the known ids if there is none.
-[[nodiscard]] std::filesystem::path machine_path(const Project& project,
-                                                 const std::filesystem::path& project_folder,
-                                                 const std::filesystem::path& assets);
-
-/// The folder of what ships with the program: $MILLWRIGHT_ASSETS, else assets/ beside or above the
-/// executable, else the source tree's. Throws Error if none is there.
-[[nodiscard]] std::filesystem::path assets_folder();
-
-=======
->>>>>>> 170fdd3 (Project room: project files with every fault placed, settings that describe themselves, undo, shipped assets)
 } // namespace millwright::project
