@@ -5,4 +5,5 @@
 #include "core/gcode/post.h"
 #include "core/gcode/program.h"
 #include "core/gcode/program_settings.h"
+#include "core/gcode/retract.h"
 #include "core/gcode/writer.h"

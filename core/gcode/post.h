@@ -5,6 +5,7 @@
 
 #include "core/gcode/program.h"
 #include "core/gcode/program_settings.h"
+#include "core/gcode/retract.h"
 #include "core/toolpath/sequencing.h"
 #include "core/toolpath/toolpath.h"
 
@@ -46,13 +47,5 @@ struct PostResult {
                               const toolpath::AxisPath& axes,
                               const ProgramSettings& settings,
                               const std::vector<HeaderLine>& header);
-
-/// The linear axis that pulls the tool off the part and the sense in which it does.
-struct RetractAxis {
-    int axis = 0;
-    double sense = 1.0; ///< +1: growing positions pull off
-};
-
-[[nodiscard]] RetractAxis retract_axis(const kinematics::MachineModel& machine);
 
 } // namespace millwright::gcode

@@ -71,7 +71,8 @@ struct Program {
 /// Where the axes stand before block `n`.
 [[nodiscard]] const kinematics::AxisPositions& position_before(const Program& program, int n);
 
-/// The block that ends at each of `point_count` points of the tool path; -1 where none does.
+/// The block after which the tool is at each of `point_count` points of the tool path (points that need no
+/// move share the block of the point before); -1 where there is none.
 [[nodiscard]] std::vector<int> blocks_of_points(const Program& program, int point_count);
 
 } // namespace millwright::gcode

@@ -17,8 +17,8 @@ struct ProgramSettings {
     LinkKind link = LinkKind::lifted;
     double link_clearance = 5.0;      ///< lift of a link above the part, mm, > 0; raised where not clear
     double approach_clearance = 10.0; ///< above the first and last pose, mm, > 0
-    /// Position of the axis that pulls the tool off (retract_axis()) where everything else may turn freely,
-    /// mm. Not given: its travel limit, or clear of all that the part sweeps where it has none.
+    /// Position of the axis that pulls the tool off (retract.h) where everything else may move, mm.
+    /// Not given: its travel limit.
     std::optional<double> safe_position;
     double spindle_rpm = 8000.0; ///< >= 0; 0 leaves the spindle alone
     bool coolant = false;
@@ -29,5 +29,8 @@ struct ProgramSettings {
 
     friend bool operator==(const ProgramSettings&, const ProgramSettings&) = default;
 };
+
+/// Throws Error naming the first setting that is out of its range.
+void check(const ProgramSettings& settings);
 
 } // namespace millwright::gcode

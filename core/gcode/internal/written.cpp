@@ -1,0 +1,90 @@
+#include "core/gcode/internal/written.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::gcode::internal {
+
+using kinematics::AxisKind;
+using kinematics::AxisPositions;
+using kinematics::MachineAxis;
+using kinematics::MachineModel;
+
+namespace {
+
+constexpr double touching = 1e-9; // mm or rad: rounding of the inverse kinematics at a limit
+
+double for_people(const MachineAxis& axis, double position) {
+    return axis.kind == AxisKind::rotary ? to_degrees(position) : position;
+}
+
+double from_people(const MachineAxis& axis, double shown) {
+    return axis.kind == AxisKind::rotary ? from_degrees(shown) : shown;
+}
+
+bool inside(const MachineAxis& axis, double position) {
+    return position >= axis.min - touching && position <= axis.max + touching;
+}
+
+[[noreturn]] void outside(const MachineAxis& axis, double position, int block) {
+    throw Error(fmt::format("block {}: axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+                            block + 1,
+                            axis.letter,
+                            for_people(axis, position),
+                            for_people(axis, axis.min),
+                            for_people(axis, axis.max),
+                            axis.kind == AxisKind::rotary ? "deg" : "mm"),
+                {},
+                "move the part on the table, or lower the clearances of the program");
+}
+
+double rounded(const MachineAxis& axis, double position, int decimals) {
+    const double scale = std::pow(10.0, decimals);
+    const double steps = std::round(for_people(axis, position) * scale);
+    const double nearest = from_people(axis, steps / scale);
+    if (nearest > axis.max) {
+        return from_people(axis, (steps - 1.0) / scale);
+    }
+    return nearest < axis.min ? from_people(axis, (steps + 1.0) / scale) : nearest;
+}
+
+} // namespace
+
+AxisPositions written(const MachineModel& machine,
+                      const AxisPositions& positions,
+                      const ProgramSettings& settings,
+                      int block) {
+    AxisPositions result = positions;
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        const MachineAxis& axis = machine.axis(n);
+        if (!inside(axis, positions[n])) {
+            outside(axis, positions[n], block);
+        }
+        const bool rotary = axis.kind == AxisKind::rotary;
+        result[n] = rounded(axis, positions[n], rotary ? settings.angle_decimals : settings.length_decimals);
+    }
+    return result;
+}
+
+bool inside_limits(const MachineModel& machine, const AxisPositions& positions) {
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        if (!inside(machine.axis(n), positions[n])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+double written_duration(double duration) {
+    constexpr double seconds_a_minute = 60.0;
+    const double scale = std::pow(10.0, feed_decimals);
+    const double steps = std::max(1.0, std::floor(seconds_a_minute / duration * scale));
+    return seconds_a_minute / (steps / scale);
+}
+
+} // namespace millwright::gcode::internal

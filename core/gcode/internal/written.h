@@ -1,0 +1,27 @@
+// Axis positions as they are written: rounded to the decimals of the listing, so that the listing, the
+// planner and the virtual machine speak of the same numbers.
+#pragma once
+
+#include "core/gcode/program_settings.h"
+#include "core/kinematics/machine_model.h"
+
+namespace millwright::gcode::internal {
+
+/// Rounded to the nearest written value, towards the inside where that would just leave a limit. Throws Error
+/// naming `block`, axis, value and range where `positions` itself lies outside.
+[[nodiscard]] kinematics::AxisPositions written(const kinematics::MachineModel& machine,
+                                                const kinematics::AxisPositions& positions,
+                                                const ProgramSettings& settings,
+                                                int block);
+
+/// True if every axis is inside its limits (touching counts as inside).
+[[nodiscard]] bool inside_limits(const kinematics::MachineModel& machine,
+                                 const kinematics::AxisPositions& positions);
+
+/// The duration of a move as it can be written in inverse time, never shorter than `duration`.
+[[nodiscard]] double written_duration(double duration);
+
+/// Digits of an inverse-time feed word.
+inline constexpr int feed_decimals = 4;
+
+} // namespace millwright::gcode::internal

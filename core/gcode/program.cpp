@@ -1,0 +1,41 @@
+#include "core/gcode/program.h"
+
+#include "core/base/error.h"
+
+namespace millwright::gcode {
+
+AxisSet AxisSet::all(int axis_count) {
+    AxisSet set;
+    set.bits_ = (1U << axis_count) - 1U;
+    return set;
+}
+
+AxisSet AxisSet::only(int axis) {
+    AxisSet set;
+    set.bits_ = 1U << axis;
+    return set;
+}
+
+const kinematics::AxisPositions& position_before(const Program& program, int n) {
+    expects(n >= 0 && n <= program.block_count(), "a block belongs to its program");
+    return n == 0 ? program.start : program.blocks[static_cast<std::size_t>(n) - 1].target;
+}
+
+std::vector<int> blocks_of_points(const Program& program, int point_count) {
+    std::vector<int> blocks(static_cast<std::size_t>(point_count), -1);
+    for (int n = 0; n < program.block_count(); ++n) {
+        const int point = program.blocks[static_cast<std::size_t>(n)].path_point;
+        expects(point < point_count, "a block's point belongs to the tool path");
+        if (point >= 0) {
+            blocks[static_cast<std::size_t>(point)] = n;
+        }
+    }
+    for (std::size_t point = 1; point < blocks.size(); ++point) {
+        if (blocks[point] < 0) {
+            blocks[point] = blocks[point - 1];
+        }
+    }
+    return blocks;
+}
+
+} // namespace millwright::gcode

@@ -1,0 +1,138 @@
+// LinuxCNC's interpreter reads what we write and must go to the very positions that our program says.
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/gcode/writer.h"
+#include "tests/support/oracle.h"
+#include "tests/support/programs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace millwright::gcode {
+namespace {
+
+using kinematics::AxisKind;
+
+/// One canonical move: X Y Z A B C in mm and degrees, as rs274 prints them.
+struct CanonicalMove {
+    bool feed = false;
+    double rate = 0.0; ///< mm/min, or deg/min where only rotary axes move
+    std::array<double, 6> target{};
+};
+
+std::vector<CanonicalMove> moves_in(const std::string& output) {
+    std::vector<CanonicalMove> moves;
+    std::istringstream lines(output);
+    double rate_now = 0.0;
+    for (std::string line; std::getline(lines, line);) {
+        const auto set_rate = line.find("SET_FEED_RATE(");
+        if (set_rate != std::string::npos) {
+            rate_now = std::stod(line.substr(set_rate + 14));
+        }
+        const auto move = line.find("STRAIGHT_");
+        if (move == std::string::npos) {
+            continue;
+        }
+        CanonicalMove found;
+        found.feed = line.compare(move, 13, "STRAIGHT_FEED") == 0;
+        found.rate = rate_now;
+        auto& q = found.target;
+        const int count = std::sscanf(line.c_str() + line.find('(', move),
+                                      "(%lf, %lf, %lf, %lf, %lf, %lf)",
+                                      &q[0],
+                                      &q[1],
+                                      &q[2],
+                                      &q[3],
+                                      &q[4],
+                                      &q[5]);
+        EXPECT_EQ(count, 6) << line;
+        moves.push_back(found);
+    }
+    return moves;
+}
+
+/// What LinuxCNC takes for the length of a move in inverse time: of its linear axes, else of its rotary ones.
+double inverse_time_length(const Program& program, int block) {
+    const kinematics::AxisPositions step =
+        position_before(program, block + 1) - position_before(program, block);
+    double linear = 0.0;
+    double rotary = 0.0;
+    for (std::size_t n = 0; n < program.axes.size(); ++n) {
+        const double d = step[static_cast<Eigen::Index>(n)];
+        (program.axes[n].kind == AxisKind::rotary ? rotary : linear) += d * d;
+    }
+    return linear > 0.0 ? std::sqrt(linear) : to_degrees(std::sqrt(rotary));
+}
+
+class Rs274 : public OracleTest {
+protected:
+    Rs274() : OracleTest("rs274", "linuxcnc-uspace") {}
+    ~Rs274() override { std::filesystem::remove(file_); }
+
+    std::vector<CanonicalMove> interpret(const Program& program, const ProgramSettings& settings) {
+        write_file(file_, write_gcode(program, settings).text);
+        const ProgramRun answer = run({"-g", file_.string()});
+        EXPECT_EQ(answer.exit_code, 0) << answer.output;
+        return moves_in(answer.output);
+    }
+
+    void expect_same_moves(const Program& program, const ProgramSettings& settings) {
+        const std::vector<CanonicalMove> canonical = interpret(program, settings);
+        std::size_t n = 0;
+        for (int number = 0; number < program.block_count(); ++number) {
+            const Block& block = program.blocks[static_cast<std::size_t>(number)];
+            if (!block.moves()) {
+                continue;
+            }
+            ASSERT_LT(n, canonical.size());
+            const CanonicalMove& move = canonical[n++];
+            EXPECT_EQ(move.feed, block.kind == BlockKind::feed);
+            if (move.feed) {
+                const double rate = 60.0 / block.duration * inverse_time_length(program, number);
+                EXPECT_NEAR(move.rate, rate, 1e-4 + 1e-9 * rate);
+            }
+            for (std::size_t axis = 0; axis < program.axes.size(); ++axis) {
+                const std::size_t column = std::string("XYZABC").find(program.axes[axis].letter);
+                const double position = block.target[static_cast<Eigen::Index>(axis)];
+                const bool rotary = program.axes[axis].kind == AxisKind::rotary;
+                // The axes that the first move does not name are where rs274 starts: at zero, like ours.
+                EXPECT_NEAR(move.target[column], rotary ? to_degrees(position) : position, 1.01e-4 / 2.0);
+            }
+        }
+        EXPECT_EQ(n, canonical.size());
+    }
+
+private:
+    std::filesystem::path file_ =
+        std::filesystem::path(::testing::TempDir()) / ("gcode_oracle_" + std::to_string(getpid()) + ".ngc");
+};
+
+TEST_F(Rs274, GoesWhereOurProgramsSayOnEveryShippedMachine) {
+    for (const char* machine : {"rotary-tilt-listing", "rotary-tilt-gui", "ac-table"}) {
+        for (const char* surface : {"dome", "two-bell"}) {
+            SCOPED_TRACE(std::string(machine) + " " + surface);
+            expect_same_moves(test::post_over(surface, test::machine(machine), 10, 10).program, {});
+        }
+    }
+}
+
+TEST_F(Rs274, AcceptsEveryWayOfWriting) {
+    ProgramSettings settings;
+    settings.link = LinkKind::on_surface;
+    settings.line_numbers = true;
+    settings.path_tolerance = 0.0;
+    settings.coolant = true;
+    const auto machine = test::machine("rotary-tilt-listing");
+    Program program = test::post_over("dome", machine, 6, 6, settings).program;
+    program.blocks[0].text = "project: (nested) \xE0\xB9\x82 " + std::string(400, 'x');
+    expect_same_moves(program, settings);
+}
+
+} // namespace
+} // namespace millwright::gcode
