@@ -216,9 +216,14 @@ TEST(Post, RoundsAnAxisAtItsLimitTowardsTheInside) {
 }
 
 TEST(Post, RefusesASafePositionBelowTheApproach) {
+    const auto machine = test::machine("ac-table");
+    const Toolpath path = tracks_at({{0.0, 0.0}});
+    const auto axes = test::axes_for(machine, path);
     ProgramSettings settings;
-    settings.safe_position = 20.0; // the path starts at Z 50, 10 more for the approach
-    EXPECT_THROW((void)post_tracks({{0.0, 0.0}}, settings), Error);
+    settings.safe_position = axes.positions[0][machine.axis_index('Z')] + settings.approach_clearance - 0.001;
+    EXPECT_THROW((void)post(machine, path, axes, settings, {}), Error);
+    settings.safe_position = *settings.safe_position + 0.001;
+    EXPECT_NO_THROW((void)post(machine, path, axes, settings, {}));
 }
 
 TEST(Post, RefusesSettingsOutOfRange) {
