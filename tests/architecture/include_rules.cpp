@@ -1,0 +1,214 @@
+#include "tests/architecture/include_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace millwright::architecture {
+namespace {
+
+struct Include {
+    int line = 0;
+    std::string_view path;
+    bool quoted = false;
+};
+
+std::string_view without_leading_white(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+std::optional<Include> include_in(const Line& line) {
+    std::string_view rest = without_leading_white(line.text);
+    if (!rest.starts_with('#')) {
+        return std::nullopt;
+    }
+    rest = without_leading_white(rest.substr(1));
+    if (!rest.starts_with("include")) {
+        return std::nullopt;
+    }
+    rest = without_leading_white(rest.substr(std::string_view("include").size()));
+    if (!rest.starts_with('"') && !rest.starts_with('<')) {
+        return std::nullopt;
+    }
+    const auto end = rest.find_first_of("\">", 1);
+    return Include{.line = line.number, .path = rest.substr(1, end - 1), .quoted = rest.starts_with('"')};
+}
+
+// A folder of the core may include those of a smaller rank; two of the same rank know nothing of each other.
+struct Rank {
+    std::string_view folder;
+    int rank;
+};
+constexpr std::array core_order = {
+    Rank{"base", 0},
+    Rank{"geometry", 1},
+    Rank{"cordic", 1},
+    Rank{"kinematics", 2},
+    Rank{"grid", 3},
+    Rank{"toolpath", 4},
+    Rank{"plot", 5},
+    Rank{"gcode", 6},
+    Rank{"motion", 7},
+    Rank{"machine", 8},
+    Rank{"project", 9},
+};
+
+/// core/grid/adapt.h -> grid; empty outside the core.
+std::string_view core_folder(std::string_view path) {
+    constexpr std::string_view core = "core/";
+    if (!path.starts_with(core)) {
+        return {};
+    }
+    path.remove_prefix(core.size());
+    return path.substr(0, path.find('/'));
+}
+
+std::optional<int> core_rank(std::string_view path) {
+    const auto* found = std::ranges::find(core_order, core_folder(path), &Rank::folder);
+    return found == core_order.end() ? std::nullopt : std::optional(found->rank);
+}
+
+std::string upward_in_core(std::string_view path, const Include& include) {
+    const auto from = core_folder(path);
+    const auto into = core_folder(include.path);
+    if (from.empty() || into.empty() || from == into) {
+        return {};
+    }
+    const auto rank = core_rank(path);
+    const auto other = core_rank(include.path);
+    if (!rank || !other) {
+        return "core/" + std::string(rank ? into : from) + " has no place in the order of the core's folders";
+    }
+    return *other < *rank ? std::string() : "core/" + std::string(from) + " includes upward";
+}
+
+// What each part of the tree may not see of the others.
+struct Border {
+    std::string_view from;
+    std::string_view into;
+};
+constexpr std::array borders = {
+    Border{"core", "ui"},
+    Border{"core", "app"},
+    Border{"ui", "app"},
+    Border{"core", "tests"},
+    Border{"ui", "tests"},
+    Border{"app", "tests"},
+    Border{"core", "bench"},
+    Border{"ui", "bench"},
+    Border{"app", "bench"},
+    Border{"tests/core", "ui"},
+    Border{"tests/core", "app"},
+};
+
+std::string across_border(std::string_view path, const Include& include) {
+    for (const auto& [from, into] : borders) {
+        if (is_inside(path, from) && is_inside(include.path, into)) {
+            return std::string(from) + " knows nothing of " + std::string(into);
+        }
+    }
+    return {};
+}
+
+// internal/ belongs to the folder it lies in and to that folder's tests.
+std::string into_internal(std::string_view path, const Include& include) {
+    const auto internal = include.path.find("/internal/");
+    if (internal == std::string_view::npos) {
+        return {};
+    }
+    const auto owner = include.path.substr(0, internal);
+    if (is_inside(path, owner) || is_inside(path, "tests/" + std::string(owner))) {
+        return {};
+    }
+    return "internal/ belongs to " + std::string(owner);
+}
+
+// Outside libraries and the only places that may know them; what is not named here is free.
+struct Home {
+    std::string_view library;
+    std::span<const std::string_view> headers; ///< beginnings of the include path
+    std::span<const std::string_view> places;
+};
+constexpr std::array<std::string_view, 2> tbb = {"tbb/", "oneapi/"};
+constexpr std::array<std::string_view, 1> tbb_home = {"core/base"};
+constexpr std::array<std::string_view, 1> glm = {"glm/"};
+constexpr std::array<std::string_view, 2> glm_home = {"ui", "tests/ui"};
+constexpr std::array<std::string_view, 5> window = {"imgui", "backends/imgui", "misc/", "GLFW/", "imstb"};
+constexpr std::array<std::string_view, 6> opengl = {"GL/", "GLES", "KHR/", "EGL/", "epoxy/", "GLX"};
+constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "bench"};
+constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
+constexpr std::array<std::string_view, 4> json_home = {"core/base", "core/project", "app", "tests"};
+constexpr std::array homes = {
+    Home{"TBB", tbb, tbb_home},
+    Home{"GLM", glm, glm_home},
+    Home{"Dear ImGui or GLFW", window, screen_home},
+    Home{"OpenGL", opengl, screen_home},
+    Home{"nlohmann-json", json, json_home},
+};
+
+std::string away_from_home(std::string_view path, const Include& include) {
+    for (const auto& [library, headers, places] : homes) {
+        const auto names = [&](std::string_view beginning) { return include.path.starts_with(beginning); };
+        const auto covers = [&](std::string_view place) { return is_inside(path, place); };
+        if (std::ranges::any_of(headers, names) && std::ranges::none_of(places, covers)) {
+            return std::string(library) + " is not used here";
+        }
+    }
+    return {};
+}
+
+// A header that shows JSON makes everybody who includes it know the library.
+std::string json_in_a_header(std::string_view path, const Include& include) {
+    const bool shown = is_header(path) && path.find("/internal/") == std::string_view::npos;
+    return shown && include.path.starts_with("nlohmann/") && !include.path.ends_with("json_fwd.hpp")
+               ? "nlohmann-json stays in a .cpp or in internal/"
+               : "";
+}
+
+std::string not_from_the_root(std::string_view, const Include& include) {
+    constexpr std::array<std::string_view, 5> roots = {"app/", "bench/", "core/", "tests/", "ui/"};
+    const auto begins = [&](std::string_view root) { return include.path.starts_with(root); };
+    const bool ours = std::ranges::any_of(roots, begins);
+    if (include.quoted == ours) {
+        return {};
+    }
+    return ours ? "our own headers are included with quotes"
+                : "quoted includes start at the repository's root, outside headers have angle brackets";
+}
+
+constexpr std::array rules = {
+    upward_in_core,
+    across_border,
+    into_internal,
+    away_from_home,
+    json_in_a_header,
+    not_from_the_root,
+};
+
+} // namespace
+
+std::vector<Finding> check_includes(const std::vector<TextFile>& files) {
+    std::vector<Finding> findings;
+    for (const auto& [path, text] : files) {
+        if (!is_source(path)) {
+            continue;
+        }
+        for (const auto& line : lines_of(text)) {
+            const auto include = include_in(line);
+            if (!include) {
+                continue;
+            }
+            for (const auto rule : rules) {
+                if (auto sentence = rule(path, *include); !sentence.empty()) {
+                    findings.push_back({path, include->line, sentence + ": " + std::string(include->path)});
+                }
+            }
+        }
+    }
+    return findings;
+}
+
+} // namespace millwright::architecture
