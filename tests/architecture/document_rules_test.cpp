@@ -96,9 +96,6 @@ protected:
 TEST_F(TheseDocuments, LinkToWhatIsThere) {
     EXPECT_THAT(check_links(files_, exists_), IsEmpty());
 }
-TEST_F(TheseDocuments, NamePathsThatAreThere) {
-    EXPECT_THAT(check_paths(files_, exists_), IsEmpty());
-}
 
 } // namespace
 } // namespace millwright::architecture
