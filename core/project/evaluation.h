@@ -19,7 +19,7 @@ struct GridOutcome {
     int rounds = 0;
     int iterations = 0;
     double norm = 0.0;
-    std::string note; ///< one sentence; empty for the uniform grid
+    std::string note = {}; ///< one sentence; empty for the uniform grid
 };
 
 struct Evaluation {

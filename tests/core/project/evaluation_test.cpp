@@ -1,0 +1,137 @@
+#include "core/project/evaluation.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/geometry/presets.h"
+#include "core/kinematics/rotary_tilt.h"
+#include "tests/support/machines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stop_token>
+
+namespace millwright::project {
+namespace {
+
+Workpiece dome_on(const std::string& machine) {
+    return {geometry::surface_preset("dome").make().patch(geometry::PatchId{0}), test::machine(machine)};
+}
+
+GridOutcome uniform(int nu, int nv) {
+    return {grid::Grid::uniform(nu, nv)};
+}
+
+/// 5 x 5 nodes away from the dome's corners and top, where the normal is vertical and one angle is free.
+grid::Grid off_the_poles() {
+    grid::NodeArray nodes(5, 5);
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            nodes.at(i, j) = {0.07 + 0.2 * i, 0.11 + 0.19 * j};
+        }
+    }
+    return grid::Grid(nodes);
+}
+
+/// Of the consistent angles of `normal` the pair nearest to `near`.
+kinematics::RotaryTiltAngles nearest_angles(const Vec3& normal, const kinematics::RotaryTiltAngles& near) {
+    const auto first = kinematics::rotary_tilt_angles(kinematics::AngleMode::consistent, normal);
+    kinematics::RotaryTiltAngles best;
+    double least = 1e9;
+    for (kinematics::RotaryTiltAngles way : {first, {first.A + pi, pi - first.B, false}}) {
+        way.A += 2.0 * pi * std::round((near.A - way.A) / (2.0 * pi));
+        const double travel = std::abs(way.A - near.A) + std::abs(way.B - near.B);
+        if (travel < least) {
+            least = travel;
+            best = way;
+        }
+    }
+    return best;
+}
+
+/// The largest parametric error inside the tracks along v, straight from the thesis's equations: axes linear
+/// between the poses, mapped back, compared with the surface at the same fraction of the parameters.
+double largest_param_error_by_hand(const grid::Grid& grid, int samples) {
+    using namespace kinematics;
+    const auto patch = geometry::surface_preset("dome").make().patch(geometry::PatchId{0});
+    double largest = 0.0;
+    RotaryTiltAngles before;
+    Vec2 from;
+    for (int n = 0; n < grid.nu() * grid.nv(); ++n) {
+        const int i = n / grid.nv();
+        const int step = n % grid.nv();
+        const Vec2 to = grid.node(i, i % 2 == 0 ? step : grid.nv() - 1 - step);
+        const RotaryTiltAngles now = nearest_angles(*patch.unit_normal(to.x(), to.y()), before);
+        for (int k = 1; step > 0 && k <= samples; ++k) {
+            const double t = static_cast<double>(k) / (samples + 1);
+            const Vec3 M1 = machine_from_workpiece(
+                listing_values, patch.position(from.x(), from.y()), before.A, before.B);
+            const Vec3 M2 =
+                machine_from_workpiece(listing_values, patch.position(to.x(), to.y()), now.A, now.B);
+            const Vec3 W = workpiece_from_machine(listing_values,
+                                                  M1 + t * (M2 - M1),
+                                                  before.A + t * (now.A - before.A),
+                                                  before.B + t * (now.B - before.B));
+            const Vec2 uv = from + t * (to - from);
+            largest = std::max(largest, (W - patch.position(uv.x(), uv.y())).norm());
+        }
+        before = now;
+        from = to;
+    }
+    return largest;
+}
+
+TEST(Evaluation, AgreesWithTheThesissEquations) {
+    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), {off_the_poles()}, 7, Progress());
+    EXPECT_GT(found.param.max, 1.0);
+    EXPECT_NEAR(found.param.max, largest_param_error_by_hand(off_the_poles(), 7), 1e-9);
+}
+
+TEST(Evaluation, TheClosestPointIsNeverFartherThanTheParametricOne) {
+    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), uniform(9, 7), 8, Progress());
+    ASSERT_EQ(found.field.moves.size(), 9u * 7u - 1u);
+    for (const auto& move : found.field.moves) {
+        EXPECT_LE(move.closest, move.param + 1e-9);
+    }
+    EXPECT_LT(found.closest.mean, found.param.mean);
+    EXPECT_GT(found.cross_closest.max, 0.0);
+}
+
+TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    net.point(0, 0) = {-30, -20, 0};
+    net.point(1, 0) = {30, -20, 0};
+    net.point(0, 1) = {-30, 20, 0};
+    net.point(1, 1) = {30, 20, 0};
+    const Workpiece sheet{geometry::BezierPatch(net), test::machine("ac-table")};
+    const Evaluation found = evaluate(sheet, uniform(7, 3), 4, Progress());
+    EXPECT_NEAR(found.track_gap, 10.0, 1e-9);
+    EXPECT_NEAR(found.path_length, 7 * 40.0 + 6 * 10.0, 1e-9);
+    EXPECT_NEAR(found.closest.max, 0.0, 1e-9);
+}
+
+TEST(Evaluation, FaultyAnglesLeaveTheNormal) {
+    Workpiece workpiece = dome_on("rotary-tilt-listing");
+    EXPECT_LT(evaluate(workpiece, uniform(20, 20), 3, Progress()).closest.axis_mean, from_degrees(2.0));
+    workpiece.angle_mode = kinematics::AngleMode::faulty_text;
+    EXPECT_GT(evaluate(workpiece, uniform(20, 20), 3, Progress()).closest.axis_mean, from_degrees(10.0));
+    workpiece.machine = test::machine("ac-table");
+    EXPECT_THROW((void)evaluate(workpiece, uniform(20, 20), 3, Progress()), Error);
+}
+
+TEST(Evaluation, APartOutOfReachIsAnError) {
+    Workpiece workpiece = dome_on("ac-table");
+    workpiece.machine = workpiece.machine.with_workpiece_offset({0, 0, 5000});
+    EXPECT_THROW((void)evaluate(workpiece, uniform(4, 4), 3, Progress()), Error);
+}
+
+TEST(Evaluation, StopsWhenCancelled) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(
+        (void)evaluate(dome_on("ac-table"), uniform(4, 4), 3, Progress([](const auto&) {}, stop.get_token())),
+        Cancelled);
+}
+
+} // namespace
+} // namespace millwright::project
