@@ -1,5 +1,6 @@
 #include "core/project/internal/json_text.h"
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace millwright::project {
@@ -53,9 +54,13 @@ void print(std::string& text, const Json& value, std::size_t indent, std::size_t
 } // namespace
 
 std::string json_text(const Json& value) {
-    std::string text;
-    print(text, value, 0, 0);
-    return text + "\n";
+    try {
+        std::string text;
+        print(text, value, 0, 0);
+        return text + "\n";
+    } catch (const Json::type_error&) {
+        throw Error("a text is not valid UTF-8");
+    }
 }
 
 } // namespace millwright::project

@@ -336,11 +336,7 @@ std::string project_text(const Project& project) {
     json["machine"] = json_of(project.machine);
     json["grid"] = json_of(project.grid);
     json["program"] = json_of(project.program);
-    try {
-        return json_text(json);
-    } catch (const Json::type_error&) { // a text that is not UTF-8
-        throw Error("a text of the project is not valid UTF-8");
-    }
+    return json_text(json);
 }
 
 void write_project(const Project& project, const std::filesystem::path& file) {

@@ -1,0 +1,54 @@
+#include "core/project/recent_files.h"
+
+#include "core/base/files.h"
+#include "core/base/json.h"
+#include "core/project/internal/json_text.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace millwright::project {
+
+namespace fs = std::filesystem;
+
+RecentFiles with_recent(RecentFiles files, const fs::path& opened) {
+    const fs::path whole = fs::absolute(opened).lexically_normal();
+    files.erase(std::remove(files.begin(), files.end(), whole), files.end());
+    files.insert(files.begin(), whole);
+    files.resize(std::min(files.size(), most_recent_files));
+    return files;
+}
+
+RecentFiles read_recent(const fs::path& file) {
+    std::error_code failure;
+    if (!fs::exists(file, failure)) {
+        return {};
+    }
+    RecentFiles files;
+    for (const JsonValue& entry : JsonValue::read(file).items()) {
+        files.emplace_back(entry.text());
+    }
+    return files;
+}
+
+void write_recent(const RecentFiles& files, const fs::path& file) {
+    auto json = nlohmann::ordered_json::array();
+    for (const fs::path& entry : files) {
+        json.push_back(entry.string());
+    }
+    make_folder(file.parent_path());
+    write_file(file, json_text(json));
+}
+
+fs::path recent_files_place() {
+    if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0') {
+        return fs::path(state) / "millwright/recent.json";
+    }
+    const char* home = std::getenv("HOME");
+    return home != nullptr && *home != '\0' ? fs::path(home) / ".local/state/millwright/recent.json"
+                                            : fs::path();
+}
+
+} // namespace millwright::project
