@@ -7,16 +7,11 @@ layout(location = 3) in float value;
 uniform mat4 eye_from_buffer;
 uniform mat4 clip_from_eye;
 
-out vec3 eye_position;
-out vec3 eye_normal;
+out vec4 normal_and_value; // one slot for both: software renderers pay for each
 out vec4 vertex_color;
-out float vertex_value;
 
 void main() {
-    vec4 p = eye_from_buffer * vec4(position, 1.0);
-    eye_position = p.xyz;
-    eye_normal = mat3(eye_from_buffer) * normal;
+    normal_and_value = vec4(mat3(eye_from_buffer) * normal, value);
     vertex_color = color;
-    vertex_value = value;
-    gl_Position = clip_from_eye * p;
+    gl_Position = clip_from_eye * (eye_from_buffer * vec4(position, 1.0));
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace millwright::render {
@@ -72,6 +73,31 @@ glm::dmat4 eye_to_clip(const Camera& camera, double width_to_height, const Bound
 /// How long a pixel is in the target plane, mm.
 double target_pixel(const Camera& camera, const PixelSize& size) {
     return 2.0 * half_height(camera) / std::max(size.height, 1);
+}
+
+struct Extent {
+    double low = 0.0;
+    double high = 0.0;
+
+    [[nodiscard]] double size() const { return high - low; }
+    [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+};
+
+/// Of the points along `direction`, each slid along a side of the picture, which leans by `tangent`, to where
+/// the plane through the origin across `backward` meets it.
+Extent extent(std::span<const glm::dvec3> points,
+              const glm::dvec3& direction,
+              const glm::dvec3& backward,
+              double tangent) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent found = {.low = infinity, .high = -infinity};
+    for (const glm::dvec3& point : points) {
+        const double along = glm::dot(point, direction);
+        const double slid = tangent * glm::dot(point, backward);
+        found.low = std::min(found.low, along - slid);
+        found.high = std::max(found.high, along + slid);
+    }
+    return found;
 }
 
 } // namespace
@@ -143,20 +169,25 @@ Camera Camera::zoomed(double factor, const glm::dvec2& pixel, const PixelSize& s
 }
 
 Camera Camera::fitted(const Bounds& box, double aspect) const {
-    if (is_empty(box)) {
+    return is_empty(box) ? *this : fitted(corners(box), aspect);
+}
+
+Camera Camera::fitted(std::span<const glm::dvec3> points, double aspect) const {
+    if (points.empty()) {
         return *this;
     }
+    const double tan_up = tan_half_field / fit_margin;
+    const bool perspective = pose_.projection == Projection::perspective;
+    const Extent across = extent(points, right(), backward(), perspective ? tan_up * aspect : 0.0);
+    const Extent upright = extent(points, up(), backward(), perspective ? tan_up : 0.0);
+    const Extent depth = extent(points, backward(), right(), 0.0);
+    const double needed = std::max(across.size() / (tan_up * aspect), upright.size() / tan_up) * 0.5;
     CameraPose pose = pose_;
-    pose.target = center(box);
-    double distance = 0.0;
-    for (const glm::dvec3& corner : corners(box)) {
-        const glm::dvec3 arm = corner - pose.target;
-        const double across =
-            std::max(std::abs(glm::dot(arm, right())) / aspect, std::abs(glm::dot(arm, up())));
-        const double nearer = pose.projection == Projection::perspective ? glm::dot(arm, backward()) : 0.0;
-        distance = std::max(distance, fit_margin * across / tan_half_field + nearer);
-    }
-    pose.distance = distance > 0.0 ? distance : pose_.distance;
+    // In perspective the sides of the picture meet at the eye, otherwise they are `needed` apart at the
+    // target.
+    pose.distance = perspective ? needed - depth.middle() : needed;
+    pose.target = across.middle() * right() + upright.middle() * up() + depth.middle() * backward();
+    pose.distance = pose.distance > 0.0 ? pose.distance : pose_.distance;
     return Camera(pose);
 }
 

@@ -1,7 +1,6 @@
 // An orbit camera: it looks at a target from a distance, z is up. Angles rad, lengths mm.
 // Yaw: direction of the eye seen from the target, in the xy plane, counterclockwise from +x seen from above.
-// Pitch: height of the eye above that plane, -pi/2 (from below) to pi/2 (from above, y to the top for yaw
-// -pi/2).
+// Pitch: height of the eye over that plane, pi/2 straight from above (with yaw -pi/2, y is to the top).
 #pragma once
 
 #include "ui/render/bounds.h"
@@ -10,6 +9,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <span>
 
 namespace millwright::render {
 
@@ -53,8 +54,9 @@ public:
     [[nodiscard]] Camera panned(const glm::dvec2& drag_px, const PixelSize& size) const;
     /// Distance times `factor` (below 1: closer); what the target plane shows at `pixel` stays there.
     [[nodiscard]] Camera zoomed(double factor, const glm::dvec2& pixel, const PixelSize& size) const;
-    /// The whole box in the picture with a small margin, seen from the same side. An empty box changes
-    /// nothing.
+    /// As close as a small margin allows with all points in the picture and centred, seen from the same side.
+    /// The target moves to their middle. No points, or an empty box, change nothing.
+    [[nodiscard]] Camera fitted(std::span<const glm::dvec3> points, double aspect) const;
     [[nodiscard]] Camera fitted(const Bounds& box, double aspect) const;
     [[nodiscard]] Camera seen_from(StandardView side) const;
     [[nodiscard]] Camera with(Projection projection) const;

@@ -1,7 +1,8 @@
 // Colours for numbers: perceptually uniform maps that colour-blind people can read, over a stated range, with
-// one signal colour above a limit. Colours are sRGB, 0 to 1. Source: viridis (van der Walt, Smith 2015, CC0)
-// and cividis (Nunez, Anderton, Renslow 2018, CC0), each 17th entry of the published 256; interpolated in
-// linear light.
+// one signal colour above a limit. Colours are sRGB, 0 to 1.
+//
+// Source: viridis (van der Walt, Smith 2015, CC0) and cividis (Nunez, Anderton, Renslow 2018, CC0): each 17th
+// entry of the published 256, interpolated in linear light.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -29,7 +30,7 @@ struct ColorScale {
     ColorMap map = ColorMap::viridis;
     double low = 0.0;
     double high = 1.0;
-    std::optional<double> limit; ///< above it: `over_limit`
+    std::optional<double> limit = std::nullopt; ///< above it: `over_limit`
     glm::vec3 over_limit{0.93F, 0.26F, 0.21F};
 };
 

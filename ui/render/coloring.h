@@ -16,7 +16,7 @@ enum class ColorFrom {
 struct Coloring {
     ColorFrom from = ColorFrom::style;
     glm::vec4 color{1.0F}; ///< sRGB with opacity
-    ColorScale scale;
+    ColorScale scale = {};
     float opacity = 1.0F; ///< multiplies every opacity
 };
 

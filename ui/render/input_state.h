@@ -16,8 +16,8 @@ struct InputState {
     std::array<bool, 3> buttons{}; ///< left, right, middle
     float wheel = 0.0F;            ///< notches in this frame, up is positive
     bool ctrl = false, shift = false, alt = false;
-    std::vector<Key> keys;        ///< held down
-    std::string text;             ///< typed in this frame, UTF-8
+    std::vector<Key> keys = {};   ///< held down
+    std::string text = {};        ///< typed in this frame, UTF-8
     float seconds = 1.0F / 60.0F; ///< since the frame before; must be positive
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace millwright::render {
 
@@ -14,7 +15,9 @@ LineBuffer::LineBuffer(std::span<const LineVertex> vertices, LineTopology topolo
     expects(topology == LineTopology::strip || count % 2 == 0, "a segment has two ends");
     segment_count_ = topology == LineTopology::strip ? std::max(count - 1, 0) : count / 2;
     if (segment_count_ > 0) {
-        vertices_ = Buffer(std::as_bytes(vertices));
+        std::vector<LineVertex> padded(vertices.begin(), vertices.end());
+        padded.push_back(vertices.back()); // the last segment asks where the line goes on, too
+        vertices_ = Buffer(std::as_bytes(std::span(padded)));
         layout_.emplace();
     }
 }
@@ -33,6 +36,9 @@ GlId LineBuffer::vertex_array_from(int first) const {
         layout_->attach(vertices_, {3 * end + 1, 4, stride, at + color, true});
         layout_->attach(vertices_, {3 * end + 2, 1, stride, at + value, true});
     }
+    const std::ptrdiff_t next = topology_ == LineTopology::strip ? 2 * vertex_bytes : vertex_bytes;
+    const std::ptrdiff_t next_position = offsetof(LineVertex, position);
+    layout_->attach(vertices_, {6, 3, stride, first * stride + next + next_position, true});
     return layout_->id();
 }
 
@@ -56,6 +62,8 @@ void LineDrawer::draw(const LineBuffer& buffer,
     program_.set("half_width", 0.5F * std::max(width, 1.0F));
     program_.set("faintness", std::clamp(width, 0.0F, 1.0F));
     program_.set("dash", scale * glm::vec2(style.dash.on_px, style.dash.off_px));
+    program_.set("joined", buffer.topology() == LineTopology::strip ? 1 : 0);
+    program_.set("last", count - 1);
     glBindVertexArray(buffer.vertex_array_from(first));
     draw_smooth(program_, style.depth, [count] { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count); });
     glBindVertexArray(0);

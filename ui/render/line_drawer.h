@@ -34,6 +34,7 @@ public:
     LineBuffer(std::span<const LineVertex> vertices, LineTopology topology);
 
     [[nodiscard]] int segment_count() const { return segment_count_; }
+    [[nodiscard]] LineTopology topology() const { return topology_; }
     /// The vertex array, its first instance being segment `first`. Only if there are segments.
     [[nodiscard]] GlId vertex_array_from(int first) const;
 
@@ -51,10 +52,10 @@ struct Dash {
 };
 
 struct LineStyle {
-    Coloring coloring;
+    Coloring coloring = {};
     glm::mat4 model{1.0F}; ///< buffer's coordinates to the scene's
     float width_px = 1.5F; ///< times the view's content scale
-    Dash dash;
+    Dash dash = {};
     Depth depth = Depth::tested;
     int first = 0;  ///< segment to start with
     int count = -1; ///< segments to draw, held to what there is; -1 for all

@@ -1,4 +1,5 @@
-// Triangles with light: a headlight, a fill light from above, a soft highlight. Both sides are lit.
+// Triangles with light: a lamp over the left shoulder, a weaker one from the right, the sky, a soft
+// highlight. Both sides are lit.
 #pragma once
 
 #include "ui/render/coloring.h"
@@ -27,7 +28,8 @@ class MeshBuffer {
 public:
     /// Draws nothing.
     MeshBuffer() = default;
-    /// Three indices a triangle. Throws Defect for an index outside or a count that is no multiple of 3.
+    /// Three indices a triangle, counterclockwise seen from the side the normals point to. Throws Defect for
+    /// an index outside or a count that is no multiple of 3.
     MeshBuffer(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> triangles);
 
     [[nodiscard]] int index_count() const { return index_count_; }
@@ -41,11 +43,11 @@ private:
 };
 
 struct MeshStyle {
-    Coloring coloring;
+    Coloring coloring = {};
     glm::mat4 model{1.0F}; ///< buffer's coordinates to the scene's; turns, moves and scales evenly
-    std::optional<glm::vec3> back_color; ///< of the side the normals point away from
-    float highlight = 0.25F;             ///< strength of the soft highlight, 0 for none
-    bool lit = true;                     ///< false shows the plain colours
+    std::optional<glm::vec3> back_color = std::nullopt; ///< of the side the normals point away from
+    float highlight = 0.12F;                            ///< strength of the soft highlight, 0 for none
+    bool lit = true;                                    ///< false shows the plain colours
     Depth depth = Depth::tested;
 };
 

@@ -1,4 +1,5 @@
 // A context that draws into memory. Needs no DISPLAY: EGL without a surface, a framebuffer object of its own.
+// Not beside a window on the same thread: there, a picture of a view is taken with a ViewTarget.
 #pragma once
 
 #include "ui/render/context.h"

@@ -16,8 +16,8 @@ using Pixel = std::array<std::uint8_t, 4>; ///< red, green, blue, alpha; sRGB, a
 
 /// `pixels` has width * height entries, row by row, the top row first.
 struct Picture {
-    PixelSize size;
-    std::vector<Pixel> pixels;
+    PixelSize size = {};
+    std::vector<Pixel> pixels = {};
 
     /// Throws Defect outside the picture. x to the right, y downwards.
     [[nodiscard]] const Pixel& at(int x, int y) const;

@@ -38,7 +38,7 @@ private:
 };
 
 struct PointStyle {
-    Coloring coloring;
+    Coloring coloring = {};
     glm::mat4 model{1.0F}; ///< buffer's coordinates to the scene's
     float size_px = 8.0F;  ///< diameter with the ring; this and the others times the view's content scale
     float ring_px = 0.0F;  ///< width of the ring

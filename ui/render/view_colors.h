@@ -14,10 +14,10 @@ struct ViewColors {
     Theme theme = Theme::dark;
 
     // The window.
-    glm::vec3 accent{};               ///< what is active or selected
-    glm::vec3 on_accent{};            ///< text on the accent
-    std::array<glm::vec3, 8> neutral; ///< from the window's ground (0) to the strongest text (7)
-    glm::vec3 danger{};               ///< emergency stop, faults; nothing else is red
+    glm::vec3 accent{};                 ///< what is active or selected
+    glm::vec3 on_accent{};              ///< text on the accent
+    std::array<glm::vec3, 8> neutral{}; ///< from the window's ground (0) to the strongest text (7)
+    glm::vec3 danger{};                 ///< emergency stop, faults; nothing else is red
     glm::vec3 warning{};
     glm::vec3 good{};
 

@@ -18,7 +18,7 @@ struct WindowOptions {
     PixelSize size = {1280, 800};
     PixelSize smallest = {800, 500};
     bool visible = true;
-    Picture icon; ///< empty for the system's own
+    Picture icon = {}; ///< empty for the system's own
 };
 
 /// One at a time in a program, on the main thread.

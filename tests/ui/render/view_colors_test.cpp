@@ -1,0 +1,49 @@
+#include "ui/render/view_colors.h"
+
+#include "ui/render/color_map.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::render {
+namespace {
+
+// WCAG 2.1: text 4.5, large text and marks 3.
+constexpr double text_contrast = 4.5;
+constexpr double mark_contrast = 3.0;
+
+class EachTheme : public ::testing::TestWithParam<Theme> {};
+
+TEST_P(EachTheme, HasReadableText) {
+    const ViewColors colors = view_colors(GetParam());
+    for (const std::size_t ground : {0U, 1U, 2U}) {
+        EXPECT_GT(contrast(colors.neutral[7], colors.neutral[ground]), 7.0);
+        EXPECT_GT(contrast(colors.neutral[6], colors.neutral[ground]), text_contrast);
+        EXPECT_GT(contrast(colors.danger, colors.neutral[ground]), mark_contrast);
+        EXPECT_GT(contrast(colors.warning, colors.neutral[ground]), mark_contrast);
+        EXPECT_GT(contrast(colors.good, colors.neutral[ground]), mark_contrast);
+        EXPECT_GT(contrast(colors.accent, colors.neutral[ground]), mark_contrast);
+    }
+    EXPECT_GT(contrast(colors.on_accent, colors.accent), text_contrast);
+}
+
+TEST_P(EachTheme, HasANeutralRampThatNeverTurns) {
+    const ViewColors colors = view_colors(GetParam());
+    for (std::size_t i = 1; i < colors.neutral.size(); ++i) {
+        EXPECT_GT(contrast(colors.neutral[i], colors.neutral[0]),
+                  contrast(colors.neutral[i - 1], colors.neutral[0]));
+    }
+}
+
+TEST_P(EachTheme, KeepsTheMarksOfTheViewOffItsBackground) {
+    const ViewColors colors = view_colors(GetParam());
+    for (const glm::vec3& background : {colors.background_top, colors.background_bottom}) {
+        for (const glm::vec3& mark : {colors.net, colors.handle, colors.path, colors.axis_x, colors.axis_y}) {
+            EXPECT_GT(contrast(mark, background), 2.4);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ViewColors, EachTheme, ::testing::Values(Theme::dark, Theme::light));
+
+} // namespace
+} // namespace millwright::render

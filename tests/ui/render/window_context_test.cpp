@@ -1,0 +1,139 @@
+#include "ui/render/window_context.h"
+
+#include "core/base/error.h"
+#include "ui/render/camera.h"
+#include "ui/render/offscreen_context.h"
+#include "ui/render/painter.h"
+#include "ui/render/view_target.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace millwright::render {
+namespace {
+
+/// Sets a variable of the environment, or removes it, until the end of the scope.
+class Environment {
+public:
+    Environment(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) {
+            old_ = old;
+        }
+        value != nullptr ? ::setenv(name, value, 1) : ::unsetenv(name);
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+    ~Environment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
+
+private:
+    const char* name_;
+    std::optional<std::string> old_;
+};
+
+std::string reason_without(const char* display) {
+    const Environment none("DISPLAY", display);
+    try {
+        const WindowContext window(WindowOptions{});
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return {};
+}
+
+TEST(WindowContext, SaysThatThereIsNoDisplay) {
+    EXPECT_EQ(
+        reason_without(nullptr),
+        "cannot open a window: there is no display (DISPLAY is not set) (start the program in a desktop "
+        "session, or use the commands that need no window)");
+}
+
+TEST(WindowContext, NamesTheDisplayThatDoesNotAnswer) {
+    EXPECT_NE(reason_without(":987").find("the display :987 cannot be used"), std::string::npos);
+}
+
+class WithDisplay : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::getenv("DISPLAY") == nullptr) {
+            GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
+        }
+    }
+};
+
+void draw_scene(const PixelSize& size) {
+    const Painter painter;
+    const View view = Camera().view(size, Bounds{});
+    const std::array<MeshVertex, 3> corners = {{{.position = {-80.0F, 0.0F, -30.0F}},
+                                                {.position = {80.0F, 0.0F, -30.0F}},
+                                                {.position = {0.0F, 20.0F, 70.0F}}}};
+    const std::array<LineVertex, 3> line = {{{.position = {-90.0F, 10.0F, 0.0F}},
+                                             {.position = {0.0F, -40.0F, 30.0F}},
+                                             {.position = {90.0F, 0.0F, 9.0F}}}};
+    painter.background(view_colors(Theme::dark));
+    painter.mesh(MeshBuffer(corners, std::array<std::uint32_t, 3>{0, 1, 2}), {}, view);
+    painter.lines(LineBuffer(line, LineTopology::strip), {.width_px = 5.0F}, view);
+}
+
+struct Drawn {
+    Picture by_context;
+    Picture by_target;
+};
+
+Drawn scene_in(Context& context) {
+    const PixelSize size = context.framebuffer_size();
+    context.begin();
+    draw_scene(size);
+    ViewTarget target;
+    target.begin(size);
+    draw_scene(size);
+    target.end();
+    return {.by_context = context.read_back(), .by_target = target.read()};
+}
+
+TEST_F(WithDisplay, DrawsTheSamePixelsAsWithoutAWindow) {
+    const Drawn in_window = [] {
+        WindowContext window({.size = {320, 240}, .smallest = {100, 100}});
+        return scene_in(window);
+    }();
+    OffscreenContext memory(in_window.by_context.size);
+    const Drawn in_memory = scene_in(memory);
+    EXPECT_TRUE(in_window.by_target == in_memory.by_target);
+    // A window's rows count from above, so a pixel exactly on an edge may fall to the other side.
+    EXPECT_LT(difference(in_window.by_context, in_memory.by_context).fraction, 1e-4);
+}
+
+TEST_F(WithDisplay, IsDrawnOnceWhenItOpensAndThenOnRequestOnly) {
+    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    EXPECT_TRUE(window.wait(0.0));
+    while (window.wait(0.2)) { // what the display still has to say about a new window
+    }
+    EXPECT_FALSE(window.wait(0.05));
+    window.request_redraw();
+    EXPECT_TRUE(window.wait(10.0));
+    EXPECT_FALSE(window.wait(0.05));
+}
+
+TEST_F(WithDisplay, IsWokenByARequestFromAnotherThread) {
+    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    while (window.wait(0.2)) {
+    }
+    const std::jthread other([&window] { window.request_redraw(); });
+    EXPECT_TRUE(window.wait(-1.0));
+}
+
+TEST_F(WithDisplay, OpensAgainAfterItWasClosed) {
+    for (int i = 0; i < 2; ++i) {
+        WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+        EXPECT_EQ(window.framebuffer_size(), (PixelSize{200, 150}));
+        EXPECT_FALSE(window.close_requested());
+        EXPECT_GE(window.content_scale(), 0.5);
+    }
+}
+
+} // namespace
+} // namespace millwright::render
