@@ -1,0 +1,37 @@
+// What a person did in the 3D view, as requests: the view changes nothing of the project, panels turn these
+// into actions. Positions in workpiece coordinates, mm.
+#pragma once
+
+#include "ui/viewport/scene.h"
+
+#include <variant>
+#include <vector>
+
+namespace millwright::viewport {
+
+struct MovedControlPoint {
+    ControlPointId id;
+    Vec3 position = Vec3::Zero();
+};
+
+/// Control points are being dragged: one event a frame in which they moved, and one at the end.
+struct MoveControlPoints {
+    enum class Stage { going_on, finished, cancelled };
+    std::vector<MovedControlPoint> points; ///< where they are to be now; when cancelled, where they began
+    Stage stage = Stage::going_on;
+};
+
+/// The selection is to become this one, ascending; empty: nothing is selected.
+struct SelectControlPoints {
+    std::vector<ControlPointId> points;
+};
+
+/// A move of the path was clicked: the timeline is to go there.
+struct GoToMove {
+    int move = 0;
+    double fraction = 0.0; ///< of the move, where it was clicked, 0 to 1
+};
+
+using ViewEvent = std::variant<MoveControlPoints, SelectControlPoints, GoToMove>;
+
+} // namespace millwright::viewport

@@ -1,0 +1,94 @@
+#include "ui/viewport/internal/curves.h"
+
+#include "core/kinematics/branch.h"
+#include "core/toolpath/actual_trajectory.h"
+#include "ui/render/convert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::viewport {
+
+namespace {
+
+constexpr int most_segments = 16000; // about 30 ms without a graphics card
+constexpr int smoothest = 8;
+constexpr double turn_per_step = 0.07; // rad; a loop of 180 deg gets 45 steps
+
+} // namespace
+
+std::vector<Vec3> on_surface(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b, int steps) {
+    std::vector<Vec3> points;
+    points.reserve(static_cast<std::size_t>(steps) + 1);
+    for (int k = 0; k <= steps; ++k) {
+        const double t = static_cast<double>(k) / steps;
+        const Vec2 uv = (1.0 - t) * a + t * b;
+        points.push_back(patch.position(uv.x(), uv.y()));
+    }
+    return points;
+}
+
+std::vector<Vec3>
+actual_tips(const project::Workpiece& workpiece, const project::Evaluation& shown, int move, int steps) {
+    const auto from = static_cast<std::size_t>(move);
+    const kinematics::AxisPositions& a = shown.axes.positions[from];
+    const kinematics::AxisPositions& b = shown.axes.positions[from + 1];
+    const double turn = kinematics::rotary_travel(workpiece.machine, a, b);
+    const int needed = std::max(steps, static_cast<int>(std::ceil(turn / turn_per_step)));
+    std::vector<Vec3> tips;
+    for (const geometry::ToolPose& pose : toolpath::actual_poses(workpiece.machine, a, b, needed + 1)) {
+        tips.push_back(pose.tip);
+    }
+    return tips;
+}
+
+int smooth_steps(int curves) {
+    return std::clamp(most_segments / std::max(curves, 1), 1, smoothest);
+}
+
+void append(std::vector<render::LineVertex>& vertices,
+            std::span<const Vec3> points,
+            const glm::vec4& color,
+            float value) {
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        vertices.push_back({.position = render::to_float(points[k]), .color = color, .value = value});
+        vertices.push_back({.position = render::to_float(points[k + 1]), .color = color, .value = value});
+    }
+}
+
+glm::vec4 with_opacity(const glm::vec3& color, float opacity) {
+    return {color, opacity};
+}
+
+PathLines::PathLines(int move_count, const std::function<Move(int)>& make) {
+    std::vector<render::LineVertex> vertices;
+    for (int move = 0; move < move_count; ++move) {
+        first_.push_back(static_cast<int>(vertices.size() / 2));
+        const Move made = make(move);
+        const std::span<const Vec3> points = made.points;
+        const std::size_t stride = made.dashed ? 2 : 1;
+        for (std::size_t k = 0; k + 1 < points.size(); k += stride) {
+            append(vertices, points.subspan(k, 2), glm::vec4(1.0F), made.value);
+        }
+    }
+    first_.push_back(static_cast<int>(vertices.size() / 2));
+    buffer_ = render::LineBuffer(vertices, render::LineTopology::segments);
+}
+
+int PathLines::segments_until(int move, double fraction) const {
+    if (move < 0 || first_.empty()) {
+        return 0;
+    }
+    const auto at = static_cast<std::size_t>(move);
+    if (at + 1 >= first_.size()) {
+        return first_.back();
+    }
+    const double inside = fraction * (first_[at + 1] - first_[at]);
+    return first_[at] + static_cast<int>(std::floor(inside));
+}
+
+int segments_done(const PathLines& lines, const std::optional<Moment>& now) {
+    return now ? lines.segments_until(now->move, now->fraction) : lines.segment_count();
+}
+
+} // namespace millwright::viewport

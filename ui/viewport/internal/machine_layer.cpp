@@ -1,0 +1,80 @@
+// The machine: simple bodies, each carried by its axis. The scene's frame is then the machine's.
+
+#include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/internal/layers.h"
+#include "ui/viewport/internal/solids.h"
+#include "ui/viewport/machine_bodies.h"
+
+namespace millwright::viewport {
+
+namespace {
+
+Solid solid_of(const kinematics::MachineBody& body) {
+    if (body.shape == kinematics::MachineBody::Shape::cylinder) {
+        return cylinder_solid(static_cast<float>(body.size.x()), static_cast<float>(body.size.z()));
+    }
+    const Box3 box = body_box(body);
+    return box_solid(render::to_float(Vec3(box.min())), render::to_float(Vec3(box.max())));
+}
+
+class MachineLayer final : public Layer {
+public:
+    void update(const Scene& scene) override {
+        if (!scene.layers.machine || scene.workpiece == workpiece_) {
+            return;
+        }
+        workpiece_ = scene.workpiece;
+        bodies_.clear();
+        if (workpiece_) {
+            for (const kinematics::MachineBody& body : workpiece_->machine.description().bodies) {
+                bodies_.emplace_back(solid_of(body));
+            }
+        }
+    }
+
+    void draw(const Scene& scene, const Canvas& canvas) const override {
+        if (!scene.layers.machine || !workpiece_) {
+            return;
+        }
+        const kinematics::MachineModel& machine = workpiece_->machine;
+        const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
+        for (std::size_t k = 0; k < bodies_.size(); ++k) {
+            const kinematics::MachineBody& body = machine.description().bodies[k];
+            bodies_[k].draw(
+                canvas, glm::mat4(render::to_glm(poses[k])), color_of(machine, body, canvas.colors));
+        }
+    }
+
+    [[nodiscard]] render::Bounds bounds(const Scene& scene) const override {
+        render::Bounds all;
+        if (scene.layers.machine && scene.workpiece) {
+            const kinematics::MachineModel& machine = scene.workpiece->machine;
+            const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
+            for (std::size_t k = 0; k < poses.size(); ++k) {
+                all = united(all, transformed(body_box(machine.description().bodies[k]), poses[k]));
+            }
+        }
+        return all;
+    }
+
+private:
+    static glm::vec3 color_of(const kinematics::MachineModel& machine,
+                              const kinematics::MachineBody& body,
+                              const render::ViewColors& colors) {
+        if (is_cutter(machine, body)) {
+            return colors.tool;
+        }
+        return body.carried_by == '\0' ? colors.machine : colors.machine_moving;
+    }
+
+    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::vector<SolidBuffers> bodies_;
+};
+
+} // namespace
+
+std::unique_ptr<Layer> make_machine_layer() {
+    return std::make_unique<MachineLayer>();
+}
+
+} // namespace millwright::viewport

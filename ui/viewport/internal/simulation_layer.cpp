@@ -1,0 +1,110 @@
+// The tool at the present moment, and the way that it really took so far. Where the machine is shown its own
+// cutter is the tool.
+
+#include "core/kinematics/forward.h"
+#include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/internal/curves.h"
+#include "ui/viewport/internal/layers.h"
+#include "ui/viewport/internal/solids.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+
+namespace millwright::viewport {
+
+namespace {
+
+constexpr double tool_share = 0.035; // radius of the tool to that of the part
+
+/// A tool of radius 1 with a tapered end, since the tool is taken for a point, and a holder.
+Solid tool_solid() {
+    constexpr std::array<glm::vec2, 7> profile = {{{0.0F, 0.0F},
+                                                   {1.0F, 3.2F},
+                                                   {1.0F, 11.0F},
+                                                   {2.4F, 12.2F},
+                                                   {2.4F, 17.0F},
+                                                   {1.7F, 17.8F},
+                                                   {0.0F, 17.8F}}};
+    return turned_solid(profile);
+}
+
+Frame pose_frame(const geometry::ToolPose& pose) {
+    Frame frame = Frame::Identity();
+    frame.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), pose.axis).toRotationMatrix();
+    frame.translation() = pose.tip;
+    return frame;
+}
+
+class SimulationLayer final : public Layer {
+public:
+    void update(const Scene& scene) override {
+        if (!tool_) {
+            tool_.emplace(tool_solid());
+        }
+        if (!traced(scene) || (scene.shown == shown_ && scene.workpiece == workpiece_)) {
+            return;
+        }
+        shown_ = scene.shown;
+        workpiece_ = scene.workpiece;
+        trace_ = shown_ && workpiece_ ? trace_of(*workpiece_, *shown_) : PathLines();
+    }
+
+    void draw(const Scene& scene, const Canvas& canvas) const override {
+        if (!scene.now || !scene.workpiece) {
+            return;
+        }
+        if (traced(scene)) {
+            draw_trace(scene, canvas);
+        }
+        if (scene.layers.tool && !scene.layers.machine) {
+            draw_tool(scene, canvas);
+        }
+    }
+
+private:
+    /// The error layer draws the same way in colours of its own.
+    static bool traced(const Scene& scene) {
+        return scene.layers.trace && scene.now && !scene.layers.error_path;
+    }
+
+    static PathLines trace_of(const project::Workpiece& workpiece, const project::Evaluation& shown) {
+        const int moves = static_cast<int>(shown.field.moves.size());
+        const int steps = std::max(smooth_steps(moves), 2);
+        return PathLines(moves, [&](int move) -> PathLines::Move {
+            const bool cuts =
+                shown.field.moves[static_cast<std::size_t>(move)].kind == toolpath::MoveKind::track;
+            return {.points = cuts ? actual_tips(workpiece, shown, move, steps) : std::vector<Vec3>{}};
+        });
+    }
+
+    void draw_trace(const Scene& scene, const Canvas& canvas) const {
+        draw_seamed(canvas,
+                    trace_.buffer(),
+                    {.coloring = {.color = with_opacity(canvas.colors.selected, 1.0F)},
+                     .model = canvas.s_T_w,
+                     .width_px = scene.layers.machine ? 1.2F : 2.2F,
+                     .count = segments_done(trace_, scene.now)},
+                    canvas.view);
+    }
+
+    void draw_tool(const Scene& scene, const Canvas& canvas) const {
+        const Frame w_T_tool = pose_frame(kinematics::forward(scene.workpiece->machine, axes_now(scene)));
+        const auto size = static_cast<float>(tool_share * radius(canvas.content));
+        const glm::mat4 placed = canvas.s_T_w * glm::mat4(render::to_glm(w_T_tool));
+        tool_->draw(canvas, glm::scale(placed, glm::vec3(size)), canvas.colors.tool);
+    }
+
+    std::optional<SolidBuffers> tool_;
+    std::shared_ptr<const project::Evaluation> shown_;
+    std::shared_ptr<const project::Workpiece> workpiece_;
+    PathLines trace_;
+};
+
+} // namespace
+
+std::unique_ptr<Layer> make_simulation_layer() {
+    return std::make_unique<SimulationLayer>();
+}
+
+} // namespace millwright::viewport

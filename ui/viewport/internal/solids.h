@@ -1,0 +1,43 @@
+// Simple solids with their edges: boxes and bodies of revolution.
+#pragma once
+
+#include "ui/viewport/internal/layer.h"
+
+#include <glm/vec2.hpp>
+
+#include <span>
+
+namespace millwright::viewport {
+
+/// A solid in its own coordinates.
+struct Solid {
+    std::vector<render::MeshVertex> vertices;
+    std::vector<std::uint32_t> triangles;
+    std::vector<render::LineVertex> edges; ///< segments
+};
+
+/// From `min` to `max`.
+[[nodiscard]] Solid box_solid(const glm::vec3& min, const glm::vec3& max);
+
+/// The profile (radius, z), from one end to the other with the outside at its right when z rises, turned
+/// about z. Neighbouring stretches meet in an edge.
+[[nodiscard]] Solid turned_solid(std::span<const glm::vec2> profile);
+
+[[nodiscard]] Solid cylinder_solid(float diameter, float height);
+
+/// A flat polygon of four corners, counter-clockwise seen from outside.
+void add_quad(Solid& solid, const std::array<glm::vec3, 4>& corners);
+
+class SolidBuffers {
+public:
+    SolidBuffers() = default;
+    explicit SolidBuffers(const Solid& solid);
+
+    void draw(const Canvas& canvas, const glm::mat4& model, const glm::vec3& color) const;
+
+private:
+    render::MeshBuffer mesh_;
+    render::LineBuffer edges_;
+};
+
+} // namespace millwright::viewport

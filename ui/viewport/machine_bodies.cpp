@@ -1,0 +1,45 @@
+#include "ui/viewport/machine_bodies.h"
+
+#include "core/kinematics/forward.h"
+
+namespace millwright::viewport {
+
+namespace {
+
+constexpr double touching_mm = 1e-3; // machine files are rounded to micrometres
+
+/// The body's frame with all axes at their physical zero.
+Frame at_zero(const kinematics::MachineBody& body) {
+    Frame pose = Frame::Identity();
+    pose.translation() = body.center;
+    if (body.shape == kinematics::MachineBody::Shape::cylinder) {
+        pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body.direction).toRotationMatrix();
+    }
+    return pose;
+}
+
+} // namespace
+
+std::vector<Frame> body_poses(const kinematics::MachineModel& machine,
+                              const kinematics::AxisPositions& positions) {
+    std::vector<Frame> poses;
+    for (const kinematics::MachineBody& body : machine.description().bodies) {
+        poses.push_back(kinematics::carrier_motion(machine, positions, body.carried_by) * at_zero(body));
+    }
+    return poses;
+}
+
+Box3 body_box(const kinematics::MachineBody& body) {
+    const Vec3 half = 0.5 * body.size;
+    return {Vec3(-half), half};
+}
+
+bool is_cutter(const kinematics::MachineModel& machine, const kinematics::MachineBody& body) {
+    const kinematics::MachineDescription& description = machine.description();
+    const Vec3 lower_end = body.center - 0.5 * body.size.z() * body.direction;
+    return body.shape == kinematics::MachineBody::Shape::cylinder && !description.head.empty() &&
+           body.carried_by == description.head.back().letter &&
+           (lower_end - description.tool_tip).norm() < touching_mm;
+}
+
+} // namespace millwright::viewport

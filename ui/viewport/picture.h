@@ -1,0 +1,24 @@
+// A view as a picture of its own, for files and reports: legend, title and the figures that matter beside it.
+// Needs no display.
+#pragma once
+
+#include "core/project/plan.h"
+#include "ui/render/picture.h"
+#include "ui/render/view_colors.h"
+#include "ui/viewport/scene.h"
+
+namespace millwright::viewport {
+
+/// All of `plan` as one view shows it at first, on the grid that the project chose.
+[[nodiscard]] Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind);
+
+/// The same bytes each time. Makes a context of its own, which is current while it draws: a caller that has
+/// one makes it current again. Not within a frame of ImGui. Throws Error if there is no EGL or no OpenGL 3.3,
+/// Defect if the size has no area.
+[[nodiscard]] render::Picture render_view(const project::Project& project,
+                                          const project::Plan& plan,
+                                          ViewKind kind,
+                                          const render::PixelSize& size,
+                                          render::Theme theme);
+
+} // namespace millwright::viewport

@@ -1,0 +1,126 @@
+#include "ui/viewport/scene.h"
+
+#include "core/base/numbers.h"
+#include "core/kinematics/forward.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace millwright::viewport {
+
+namespace {
+
+struct KindNames {
+    std::string_view id;
+    std::string_view title;
+};
+
+constexpr std::array<KindNames, view_kind_count> kinds = {{{"design", "Design"},
+                                                           {"grid", "Grid"},
+                                                           {"toolpath", "Toolpath"},
+                                                           {"error", "Error map"},
+                                                           {"machine", "Machine"}}};
+
+const KindNames& names(ViewKind kind) {
+    return kinds[static_cast<std::size_t>(kind)];
+}
+
+bool same(const toolpath::SingularPoint& a, const toolpath::SingularPoint& b) {
+    return a.position == b.position;
+}
+
+bool same(const Moment& a, const Moment& b) {
+    return a.move == b.move && exactly_equal(a.fraction, b.fraction) && a.axes.size() == b.axes.size() &&
+           a.axes == b.axes;
+}
+
+bool same(const std::optional<Moment>& a, const std::optional<Moment>& b) {
+    return a && b ? same(*a, *b) : a.has_value() == b.has_value();
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below `value`.
+double round_up(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double step : {1.0, 2.0, 5.0}) {
+        if (value <= step * power) {
+            return step * power;
+        }
+    }
+    return 10.0 * power;
+}
+
+constexpr double finest_scale_mm = 1e-6; // a path without errors still has a legend
+
+} // namespace
+
+std::string_view id(ViewKind kind) {
+    return names(kind).id;
+}
+
+std::string_view title(ViewKind kind) {
+    return names(kind).title;
+}
+
+std::optional<ViewKind> view_kind(std::string_view id) {
+    const auto found = std::ranges::find(kinds, id, &KindNames::id);
+    return found == kinds.end() ? std::nullopt : std::optional(static_cast<ViewKind>(found - kinds.begin()));
+}
+
+Layers layers_of(ViewKind kind) {
+    switch (kind) {
+    case ViewKind::design:
+        return {.surface_lines = true, .control_net = true};
+    case ViewKind::grid:
+        return {.grid = true, .singular_points = true};
+    case ViewKind::toolpath:
+        return {.toolpath = true, .tool = true, .trace = true};
+    case ViewKind::error:
+        return {.error_path = true, .singular_points = true, .tool = true};
+    case ViewKind::machine:
+        break;
+    }
+    return {.toolpath = true, .machine = true, .tool = true, .trace = true, .floor = false, .origin = false};
+}
+
+bool operator==(const Scene& a, const Scene& b) {
+    return a.layers == b.layers && a.surface == b.surface && a.workpiece == b.workpiece &&
+           std::ranges::equal(a.singular_points,
+                              b.singular_points,
+                              [](const auto& p, const auto& q) { return same(p, q); }) &&
+           a.shown == b.shown && a.start == b.start && a.watched == b.watched && same(a.now, b.now) &&
+           a.selected == b.selected && a.error == b.error;
+}
+
+kinematics::AxisPositions axes_now(const Scene& scene) {
+    if (!scene.workpiece) {
+        return {};
+    }
+    const int count = scene.workpiece->machine.axis_count();
+    if (scene.now && scene.now->axes.size() == count) {
+        return scene.now->axes;
+    }
+    const bool has_path = scene.shown && !scene.shown->axes.positions.empty();
+    if (has_path && scene.shown->axes.positions.front().size() == count) {
+        return scene.shown->axes.positions.front();
+    }
+    return kinematics::AxisPositions::Zero(count);
+}
+
+Frame scene_from_workpiece(const Scene& scene) {
+    return scene.layers.machine && scene.workpiece
+               ? kinematics::m_T_w(scene.workpiece->machine, axes_now(scene))
+               : Frame::Identity();
+}
+
+render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit) {
+    const double usual = scene.shown ? scene.shown->closest.p95 : 1.0;
+    const double top = scene.error.high.value_or(round_up(std::max(usual, finest_scale_mm)));
+    return {.map = scene.error.map,
+            .low = 0.0,
+            .high = std::max(scene.error.limit.value_or(top), finest_scale_mm),
+            .limit = scene.error.limit,
+            .over_limit = over_limit};
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,108 @@
+// What the 3D view shows: plain values, and the immutable results they come from. Made anew each frame;
+// results are compared by pointer, so that buffers are rebuilt only for other results. Lengths mm, angles
+// rad. Frames: w workpiece, m machine, s scene (what the camera looks at). s is m where the machine is shown,
+// else w.
+#pragma once
+
+#include "core/geometry/surface.h"
+#include "core/grid/improver.h"
+#include "core/project/evaluation.h"
+#include "core/toolpath/singular_points.h"
+#include "ui/render/bounds.h"
+#include "ui/render/color_map.h"
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace millwright::viewport {
+
+enum class ViewKind { design, grid, toolpath, error, machine };
+inline constexpr int view_kind_count = 5;
+
+/// The word of the command line: "design", "grid" ...
+[[nodiscard]] std::string_view id(ViewKind kind);
+/// For people: "Design", "Error map" ...
+[[nodiscard]] std::string_view title(ViewKind kind);
+/// The kind of that id; nothing if there is none.
+[[nodiscard]] std::optional<ViewKind> view_kind(std::string_view id);
+
+/// What of the results is to be seen.
+struct Layers {
+    bool surface = true;
+    bool surface_lines = false;   ///< lines of constant u and v, eleven each
+    bool control_net = false;     ///< with handles
+    bool grid = false;            ///< of `shown`, or what is being adapted
+    bool start_grid = false;      ///< of `start`, dim
+    bool toolpath = false;        ///< the intended path
+    bool tool_axes = false;       ///< a hair along the tool at each path point
+    bool error_path = false;      ///< the actual path, coloured by the error of each move
+    bool error_surface = false;   ///< the surface, coloured by the errors around each place
+    bool singular_points = false; ///< of the machine on the surface
+    bool machine = false;         ///< its bodies; the scene is then the machine's frame
+    bool tool = false;            ///< the tool at `now`
+    bool trace = false;           ///< the actual path up to `now`
+    bool floor = true;            ///< a ground grid below everything
+    bool origin = true;           ///< axes at the workpiece's origin
+
+    friend bool operator==(const Layers&, const Layers&) = default;
+};
+
+/// What people expect to see in each view.
+[[nodiscard]] Layers layers_of(ViewKind kind);
+
+/// A control point of the surface, by patch, row and column.
+struct ControlPointId {
+    geometry::PatchId patch{0};
+    int i = 0;
+    int j = 0;
+
+    friend auto operator<=>(const ControlPointId&, const ControlPointId&) = default;
+};
+
+/// Where the motion stands.
+struct Moment {
+    kinematics::AxisPositions axes;
+    int move = 0;          ///< of `shown`'s tool path; the moves before are done. -1: not yet on the path
+    double fraction = 0.0; ///< of that move, 0 to 1
+};
+
+/// How errors become colours.
+struct ErrorScale {
+    render::ColorMap map = render::ColorMap::viridis;
+    std::optional<double> high;  ///< top of the colours, mm; nothing: from the shown errors
+    std::optional<double> limit; ///< tolerance, mm: the top of the colours, and above it the signal colour
+
+    friend bool operator==(const ErrorScale&, const ErrorScale&) = default;
+};
+
+/// Any part may be missing: a layer without its results draws nothing.
+struct Scene {
+    Layers layers;
+    std::shared_ptr<const geometry::Surface> surface;
+    std::shared_ptr<const project::Workpiece> workpiece;
+    std::vector<toolpath::SingularPoint> singular_points;
+    std::shared_ptr<const project::Evaluation> shown; ///< grid, path and errors that are drawn
+    std::shared_ptr<const project::Evaluation> start; ///< the grid it began with
+    std::shared_ptr<const grid::ImproverState>
+        watched; ///< an adaptation on its way; drawn in place of the grid
+    std::optional<Moment> now;
+    std::vector<ControlPointId> selected; ///< ascending
+    ErrorScale error;
+};
+
+/// Whether both look the same.
+[[nodiscard]] bool operator==(const Scene& a, const Scene& b);
+
+/// Where the axes stand: at `now`, else at the start of the path, else at zero. Empty without a workpiece.
+[[nodiscard]] kinematics::AxisPositions axes_now(const Scene& scene);
+
+/// Workpiece to machine coordinates with axes_now() where the machine is shown, else the identity.
+[[nodiscard]] Frame scene_from_workpiece(const Scene& scene);
+
+/// The colours of the errors of `shown`: from 0 to a round number that 95 % of the moves do not exceed,
+/// unless the scene says otherwise. `over_limit` comes from the theme.
+[[nodiscard]] render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit);
+
+} // namespace millwright::viewport

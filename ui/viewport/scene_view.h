@@ -1,0 +1,63 @@
+// Draws a scene through a camera: all layers, without any words. Owns their buffers; made once a context,
+// after it and gone before it.
+#pragma once
+
+#include "ui/render/painter.h"
+#include "ui/viewport/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::viewport {
+
+class Layer;
+
+/// What the mouse is on.
+struct Highlight {
+    std::optional<ControlPointId> point;
+    std::optional<int> move;
+
+    friend bool operator==(const Highlight&, const Highlight&) = default;
+};
+
+/// A word at a place of the scene, to be drawn over the picture.
+struct Label {
+    glm::dvec3 position{};
+    std::string text;
+    glm::vec3 color{1.0F};
+};
+
+class SceneView {
+public:
+    /// Needs a current context. Throws Defect if a shader does not compile.
+    SceneView();
+    ~SceneView();
+    SceneView(const SceneView&) = delete;
+    SceneView& operator=(const SceneView&) = delete;
+
+    /// Makes buffers anew for results that are others than those of the last scene.
+    void update(const Scene& scene);
+
+    /// What a camera has to see, in scene coordinates: of the scene last updated.
+    [[nodiscard]] const render::Bounds& content() const { return content_; }
+
+    /// Background and layers of the scene last updated, into the bound framebuffer.
+    void draw(const render::View& view, const render::ViewColors& colors, const Highlight& highlight) const;
+
+    [[nodiscard]] std::vector<Label> labels(const render::View& view, const render::ViewColors& colors) const;
+
+    /// Bounds that a view has to take into its depth range: the content and what stands around it.
+    [[nodiscard]] render::Bounds depth_range() const;
+
+private:
+    render::Painter painter_;
+    std::vector<std::unique_ptr<Layer>> layers_;
+    Scene scene_;
+    render::Bounds content_;
+};
+
+} // namespace millwright::viewport

@@ -1,0 +1,70 @@
+// The 3D view as a pane of the window: one picture or four, with cameras, words, legend, scale bar and axes,
+// and what the mouse does in it. It only shows and asks: what a person did comes back as events (events.h).
+//
+// Mouse: middle or right button, or Alt and the left one: orbit; with Shift: pan. Wheel: zoom to the mouse.
+// Left: click selects a control point (Ctrl: adds or takes away) or goes to a move of the path; dragging a
+// control point moves all selected ones in the screen plane, with X, Y or Z held along that axis, with Shift
+// ten times finer, with Ctrl to round coordinates; Esc takes it back. Dragging from an empty place selects by
+// a box; a double click there fits. Keys while the mouse is in the view: F or Home fit, 1 front, 2 top, 3
+// right, 4 back, 5 bottom, 6 left, 0 iso, P projection.
+#pragma once
+
+#include "ui/render/camera.h"
+#include "ui/viewport/events.h"
+#include "ui/viewport/scene.h"
+#include "ui/widgets/ui.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace millwright::viewport {
+
+enum class Arrangement { one, four };
+
+/// What the mouse points at, in workpiece coordinates.
+struct UnderMouse {
+    std::optional<Vec3> on_surface; ///< mm
+    std::optional<Vec2> uv;         ///< parameters there
+    std::optional<ControlPointId> point;
+    std::optional<int> move;
+};
+
+/// Made once a context, after it and gone before it; a session of ImGui has to be there when drawing.
+class Viewport {
+public:
+    Viewport();
+    ~Viewport();
+    Viewport(const Viewport&) = delete;
+    Viewport& operator=(const Viewport&) = delete;
+
+    /// Draws the scene into `place` of the current pane. A picture is drawn anew only if something in it
+    /// changed. The first time, and after fit(), the camera takes in everything. Handles of control points
+    /// are recorded as `control_point(i,j)` (of later patches `control_point(patch,i,j)`), within `top`,
+    /// `front`, `right` and `iso` where there are four pictures.
+    [[nodiscard]] std::vector<ViewEvent>
+    draw(widgets::Ui& ui, const widgets::Rect& place, const Scene& scene);
+
+    /// Takes in everything at the next draw().
+    void fit();
+    /// Turns the picture last worked in.
+    void look_from(render::StandardView side);
+    void set_projection(render::Projection projection);
+    void set_arrangement(Arrangement arrangement);
+
+    [[nodiscard]] Arrangement arrangement() const;
+    /// Of the picture last worked in.
+    [[nodiscard]] const render::Camera& camera() const;
+    void set_camera(const render::Camera& camera);
+
+    /// As of the last draw(); for the status bar.
+    [[nodiscard]] const UnderMouse& under_mouse() const;
+    /// Control points are being dragged.
+    [[nodiscard]] bool dragging() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace millwright::viewport
