@@ -78,6 +78,7 @@ public:
 
 private:
     [[nodiscard]] int piece_index(int block) const;
+    [[nodiscard]] double time_inside(int block, double time) const;
 
     std::shared_ptr<const Path> path_;
     int first_block_ = 0;

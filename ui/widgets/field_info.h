@@ -8,10 +8,10 @@
 namespace millwright::widgets {
 
 struct FieldInfo {
-    std::string_view id;    ///< last part of the widget's path, never shown
-    std::string_view label; ///< for people, at the left of the row
-    std::string_view unit;  ///< shown inside the box; empty for a bare number
-    std::string_view tip;   ///< what it is, its range, which formula
+    std::string_view id = {};    ///< last part of the widget's path, never shown
+    std::string_view label = {}; ///< for people, at the left of the row
+    std::string_view unit = {};  ///< shown inside the box; empty for a bare number
+    std::string_view tip = {};   ///< what it is, its range, which formula
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     double default_value = std::numeric_limits<double>::quiet_NaN(); ///< NaN: none, so no reset button

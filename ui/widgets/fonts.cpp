@@ -1,6 +1,7 @@
 #include "ui/widgets/fonts.h"
 
 #include "core/base/files.h"
+#include "ui/widgets/icons.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -48,7 +49,6 @@ constexpr ImWchar text_ranges[] = {0x0020,
 constexpr ImWchar latin_ranges[] = {
     0x0020, 0x017F, 0x0391, 0x03C9, 0x2013, 0x2026, 0x2190, 0x2193, 0x2212, 0x2212, 0x2264, 0x2265, 0};
 constexpr ImWchar digit_ranges[] = {0x0020, 0x007E, 0x00B0, 0x00B0, 0x2212, 0x2212, 0};
-constexpr ImWchar icon_ranges[] = {0xF000, 0xF2E0, 0};
 
 bool is_font(const std::string& bytes) {
     FT_Library library = nullptr;
@@ -64,9 +64,16 @@ bool is_font(const std::string& bytes) {
 }
 
 /// Adds the first usable file of a list to the atlas and remembers what was wrong with the ones before it.
+/// ImGui keeps the pointers to its ranges, so this lives until the atlas is built.
 class Loader {
 public:
-    Loader(ImFontAtlas& atlas, float scale) : atlas_(atlas), scale_(scale) {}
+    Loader(ImFontAtlas& atlas, float scale) : atlas_(atlas), scale_(scale) {
+        ImFontGlyphRangesBuilder used;
+        for (const char* icon : icons::all) {
+            used.AddText(icon);
+        }
+        used.BuildRanges(&icon_ranges_);
+    }
 
     /// Null when no file of the list is a font.
     ImFont* first_of(const std::vector<fs::path>& files,
@@ -100,7 +107,7 @@ public:
         config.MergeMode = true;
         config.GlyphMinAdvanceX = std::round(1.15F * px * scale_); // icons of one width keep labels aligned
         config.GlyphOffset.y = std::round(0.04F * px * scale_);
-        first_of(files, 0.95F * px, icon_ranges, config);
+        first_of(files, 0.95F * px, icon_ranges_.Data, config);
     }
 
     [[nodiscard]] std::vector<Diagnostic> diagnostics() { return std::move(diagnostics_); }
@@ -132,6 +139,7 @@ private:
 
     ImFontAtlas& atlas_;
     float scale_;
+    ImVector<ImWchar> icon_ranges_;
     std::vector<Diagnostic> diagnostics_;
 };
 
@@ -186,6 +194,7 @@ LoadedFonts load_fonts(ImFontAtlas& atlas, float scale, const FontFiles& files) 
     fonts.strong = loader.font(files.strong, text_px, latin_ranges);
     loader.merge_icons(files.icons, text_px);
     fonts.small = loader.font(files.text, small_px, latin_ranges);
+    loader.merge_icons(files.icons, small_px);
     fonts.mono = loader.font(files.mono, mono_px, latin_ranges);
     fonts.digits = loader.font(files.text, digits_px, digit_ranges);
 

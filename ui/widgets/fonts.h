@@ -28,7 +28,7 @@ struct FontFiles {
 struct Fonts {
     ImFont* text = nullptr;   ///< labels, fields; with icons
     ImFont* strong = nullptr; ///< headers, primary buttons; with icons
-    ImFont* small = nullptr;  ///< ticks, captions
+    ImFont* small = nullptr;  ///< ticks, captions; with icons
     ImFont* mono = nullptr;   ///< listings
     ImFont* digits = nullptr; ///< big read-outs: figures, signs and units only
 };

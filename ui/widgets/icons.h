@@ -1,6 +1,8 @@
 // The icons we use, by meaning: strings of one character of Font Awesome 4.7 (package fonts-font-awesome).
 #pragma once
 
+#include <array>
+
 namespace millwright::widgets::icons {
 
 inline constexpr const char* add = "\uf067";
@@ -27,8 +29,7 @@ inline constexpr const char* hold = "\uf256";
 inline constexpr const char* home = "\uf015";
 inline constexpr const char* info = "\uf05a";
 inline constexpr const char* keyboard = "\uf11c";
-inline constexpr const char* layers = "\uf0c9";
-inline constexpr const char* list = "\uf03a";
+inline constexpr const char* layers = "\uf0db";
 inline constexpr const char* lock = "\uf023";
 inline constexpr const char* machine = "\uf085";
 inline constexpr const char* menu = "\uf0c9";
@@ -42,7 +43,7 @@ inline constexpr const char* processor = "\uf2db";
 inline constexpr const char* program = "\uf0f6";
 inline constexpr const char* redo = "\uf01e";
 inline constexpr const char* remove = "\uf014";
-inline constexpr const char* reset = "\uf0e2";
+inline constexpr const char* reset = "\uf021";
 inline constexpr const char* save = "\uf0c7";
 inline constexpr const char* search = "\uf002";
 inline constexpr const char* settings = "\uf013";
@@ -59,5 +60,15 @@ inline constexpr const char* toolpath = "\uf1de";
 inline constexpr const char* undo = "\uf0e2";
 inline constexpr const char* unlock = "\uf09c";
 inline constexpr const char* warning = "\uf071";
+
+/// What load_fonts takes from the icon font; an icon that is not here is drawn as a question mark.
+inline constexpr std::array all{
+    add,     arm,      back,       cancel,    check,     chevron_down, chevron_right, copy,
+    danger,  design,   download,   error_map, eye,       eye_off,      file,          fit_view,
+    folder,  forward,  grid,       help,      hold,      home,         info,          keyboard,
+    layers,  lock,     machine,    menu,      minus,     moon,         pause,         play,
+    plot,    plug,     processor,  program,   redo,      remove,       reset,         save,
+    search,  settings, skip_first, skip_last, step_back, step_forward, stop,          sun,
+    surface, table,    timer,      toolpath,  undo,      unlock,       warning};
 
 } // namespace millwright::widgets::icons

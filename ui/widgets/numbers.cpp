@@ -15,6 +15,23 @@ namespace millwright::widgets {
 
 namespace {
 
+constexpr std::array<std::string_view, 3> part_names{"x", "y", "z"};
+constexpr std::array<std::string_view, 3> part_marks{"X", "Y", "Z"};
+constexpr float narrowest_in_a_line = 440.0F; // below that a coordinate of five digits would be cut
+constexpr float part_gap = 4.0F;
+
+/// The place of one of the three parts: in equal parts of a line, or below each other.
+Rect part_place(const Rect& all, std::size_t part, float gap, bool stacked) {
+    const auto i = static_cast<float>(part);
+    if (stacked) {
+        const float height = (all.h - 2.0F * gap) / 3.0F;
+        return {all.x, std::round(all.y + i * (height + gap)), all.w, height};
+    }
+    const float width = (all.w - 2.0F * gap) / 3.0F;
+    const float x = std::round(all.x + i * (width + gap));
+    return {x, all.y, std::round(all.x + i * (width + gap) + width) - x, all.h};
+}
+
 using Evaluate = Evaluated (*)(std::string_view, const FieldInfo&);
 
 double step_of(const FieldInfo& info) {
@@ -46,14 +63,17 @@ EditBox number_box(const FieldInfo& info, std::string_view shown, Evaluate evalu
     return box;
 }
 
-/// A button that puts the default back; drawn at the right of the label when the value is another.
+constexpr float reset_width = 20.0F;
+
+/// A button inside the field, before its unit, that puts the default back.
 bool reset_button(Ui& ui, const std::string& path, const Rect& field, const FieldInfo& info) {
-    const float side = ui.px(18.0F);
-    const Rect place{field.x - side - ui.px(4.0F), std::round(field.y + 0.5F * (field.h - side)), side, side};
+    const float unit = info.unit.empty() ? 0.0F : text_width(ui.look().fonts.text, info.unit) + ui.px(6.0F);
+    const float width = ui.px(reset_width);
+    const Rect place{field.right() - ui.px(7.0F) - unit - width, field.y, width, field.h};
     const std::string tip = "Back to " + fixed(info.default_value, info.decimals) +
                             (info.unit.empty() ? "" : " " + std::string(info.unit));
     const Press now = press(ui, path + ".reset", place, {}, tip);
-    const Colour colour = now.hovered ? ui.colours().accent : faded(ui.colours().muted, 0.7);
+    const Colour colour = now.hovered ? ui.colours().accent : faded(ui.colours().muted, 0.8);
     draw_text(ui, ui.look().fonts.small, place, colour, icons::reset, Align::centre);
     return now.clicked;
 }
@@ -72,20 +92,20 @@ std::optional<double> number_row(Ui& ui, const NumberRow& row) {
     expects(std::isfinite(row.value), "the value of a field is finite: " + row.path);
     const Slot slot(ui, 0.0F, ui.px(gaps::row));
     const bool enabled = effective(ui, row.permission).allowed;
-    Rect label_place = slot.rect();
-    const Rect field = labelled(ui, row.path, label_place, row.label, row.info.tip, enabled);
+    const Rect field = labelled(ui, row.path, slot.rect(), row.label, row.info.tip, enabled);
+    const bool can_reset =
+        enabled && std::isfinite(row.info.default_value) && !exactly_equal(row.value, row.info.default_value);
     const std::string shown = fixed(row.value, row.info.decimals);
     EditBox box = number_box(row.info, shown, row.evaluated, row.smallest_step);
     box.path = row.path;
     box.rect = field;
     box.font = ui.look().fonts.text;
     box.permission = row.permission;
+    box.room = can_reset ? ui.px(reset_width) : 0.0F;
     std::optional<double> committed;
     if (const auto text = edit_box(ui, box)) {
         committed = row.evaluated(*text, row.info).value;
     }
-    const bool can_reset = !row.label.empty() && enabled && std::isfinite(row.info.default_value) &&
-                           !exactly_equal(row.value, row.info.default_value);
     if (can_reset && reset_button(ui, row.path, field, row.info)) {
         committed = row.info.default_value;
     }
@@ -129,27 +149,25 @@ std::optional<std::array<double, 3>> Ui::vec3(std::string_view id,
                                               const std::array<double, 3>& value,
                                               const FieldInfo& info,
                                               const Permission& permission) {
-    const Slot slot(*this, 0.0F, px(gaps::row));
     const std::string own = path(id);
-    const Rect all = labelled(*this, own, slot.rect(), label, info.tip, effective(*this, permission).allowed);
+    const bool stacked = rest().w < px(narrowest_in_a_line);
+    const Slot slot(*this, 0.0F, stacked ? px(3.0F * gaps::row + 2.0F * part_gap) : px(gaps::row));
+    const bool enabled = effective(*this, permission).allowed;
+    const Rect first_line{slot.rect().x, slot.rect().y, slot.rect().w, px(gaps::row)};
+    const Rect line = labelled(*this, own, first_line, label, info.tip, enabled);
+    const Rect all{line.x, line.y, line.w, slot.rect().h};
     record_at(*this, own, all);
     std::optional<std::array<double, 3>> committed;
-    const float gap = px(gaps::tiny);
-    const float width = (all.w - 2.0F * gap) / 3.0F;
     for (std::size_t i = 0; i < 3; ++i) {
         expects(std::isfinite(value[i]), "the value of a field is finite: " + own);
         const std::string shown = fixed(value[i], info.decimals);
         EditBox box = number_box(info, shown, evaluate_number, 0.0);
-        const float x = std::round(all.x + static_cast<float>(i) * (width + gap));
-        const float right = std::round(all.x + static_cast<float>(i) * (width + gap) + width);
-        constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
-        constexpr std::array<std::string_view, 3> marks{"X", "Y", "Z"};
-        box.path = own + "/" + std::string(names[i]);
-        box.rect = {x, all.y, right - x, all.h};
-        box.unit = {};
+        box.path = own + "/" + std::string(part_names[i]);
+        box.rect = part_place(all, i, px(part_gap), stacked);
+        box.unit = stacked ? info.unit : std::string_view();
         box.font = look_.fonts.text;
         box.permission = permission;
-        box.mark = marks[i];
+        box.mark = part_marks[i];
         box.mark_colour = colours().axis[i];
         if (const auto text = edit_box(*this, box)) {
             committed = value;

@@ -94,6 +94,37 @@ Guard Ui::label_share(float share) {
     return {*this, [](Ui& ui) { ui.state().label_shares.pop_back(); }};
 }
 
+Guard Ui::width(float width) {
+    expects(width > 0.0F, "a widget has a width");
+    state_->widths.push_back(width);
+    return {*this, [](Ui& ui) { ui.state().widths.pop_back(); }};
+}
+
+Guard Ui::dialog(std::string_view id, std::string_view title, float width) {
+    const std::string own = path(id);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5F * display.x, 0.42F * display.y}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({width, 0.0F});
+    const float pad = 1.5F * px(gaps::pad);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+    if (!ImGui::IsPopupOpen(own.c_str())) {
+        ImGui::OpenPopup(own.c_str());
+    }
+    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+    const bool open = ImGui::BeginPopupModal(own.c_str(), nullptr, flags);
+    ImGui::PopStyleVar();
+    state_->places.enter(id);
+    if (!open) {
+        return {*this, [](Ui& ui) { ui.state().places.leave(); }, false};
+    }
+    heading(title);
+    return {*this, [](Ui& ui) {
+                ImGui::EndPopup();
+                ui.state().places.leave();
+            }};
+}
+
 Guard Ui::permitted(const Permission& permission) {
     state_->permissions.push_back(permission);
     return {*this, [](Ui& ui) { ui.state().permissions.pop_back(); }};
@@ -101,6 +132,11 @@ Guard Ui::permitted(const Permission& permission) {
 
 void Ui::beside() {
     ImGui::SameLine(0.0F, px(gaps::small));
+}
+
+void Ui::move_by(float right, float down) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({at.x + right, at.y + down});
 }
 
 void Ui::gap() {

@@ -52,9 +52,11 @@ Ui::~Ui() = default;
 
 void Ui::begin_frame() {
     state_->places.clear();
+    state_->under_mouse_before = std::exchange(state_->under_mouse, {});
     state_->hints.clear();
     state_->cut_texts.clear();
     state_->cells.clear();
+    state_->widths.clear();
     state_->label_shares.clear();
     state_->permissions.clear();
     state_->change_at.reset();
@@ -62,8 +64,8 @@ void Ui::begin_frame() {
 
 void Ui::end_frame() {
     const State::Tip& tip = state_->tip;
-    if (tip.frame == ImGui::GetFrameCount() && !ImGui::IsAnyMouseDown()) {
-        const double rested = ImGui::GetTime() - tip.since;
+    if (tip.frame == ImGui::GetFrameCount() && (tip.at_once || !ImGui::IsAnyMouseDown())) {
+        const double rested = tip.at_once ? tip_after : ImGui::GetTime() - tip.since;
         if (rested >= tip_after) {
             draw_box(
                 *this, {tip.rect.x, tip.rect.bottom() + px(4.0F)}, colours().line, colours().text, tip.text);

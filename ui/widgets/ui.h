@@ -55,6 +55,8 @@ struct Option {
     Permission permission = {};
 };
 
+enum class Tone { normal, muted, good, warning, danger };
+
 enum class Rank { normal, primary, quiet, danger };
 
 struct ButtonLook {
@@ -112,18 +114,26 @@ public:
     Guard section(std::string_view id, std::string_view title, bool open_at_first = true);
     /// The next `count` widgets without a label share one line in equal parts.
     Guard row(int count);
+    /// Widgets that would take all the width that is left take this much until the guard ends.
+    Guard width(float width);
     /// Share of the width that labels take until the guard ends; 0.42 else.
     Guard label_share(float share);
     /// Everything until the guard ends is greyed out, with the reason, unless allowed.
     Guard permitted(const Permission& permission);
+    /// A dialog in the middle of the window, over everything else, for as long as it is drawn; enters `id`.
+    Guard dialog(std::string_view id, std::string_view title, float width);
     /// The next widget stands on the line of the last one.
     void beside();
+    /// Leaves some room before the next widget.
+    void move_by(float right, float down);
     void gap();
     void line();
 
     // ---- words and read-only values (values.cpp)
     void heading(std::string_view text);
     void text(std::string_view text); ///< wraps
+    /// One line as wide as its text, for bars: put several side by side with beside().
+    void words(std::string_view text, Tone tone = Tone::normal);
     void note(std::string_view text); ///< wraps, in the muted colour
     void
     value(std::string_view id, std::string_view label, std::string_view text, std::string_view unit = {});
@@ -182,7 +192,7 @@ public:
                                const FieldInfo& info,
                                const Permission& permission = {});
     std::optional<int> integer(int value, const FieldInfo& info, const Permission& permission = {});
-    /// Three numbers in a row, with ids x, y and z below `id`.
+    /// Three numbers with ids x, y and z below `id`: in a line, or below each other in a narrow pane.
     std::optional<std::array<double, 3>> vec3(std::string_view id,
                                               std::string_view label,
                                               const std::array<double, 3>& value,

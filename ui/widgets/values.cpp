@@ -23,6 +23,22 @@ void wrapped(const Ui& ui, std::string_view text, Colour colour) {
     ImGui::PopFont();
 }
 
+Colour tone_colour(const Palette& colours, Tone tone) {
+    switch (tone) {
+    case Tone::muted:
+        return colours.muted;
+    case Tone::good:
+        return colours.good;
+    case Tone::warning:
+        return colours.warning;
+    case Tone::danger:
+        return colours.danger;
+    case Tone::normal:
+        break;
+    }
+    return colours.text;
+}
+
 /// The filled part of a bar; when the fraction is not known, a piece that wanders.
 Rect bar_part(Ui& ui, const Rect& bar, double fraction) {
     if (fraction >= 0.0) {
@@ -48,6 +64,11 @@ void Ui::text(std::string_view text) {
     wrapped(*this, text, colours().text);
 }
 
+void Ui::words(std::string_view text, Tone tone) {
+    const Slot slot(*this, std::ceil(text_width(look_.fonts.text, text)) + 1.0F, px(gaps::row));
+    draw_text(*this, look_.fonts.text, slot.rect(), tone_colour(colours(), tone), text);
+}
+
 void Ui::note(std::string_view text) {
     wrapped(*this, text, colours().muted);
 }
@@ -59,8 +80,7 @@ void Ui::value(std::string_view id, std::string_view label, std::string_view tex
     const float pad = px(7.0F);
     const float unit_width = unit.empty() ? 0.0F : text_width(look_.fonts.text, unit) + px(6.0F);
     const Rect number{place.x + pad, place.y, place.w - 2.0F * pad - unit_width, place.h};
-    const bool cut = draw_text(
-        *this, look_.fonts.text, number, colours().text, text, unit.empty() ? Align::left : Align::right);
+    const bool cut = draw_text(*this, look_.fonts.text, number, colours().text, text, Align::right);
     draw_text(*this,
               look_.fonts.text,
               {number.right(), place.y, unit_width, place.h},

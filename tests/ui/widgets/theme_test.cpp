@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "tests/ui/stage/stage.h"
 #include "ui/widgets/fonts.h"
+#include "ui/widgets/icons.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -71,6 +72,19 @@ TEST_F(FontAtlas, FiguresHaveOneWidth) {
     for (const ImFont* font : {loaded.fonts.text, loaded.fonts.strong, loaded.fonts.digits}) {
         for (ImWchar c = '1'; c <= '9'; ++c) {
             EXPECT_FLOAT_EQ(font->GetCharAdvance(c), font->GetCharAdvance('0'));
+        }
+    }
+}
+
+TEST_F(FontAtlas, EveryIconHasAGlyphOfItsOwn) {
+    const LoadedFonts loaded = load_fonts(atlas, 1.0F);
+    for (const char* icon : icons::all) {
+        const auto byte = [icon](int i) {
+            return static_cast<unsigned>(static_cast<unsigned char>(icon[i]));
+        };
+        const unsigned code = (byte(0) & 0x0FU) << 12U | (byte(1) & 0x3FU) << 6U | (byte(2) & 0x3FU);
+        for (const ImFont* font : {loaded.fonts.text, loaded.fonts.strong, loaded.fonts.small}) {
+            EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(code)), nullptr) << std::hex << code;
         }
     }
 }

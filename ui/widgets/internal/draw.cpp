@@ -44,7 +44,8 @@ Slot::Slot(Ui& ui, float width, float height) {
         rect_ = next_cell(ui, height);
     } else {
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float left = std::max(ImGui::GetContentRegionAvail().x, 1.0F);
+        const auto& widths = ui.state().widths;
+        const float left = std::max(widths.empty() ? ImGui::GetContentRegionAvail().x : widths.back(), 1.0F);
         rect_ = {at.x, at.y, width > 0.0F ? width : left, height};
     }
     ImGui::BeginGroup();
@@ -79,6 +80,9 @@ Press press(
         ImGui::InvisibleButton(path.c_str(), {std::max(rect.w, 1.0F), std::max(rect.h, 1.0F)}) && now.enabled;
     now.hovered = ImGui::IsItemHovered();
     now.held = ImGui::IsItemActive();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        ui.state().under_mouse = path;
+    }
     now.focused = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
     ImGui::EndDisabled();
     if (now.focused) {
@@ -106,7 +110,18 @@ void offer_tip(Ui& ui, const std::string& path, const Rect& rect, std::string_vi
     now.path = path;
     now.text = tip;
     now.rect = rect;
+    now.at_once = false;
     now.frame = frame;
+}
+
+void show_at_mouse(Ui& ui, const std::string& path, std::string text) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const float away = ui.px(14.0F);
+    ui.state().tip = {.path = path,
+                      .text = std::move(text),
+                      .rect = {mouse.x + away, mouse.y, 0.0F, away},
+                      .at_once = true,
+                      .frame = ImGui::GetFrameCount()};
 }
 
 float text_width(const ImFont* font, std::string_view text) {

@@ -59,6 +59,9 @@ Press press(Ui& ui,
 /// Shows `tip` if the mouse rests on `rect` of the current window for a moment.
 void offer_tip(Ui& ui, const std::string& path, const Rect& rect, std::string_view tip);
 
+/// Shows `text` beside the mouse at once, as long as it is called.
+void show_at_mouse(Ui& ui, const std::string& path, std::string text);
+
 [[nodiscard]] float text_width(const ImFont* font, std::string_view text);
 
 enum class Align { left, centre, right };

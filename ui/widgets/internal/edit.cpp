@@ -18,13 +18,14 @@ struct Parts {
     Rect unit;
 };
 
+/// Where the pieces of the box are, from left to right: mark, text, room, unit.
 Parts parts(const Ui& ui, const EditBox& box) {
     const ImFont* small = ui.look().fonts.text;
     const float pad = ui.px(7.0F);
     const float mark = box.mark.empty() ? 0.0F : text_width(small, box.mark) + ui.px(6.0F);
     const float unit = box.unit.empty() ? 0.0F : text_width(small, box.unit) + ui.px(6.0F);
     const Rect& all = box.rect;
-    return {.typing = {all.x + pad + mark, all.y, all.w - 2.0F * pad - mark - unit, all.h},
+    return {.typing = {all.x + pad + mark, all.y, all.w - 2.0F * pad - mark - unit - box.room, all.h},
             .mark = {all.x + pad, all.y, mark, all.h},
             .unit = {all.right() - pad - unit, all.y, unit, all.h}};
 }
@@ -176,6 +177,9 @@ std::optional<std::string> edit_box(Ui& ui, const EditBox& box) {
     const bool hovered = permission.allowed &&
                          ImGui::IsMouseHoveringRect(upper_left(box.rect), lower_right(box.rect)) &&
                          ImGui::IsWindowHovered();
+    if (hovered) {
+        ui.state().under_mouse = box.path;
+    }
     const float round = ui.px(gaps::rounding);
     fill(box.rect, faded(colours.field, opacity), round);
 
@@ -185,6 +189,9 @@ std::optional<std::string> edit_box(Ui& ui, const EditBox& box) {
     const std::optional<std::string> committed = follow(ui, box, typed);
     ImGui::EndDisabled();
 
+    if (box.stepped && !typed.active && text_width(box.font, typed.text) > part.typing.w) {
+        ui.state().cut_texts.push_back(typed.text); // a number of which one sees only the first digits
+    }
     draw_text(ui, ui.look().fonts.text, part.mark, faded(box.mark_colour, opacity), box.mark);
     draw_text(ui, ui.look().fonts.text, part.unit, faded(colours.muted, opacity), box.unit, Align::right);
     const std::string reason = permission.allowed ? reason_now(ui, box) : permission.reason;

@@ -24,8 +24,10 @@ struct EditBox {
     std::function<std::string(std::string_view)> refusal;
     /// Refused text stays in the box also when the keyboard goes elsewhere.
     bool keeps_refused = false;
-    /// A mark at the left inside the box, such as X.
+    /// At the left inside the box, such as X.
     std::string_view mark = {};
+    /// Left free inside the box before the unit, for a button of the caller's.
+    float room = 0.0F;
     Colour mark_colour = 0;
 };
 

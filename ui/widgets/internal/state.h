@@ -26,6 +26,7 @@ struct Ui::State {
         std::string path;
         std::string text;
         Rect rect;
+        bool at_once = false;
         double since = 0.0; ///< ImGui time when the mouse came
         int frame = -1;     ///< last frame in which the mouse was there
     };
@@ -45,11 +46,15 @@ struct Ui::State {
     std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
     std::map<std::string, double, std::less<>> memory;      ///< by path: scroll positions, open sections
     Tip tip;
+    std::string under_mouse;        ///< path of the last widget of this frame that the mouse is over
+    std::string under_mouse_before; ///< the same of the frame before: the one on top
     std::vector<Hint> hints;            ///< of this frame
     std::vector<std::string> cut_texts; ///< of this frame
     std::vector<Cells> cells;
+    std::vector<float> widths;
     std::vector<float> label_shares;
     std::vector<Permission> permissions;
+    int open_menu_frame = -2;        ///< last frame in which a menu of the bar was open
     std::optional<double> change_at; ///< ImGui time
 };
 

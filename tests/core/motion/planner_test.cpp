@@ -1,0 +1,239 @@
+#include "core/motion/planner.h"
+
+#include "core/base/error.h"
+#include "tests/support/motions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace millwright::motion {
+namespace {
+
+using gcode::BlockKind;
+using gcode::Program;
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+
+// The rotary-tilt machine: X 250 mm/s, 1500 mm/s^2; Y the same; Z 200 mm/s, 1200 mm/s^2.
+MachineModel machine() {
+    return test::machine("rotary-tilt-listing");
+}
+
+AxisPositions at(double x, double y = 0.0, double z = 0.0) {
+    AxisPositions q = AxisPositions::Zero(5);
+    q.head<3>() << x, y, z;
+    return q;
+}
+
+Program moves(const std::vector<AxisPositions>& targets, double duration = 0.0) {
+    Program program = test::empty_program(machine());
+    for (const AxisPositions& target : targets) {
+        test::add_move(program, target, duration);
+    }
+    return program;
+}
+
+Trajectory planned(const Program& program, const PlannerSettings& settings = {}) {
+    return plan(program, machine(), settings, {});
+}
+
+constexpr double rounding_s = 1e-12;
+
+TEST(Planner, DrivesALongRapidAsATrapezoid) {
+    EXPECT_NEAR(planned(moves({at(100.0)})).duration(), 100.0 / 250.0 + 250.0 / 1500.0, rounding_s);
+}
+
+TEST(Planner, DrivesAShortRapidAsATriangle) {
+    EXPECT_NEAR(planned(moves({at(10.0)})).duration(), 2.0 * std::sqrt(10.0 / 1500.0), rounding_s);
+}
+
+TEST(Planner, TakesAFeedAsTheTopSpeedAndAddsTheRamps) {
+    EXPECT_NEAR(planned(moves({at(50.0)}, 5.0)).duration(), 5.0 + 10.0 / 1500.0, rounding_s);
+}
+
+TEST(Planner, KeepsToTheSlowestAxisOfADiagonal) {
+    // Z is the slower one in both: 200 and 1200.
+    const Trajectory trajectory = planned(moves({at(100.0, 0.0, 100.0)}));
+    EXPECT_NEAR(trajectory.duration(), 100.0 / 200.0 + 200.0 / 1200.0, rounding_s);
+    EXPECT_EQ(trajectory.limit_of(0).limit, Limit::axis_velocity);
+    EXPECT_EQ(trajectory.limit_of(0).axis, 2);
+}
+
+TEST(Planner, SaysWhatKeepsABlockFromBeingFaster) {
+    Program program = moves({at(1.0)});
+    test::add_move(program, at(101.0), 5.0);
+    test::add_block(program, BlockKind::dwell);
+    const Trajectory trajectory = planned(program);
+    EXPECT_EQ(trajectory.limit_of(0).limit, Limit::axis_acceleration);
+    EXPECT_EQ(trajectory.limit_of(0).axis, 0);
+    EXPECT_EQ(trajectory.limit_of(1).limit, Limit::programmed_feed);
+    EXPECT_EQ(trajectory.limit_of(1).axis, -1);
+    EXPECT_EQ(trajectory.limit_of(2).limit, Limit::standing);
+}
+
+TEST(Planner, DoesNotNoticeThatAStraightWayIsCutIntoBlocks) {
+    std::vector<AxisPositions> steps;
+    for (int n = 1; n <= 200; ++n) {
+        steps.push_back(at(0.5 * n, 0.25 * n, -0.125 * n));
+    }
+    EXPECT_NEAR(planned(moves(steps)).duration(), planned(moves({steps.back()})).duration(), 1e-9);
+}
+
+TEST(Planner, TurnsACornerWithTheAllowedStepAndNoMore) {
+    PlannerSettings settings;
+    settings.corner_time = 0.004;
+    const Trajectory trajectory = planned(moves({at(50.0), at(50.0, 50.0)}), settings);
+    const double corner = trajectory.end_of(0);
+    const Sample before = trajectory.at(corner - 1e-9);
+    const Sample after = trajectory.at(corner + 1e-9);
+    EXPECT_NEAR(before.velocity[0], 1500.0 * 0.004, 1e-5);
+    EXPECT_NEAR(after.velocity[1], 1500.0 * 0.004, 1e-5);
+    EXPECT_NEAR(after.velocity[0], 0.0, 1e-12);
+}
+
+TEST(Planner, StopsInEveryCornerIfAskedTo) {
+    PlannerSettings exact;
+    exact.corners = Corners::exact_stop;
+    const double one = planned(moves({at(50.0)})).duration();
+    EXPECT_NEAR(
+        planned(moves({at(50.0), at(100.0), at(100.0, 50.0)}), exact).duration(), 3.0 * one, rounding_s);
+}
+
+TEST(Planner, StandsForADwellAndStopsForTheSpindleButNotForAComment) {
+    const double through = planned(moves({at(100.0)})).duration();
+    const double half = planned(moves({at(50.0)})).duration();
+    const auto with = [&](BlockKind kind) {
+        Program program = moves({at(50.0)});
+        test::add_block(program, kind);
+        program.blocks.back().duration = kind == BlockKind::dwell ? 1.5 : 0.0;
+        test::add_move(program, at(100.0));
+        return planned(program).duration();
+    };
+    EXPECT_NEAR(with(BlockKind::comment), through, rounding_s);
+    EXPECT_NEAR(with(BlockKind::spindle_on), 2.0 * half, rounding_s);
+    EXPECT_NEAR(with(BlockKind::dwell), 2.0 * half + 1.5, rounding_s);
+}
+
+TEST(Planner, SpendsNoTimeOnMovesOfNoLength) {
+    const Trajectory trajectory = planned(moves({at(50.0), at(50.0), at(50.0), at(100.0)}));
+    EXPECT_NEAR(trajectory.duration(), planned(moves({at(100.0)})).duration(), rounding_s);
+    EXPECT_EQ(trajectory.end_of(1) - trajectory.start_of(1), 0.0);
+}
+
+TEST(Planner, LeavesAxesThatABlockDoesNotNameWhereTheyAre) {
+    Program program = moves({at(10.0, 20.0, 30.0)});
+    program.blocks[0].named = gcode::AxisSet::only(2);
+    const Trajectory trajectory = plan(program, machine(), {}, {}, at(1.0, 2.0, 3.0));
+    EXPECT_EQ(trajectory.at(0.0).position, at(1.0, 2.0, 3.0));
+    EXPECT_EQ(trajectory.at(trajectory.duration()).position, at(1.0, 2.0, 30.0));
+}
+
+TEST(Planner, NeverExceedsALimitOnAnyProgram) {
+    for (unsigned seed = 1; seed <= 20 && !HasFailure(); ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const MachineModel model = machine();
+        const Trajectory trajectory = planned(test::random_program(model, 150, seed));
+        test::expect_within_limits(trajectory, model, 0.002, 10'000);
+    }
+}
+
+TEST(Planner, NeverExceedsALimitOnADome) {
+    const MachineModel model = machine();
+    const Program program = test::post_over("dome", model, 20, 20).program;
+    test::expect_within_limits(planned(program), model, 0.002, 50'000);
+}
+
+/// The greatest speeds on a chain of straight ways, cut into many small steps: relaxed until nothing changes.
+/// Shares nothing with the planner but the statement of the problem.
+double relaxed_duration(const std::vector<AxisPositions>& corners, double corner_time) {
+    constexpr int cuts = 4000;
+    const std::array<double, 3> v{250.0, 250.0, 200.0};
+    const std::array<double, 3> a{1500.0, 1500.0, 1200.0};
+    std::vector<double> cap;  // of the squared speed in mm/s at each knot
+    std::vector<double> gain; // of squared speed a step
+    std::vector<double> step;
+    for (std::size_t leg = 0; leg + 1 < corners.size(); ++leg) {
+        const Vec3 d = (corners[leg + 1] - corners[leg]).head<3>();
+        double top = std::numeric_limits<double>::infinity();
+        double most = top;
+        for (Eigen::Index n = 0; n < 3; ++n) {
+            const double share = std::abs(d[n]) / d.norm();
+            top = share > 0.0 ? std::min(top, v[static_cast<std::size_t>(n)] / share) : top;
+            most = share > 0.0 ? std::min(most, a[static_cast<std::size_t>(n)] / share) : most;
+        }
+        for (int k = 0; k < cuts; ++k) {
+            cap.push_back(top * top);
+            step.push_back(d.norm() / cuts);
+            gain.push_back(2.0 * most * step.back());
+        }
+    }
+    cap.push_back(0.0);
+    cap.front() = 0.0;
+    // In a corner speed is not one number on both sides: the leg's own scale of speed carries it over. The
+    // corners of this test turn between legs of equal scale, so one number will do.
+    for (std::size_t leg = 1; leg + 1 < corners.size(); ++leg) {
+        const Vec3 in = (corners[leg] - corners[leg - 1]).head<3>().normalized();
+        const Vec3 out = (corners[leg + 1] - corners[leg]).head<3>().normalized();
+        double speed = std::numeric_limits<double>::infinity();
+        for (Eigen::Index n = 0; n < 3; ++n) {
+            const double turn = std::abs(in[n] - out[n]);
+            speed = turn > 0.0 ? std::min(speed, a[static_cast<std::size_t>(n)] * corner_time / turn) : speed;
+        }
+        double& knot = cap[leg * cuts];
+        knot = std::min(knot, speed * speed);
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t k = 0; k + 1 < cap.size(); ++k) {
+            const double forward = std::min(cap[k + 1], cap[k] + gain[k]);
+            changed = changed || forward < cap[k + 1];
+            cap[k + 1] = forward;
+        }
+        for (std::size_t k = cap.size() - 1; k > 0; --k) {
+            const double backward = std::min(cap[k - 1], cap[k] + gain[k - 1]);
+            changed = changed || backward < cap[k - 1];
+            cap[k - 1] = backward;
+        }
+    }
+    double time = 0.0;
+    for (std::size_t k = 0; k + 1 < cap.size(); ++k) {
+        time += 2.0 * step[k] / (std::sqrt(cap[k]) + std::sqrt(cap[k + 1]));
+    }
+    return time;
+}
+
+TEST(Planner, IsAsFastAsABruteForceSearch) {
+    // X and Y are alike, so that a millimetre counts the same on every leg.
+    const std::vector<AxisPositions> corners{
+        at(0.0), at(30.0), at(30.5, 0.2), at(31.0, 0.4), at(31.0, 5.0), at(80.0, 6.0), at(81.0, 90.0)};
+    Program program = moves({corners.begin() + 1, corners.end()});
+    const double exact = planned(program).duration();
+    EXPECT_NEAR(relaxed_duration(corners, 0.002), exact, 1e-3 * exact);
+}
+
+TEST(Planner, RefusesAProgramOfOtherAxes) {
+    Program program = moves({at(1.0)});
+    program.axes[3].letter = 'C';
+    EXPECT_THROW((void)planned(program), Error);
+    program.axes.pop_back();
+    EXPECT_THROW((void)planned(program), Error);
+}
+
+TEST(Planner, RefusesTargetsThatAreNotFinite) {
+    Program program = moves({at(1.0)});
+    program.blocks[0].target[1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW((void)planned(program), Defect);
+}
+
+TEST(Planner, CanBeCancelled) {
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW((void)plan(moves({at(1.0)}), machine(), {}, Progress({}, source.get_token())), Cancelled);
+}
+
+} // namespace
+} // namespace millwright::motion

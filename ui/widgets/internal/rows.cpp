@@ -1,0 +1,97 @@
+#include "ui/widgets/internal/rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::widgets {
+
+namespace {
+
+constexpr double rows_a_notch = 3.0;
+constexpr float bar_width = 10.0F;
+
+double& scroll_of(Ui& ui, const std::string& path) {
+    return ui.state().memory[path + "@top"];
+}
+
+void take_wheel_and_keys(const Rect& box, double& top, double in_sight) {
+    if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(upper_left(box), lower_right(box))) {
+        return;
+    }
+    top -= rows_a_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
+    if (ImGui::GetIO().WantTextInput) {
+        return;
+    }
+    top += key_pressed(ImGuiKey_PageDown) ? in_sight : 0.0;
+    top -= key_pressed(ImGuiKey_PageUp) ? in_sight : 0.0;
+}
+
+/// The grip is dragged by where it was taken; a click beside it moves its middle there.
+void scroll_bar(
+    Ui& ui, const std::string& path, const Rect& bar, double& top, double in_sight, double count) {
+    const double share = std::min(1.0, in_sight / count);
+    const float grip = std::max(ui.px(20.0F), bar.h * static_cast<float>(share));
+    const double most = count - in_sight;
+    const double travel = static_cast<double>(bar.h - grip);
+    const auto grip_y = [&] { return bar.y + static_cast<float>(travel * std::clamp(top / most, 0.0, 1.0)); };
+    const Press now = press(ui, path + "/scroll", bar);
+    double& taken = ui.state().memory[path + "@taken"];
+    if (now.held && travel > 0.0) {
+        const float mouse = ImGui::GetIO().MousePos.y;
+        if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+            const bool on_grip = mouse >= grip_y() && mouse < grip_y() + grip;
+            taken = static_cast<double>(on_grip ? mouse - grip_y() : 0.5F * grip);
+        }
+        top = most * std::clamp((static_cast<double>(mouse - bar.y) - taken) / travel, 0.0, 1.0);
+    }
+    const Colour colour = faded(ui.colours().muted, now.held ? 0.8 : now.hovered ? 0.6 : 0.35);
+    const float in = ui.px(2.0F);
+    fill({bar.x + in, grip_y(), bar.w - 2.0F * in, grip}, colour, 0.5F * (bar.w - 2.0F * in));
+}
+
+} // namespace
+
+Rows::Rows(Ui& ui, const std::string& path, const Rect& box, std::ptrdiff_t count, float row_height)
+    : inside_(box), row_height_(row_height) {
+    double& top = scroll_of(ui, path);
+    const double in_sight = static_cast<double>(box.h / row_height);
+    const auto rows = static_cast<double>(count);
+    if (in_sight < rows) {
+        const float width = ui.px(bar_width);
+        inside_.w -= width;
+        take_wheel_and_keys(box, top, in_sight);
+        scroll_bar(ui, path, {inside_.right(), box.y, width, box.h}, top, in_sight, rows);
+    }
+    top = std::clamp(top, 0.0, std::max(0.0, rows - in_sight));
+    top_ = top;
+    first_ = static_cast<std::ptrdiff_t>(std::floor(top));
+    end_ = std::min(count, static_cast<std::ptrdiff_t>(std::ceil(top + in_sight)));
+    ImGui::PushClipRect(upper_left(inside_), lower_right(inside_), true);
+}
+
+Rows::~Rows() {
+    ImGui::PopClipRect();
+}
+
+Rect Rows::row(std::ptrdiff_t index) const {
+    const double below_top = static_cast<double>(index) - top_;
+    const float y = inside_.y + std::round(static_cast<float>(below_top) * row_height_);
+    return {inside_.x, y, inside_.w, row_height_};
+}
+
+Rect Rows::row_in_sight(std::ptrdiff_t index) const {
+    const Rect whole = row(index);
+    const float y = std::max(whole.y, inside_.y);
+    return {whole.x, y, whole.w, std::min(whole.bottom(), inside_.bottom()) - y};
+}
+
+void bring_into_sight(Ui& ui, const std::string& path, std::ptrdiff_t index, float rows_in_sight) {
+    double& top = scroll_of(ui, path);
+    const auto row = static_cast<double>(index);
+    const auto in_sight = static_cast<double>(rows_in_sight);
+    if (row < top || row + 1.0 > top + in_sight) {
+        top = std::floor(row - 0.5 * in_sight);
+    }
+}
+
+} // namespace millwright::widgets

@@ -1,0 +1,27 @@
+// Menus: a word in the menu bar that opens a list of things to do, each with its shortcut.
+#pragma once
+
+#include "ui/widgets/ui.h"
+
+#include <string_view>
+
+namespace millwright::widgets {
+
+/// A word that opens its menu below; put several side by side with beside(). While one is open the mouse
+/// opens its neighbours without a click. Draw the items if the guard is true. Enters the scope `id`.
+Guard menu(Ui& ui, std::string_view id, std::string_view label);
+
+/// Opened by a right click on `place`. Draw the items if the guard is true. Enters the scope `id`.
+Guard context_menu(Ui& ui, std::string_view id, const Rect& place);
+
+/// True when it was chosen; the menu closes. `is_on` draws a tick before it.
+bool menu_item(Ui& ui,
+               std::string_view id,
+               std::string_view label,
+               std::string_view shortcut = {},
+               const Permission& permission = {},
+               bool is_on = false);
+
+void menu_line(Ui& ui);
+
+} // namespace millwright::widgets

@@ -1,0 +1,37 @@
+// Lines over a common x: errors along the path, the norm over the iterations, feed over time.
+#pragma once
+
+#include "ui/widgets/ui.h"
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace millwright::widgets {
+
+struct Series {
+    std::string_view label;
+    std::span<const double> x; ///< ascending
+    std::span<const double> y; ///< as many; values that are not finite leave a gap
+    Colour colour = 0;         ///< 0: the next of the palette's series
+    bool is_filled = false;
+};
+
+struct PlotView {
+    std::string_view x_label = {};
+    std::string_view x_unit = {};
+    std::string_view y_label = {};
+    std::string_view y_unit = {};
+    std::span<const Series> series = {};
+    std::optional<double> cursor_x = {}; ///< where the machine stands: an upright line
+    std::optional<double> limit_y = {};  ///< a dashed line, such as the tolerance
+    bool y_is_log = false;               ///< values of zero or less leave a gap
+    bool y_from_zero = true;             ///< else from the least value
+    float height = 0.0F;                 ///< 0: all that is left, at least 80 px at scale 1
+    std::string_view when_empty = "Nothing to plot yet.";
+};
+
+/// The x that was just clicked, inside the range of x. The mouse over it reads out the values nearest in x.
+std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& view);
+
+} // namespace millwright::widgets
