@@ -3,9 +3,11 @@
 // the parts.
 #pragma once
 
-#include "core/gcode/program.h"
+#include "core/gcode/post.h"
+#include "core/gcode/writer.h"
 #include "core/motion/trajectory.h"
 #include "core/project/evaluation.h"
+#include "core/project/grids.h"
 #include "core/project/project.h"
 #include "core/toolpath/singular_points.h"
 
@@ -24,39 +26,44 @@ struct Plan {
     std::shared_ptr<const Evaluation> elliptic;  ///< the adapted grid
     std::shared_ptr<const Evaluation> optimised; ///< the track optimiser's grid
     std::shared_ptr<const gcode::Program> program;
-    std::shared_ptr<const std::string> listing; ///< G-code text
+    gcode::PostNotes program_notes;
+    std::shared_ptr<const gcode::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
 
     /// The evaluation that `method` stands for; null if not there.
-    [[nodiscard]] std::shared_ptr<const Evaluation> evaluation(GridMethod method) const;
+    [[nodiscard]] const std::shared_ptr<const Evaluation>& evaluation(GridMethod method) const;
+    [[nodiscard]] std::shared_ptr<const Evaluation>& evaluation(GridMethod method);
 };
 
 /// Where the project's machine is looked for.
 struct Folders {
     std::filesystem::path project; ///< of the project file; empty for an unsaved project
     std::filesystem::path assets;
+
+    friend bool operator==(const Folders&, const Folders&) = default;
 };
 
-/// Samples inside a move: while dragging, and for figures that are reported.
-inline constexpr int live_samples = 8;
-inline constexpr int report_samples = 40;
-
-[[nodiscard]] geometry::Surface surface_of(const Project& project);
+/// Throws Error if a net is none of a patch.
+[[nodiscard]] geometry::Surface surface_of(const SurfaceInput& input);
+/// Throws Error if the machine is unknown or its file wrong.
 [[nodiscard]] Workpiece workpiece_of(const Project& project, const Folders& folders);
 
-/// A new improver for `method` (not uniform) from the uniform grid. `workpiece` must outlive it.
-[[nodiscard]] std::unique_ptr<grid::GridImprover>
-make_improver(GridMethod method, const Project& project, const toolpath::KinematicError& error);
+[[nodiscard]] gcode::ProgramSettings program_settings(const ProgramInput& input);
 
-/// The uniform grid of the project.
-[[nodiscard]] GridOutcome uniform_outcome(const GridInput& input);
-/// Runs an improver to its end.
-[[nodiscard]] GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progress);
-
-/// Program, listing and trajectory of one evaluation, into `plan`.
+/// Program, listing and trajectory of one evaluation, into `plan`. Throws Error or Cancelled, then `plan` is
+/// as it was.
 void add_program(Plan& plan, const Project& project, const Evaluation& chosen, const Progress& progress);
 
-/// All of it. Throws Error or Cancelled.
-[[nodiscard]] Plan make_plan(const Project& project, const Folders& folders, const Progress& progress);
+/// How much of a plan is wanted.
+enum class Scope {
+    everything,
+    program ///< what the program needs: of the improved grids only the chosen one
+};
+
+/// Throws Error, first with faults_of(project) if there are any, or Cancelled.
+[[nodiscard]] Plan make_plan(const Project& project,
+                             const Folders& folders,
+                             const Progress& progress,
+                             Scope scope = Scope::everything);
 
 } // namespace millwright::project

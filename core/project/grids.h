@@ -1,0 +1,47 @@
+// The grids of a project: uniform, or made better by a method, at two levels of effort.
+#pragma once
+
+#include "core/project/evaluation.h"
+#include "core/project/project.h"
+
+#include <memory>
+#include <string_view>
+
+namespace millwright::project {
+
+/// While a person drags, or for what is kept.
+enum class Effort { live, full };
+
+/// Samples inside a move: while dragging, and for figures that are reported.
+inline constexpr int live_samples = 8;
+inline constexpr int report_samples = 40;
+
+/// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
+/// an expression of the settings has no sense.
+[[nodiscard]] std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
+                                                                const GridInput& input,
+                                                                const toolpath::KinematicError& error,
+                                                                Effort effort = Effort::full);
+
+[[nodiscard]] GridOutcome uniform_outcome(const GridInput& input);
+
+/// Runs an improver to its end.
+[[nodiscard]] GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progress);
+
+/// What is being done when a grid is made, for people.
+[[nodiscard]] std::string_view title_of_making(GridMethod method);
+
+/// The grid by `method` (not uniform) with its error. Where that is worse than `uniform`, the evaluation of
+/// the uniform grid, measured like `uniform`, with a note that says so. Throws Error or Cancelled.
+[[nodiscard]] Evaluation improved_evaluation(GridMethod method,
+                                             const GridInput& input,
+                                             const Workpiece& workpiece,
+                                             const Evaluation& uniform,
+                                             Effort effort,
+                                             const Progress& progress);
+
+/// Whether `found` is worse than `start` in the mean distance to the surface, or in the largest angle between
+/// tool axis and normal.
+[[nodiscard]] bool is_worse(const Evaluation& found, const Evaluation& start);
+
+} // namespace millwright::project

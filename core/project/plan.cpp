@@ -1,0 +1,129 @@
+#include "core/project/plan.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/machine_file.h"
+#include "core/motion/planner.h"
+#include "core/project/assets.h"
+#include "core/project/settings.h"
+#include "core/project/version.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+/// What produced the program, written on its top.
+std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& plan, const Evaluation& chosen) {
+    const grid::Grid& grid = chosen.outcome.grid;
+    const std::string_view method = row_of(grid_methods(), project.grid.method).label;
+    return {{"made by", fmt::format("Millwright {}", version())},
+            {"project", project.name},
+            {"machine", plan.workpiece->machine.name()},
+            {"grid", fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method)},
+            {"distance from the surface",
+             fmt::format("at most {} mm, {} mm on average inside the tracks",
+                         fixed(chosen.closest.max, 4),
+                         fixed(chosen.closest.mean, 4))},
+            {"tool axis from the normal",
+             fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
+}
+
+void refuse_faults(const Project& project) {
+    const std::vector<std::string> faults = faults_of(project);
+    if (!faults.empty()) {
+        throw Error(faults.front());
+    }
+}
+
+} // namespace
+
+const std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) const {
+    return method == GridMethod::uniform ? uniform : method == GridMethod::elliptic ? elliptic : optimised;
+}
+
+std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) {
+    return method == GridMethod::uniform ? uniform : method == GridMethod::elliptic ? elliptic : optimised;
+}
+
+geometry::Surface surface_of(const SurfaceInput& input) {
+    std::vector<geometry::BezierPatch> patches;
+    for (const geometry::ControlNet& net : input.patches) {
+        patches.emplace_back(net);
+    }
+    return geometry::Surface(std::move(patches));
+}
+
+Workpiece workpiece_of(const Project& project, const Folders& folders) {
+    const auto patch = static_cast<std::size_t>(project.surface.machined_patch);
+    kinematics::MachineModel machine =
+        kinematics::read_machine(machine_path(project, folders.project, folders.assets));
+    if (project.machine.workpiece_offset) {
+        machine = machine.with_workpiece_offset(*project.machine.workpiece_offset);
+    }
+    return {geometry::BezierPatch(project.surface.patches.at(patch)),
+            std::move(machine),
+            project.grid.direction,
+            project.surface.flipped,
+            project.machine.angle_mode};
+}
+
+gcode::ProgramSettings program_settings(const ProgramInput& input) {
+    gcode::ProgramSettings settings;
+    settings.cutting_feed = from_mm_per_min(input.feed_mm_per_min);
+    settings.plunge_feed = from_mm_per_min(input.plunge_mm_per_min);
+    settings.link = input.link == LinkInput::lifted ? gcode::LinkKind::lifted : gcode::LinkKind::on_surface;
+    settings.link_clearance = input.link_clearance_mm;
+    settings.approach_clearance = input.approach_clearance_mm;
+    settings.spindle_rpm = input.spindle_rpm;
+    return settings;
+}
+
+void add_program(Plan& plan, const Project& project, const Evaluation& chosen, const Progress& progress) {
+    const gcode::ProgramSettings settings = program_settings(project.program);
+    const kinematics::MachineModel& machine = plan.workpiece->machine;
+    progress.report(0.0, "Writing the program");
+    progress.check();
+    gcode::PostResult posted =
+        gcode::post(machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen));
+    progress.check();
+    auto listing = std::make_shared<const gcode::Listing>(gcode::write_gcode(posted.program, settings));
+    progress.report(0.4, "Planning the motion");
+    auto trajectory = std::make_shared<const motion::Trajectory>(
+        motion::plan(posted.program, machine, motion::PlannerSettings{}, progress.part(0.4, 1.0)));
+    plan.program = std::make_shared<const gcode::Program>(std::move(posted.program));
+    plan.program_notes = posted.notes;
+    plan.listing = std::move(listing);
+    plan.trajectory = std::move(trajectory);
+    progress.report(1.0);
+}
+
+Plan make_plan(const Project& project, const Folders& folders, const Progress& progress, Scope scope) {
+    refuse_faults(project);
+    Plan plan;
+    plan.surface = std::make_shared<const geometry::Surface>(surface_of(project.surface));
+    plan.workpiece = std::make_shared<const Workpiece>(workpiece_of(project, folders));
+    const Workpiece& workpiece = *plan.workpiece;
+    plan.singular_points = toolpath::singular_points(workpiece.patch, workpiece.machine);
+
+    progress.report(0.0, title_of_making(GridMethod::uniform));
+    plan.uniform = std::make_shared<const Evaluation>(
+        evaluate(workpiece, uniform_outcome(project.grid), report_samples, progress.part(0.0, 0.1)));
+    const auto improve = [&](GridMethod method, const Progress& part) {
+        if (scope == Scope::everything || method == project.grid.method) {
+            part.report(0.0, title_of_making(method));
+            plan.evaluation(method) = std::make_shared<const Evaluation>(
+                improved_evaluation(method, project.grid, workpiece, *plan.uniform, Effort::full, part));
+        }
+    };
+    improve(GridMethod::elliptic, progress.part(0.1, 0.45));
+    improve(GridMethod::tracks, progress.part(0.45, 0.9));
+    add_program(plan, project, *plan.evaluation(project.grid.method), progress.part(0.9, 1.0));
+    return plan;
+}
+
+} // namespace millwright::project

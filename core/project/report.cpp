@@ -1,0 +1,185 @@
+#include "core/project/report.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/project/internal/json_text.h"
+#include "core/project/settings.h"
+#include "core/project/version.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace millwright::project {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Figures are rounded to a nanometre or a microdegree: no reader needs more.
+double rounded(double value) {
+    constexpr double steps = 1e6;
+    return std::round(value * steps) / steps;
+}
+
+std::string_view status_id(grid::ImproverStatus status) {
+    switch (status) {
+    case grid::ImproverStatus::running:
+        return "running";
+    case grid::ImproverStatus::converged:
+        return "converged";
+    case grid::ImproverStatus::iteration_limit:
+        return "iteration-limit";
+    case grid::ImproverStatus::no_gain:
+        return "no-gain";
+    case grid::ImproverStatus::folded:
+        return "folded";
+    case grid::ImproverStatus::not_finite:
+        return "not-finite";
+    case grid::ImproverStatus::singular:
+        return "singular";
+    }
+    return "unknown";
+}
+
+/// A norm, which is no number any more where a solver ran away.
+Json norm_of(const GridOutcome& outcome) {
+    return std::isfinite(outcome.norm) ? Json(outcome.norm) : Json();
+}
+
+Json vector(const Vec3& p) {
+    return Json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+}
+
+Json distances(const grid::ErrorSummary& figures) {
+    Json json;
+    json["max"] = rounded(figures.max);
+    json["mean"] = rounded(figures.mean);
+    json["lmean"] = rounded(figures.lmean);
+    json["rms"] = rounded(figures.rms);
+    json["p95"] = rounded(figures.p95);
+    json["variance"] = rounded(figures.variance);
+    return json;
+}
+
+Json errors(const Evaluation& evaluation) {
+    Json json;
+    json["closest"] = distances(evaluation.closest);
+    json["param"] = distances(evaluation.param);
+    json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
+    json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
+    json["track_gap_mm"] = rounded(evaluation.track_gap);
+    json["cross"]["max"] = rounded(evaluation.cross_closest.max);
+    json["cross"]["mean"] = rounded(evaluation.cross_closest.mean);
+    json["min_jacobian"] = rounded(evaluation.outcome.grid.min_jacobian());
+    json["points"] = std::ssize(evaluation.toolpath.points);
+    json["path_length_mm"] = rounded(evaluation.path_length);
+    json["rotary_travel_deg"] = rounded(to_degrees(evaluation.axes.rotary_travel));
+    json["status"] = status_id(evaluation.outcome.status);
+    json["rounds"] = evaluation.outcome.rounds;
+    json["iterations"] = evaluation.outcome.iterations;
+    json["norm"] = norm_of(evaluation.outcome);
+    json["note"] = evaluation.outcome.note;
+    return json;
+}
+
+Json surface(const Project& project, const Plan& plan) {
+    const geometry::BezierPatch& patch = plan.workpiece->patch;
+    Json json;
+    json["preset"] = project.surface.preset;
+    json["patches"] = plan.surface->patch_count();
+    json["machined_patch"] = project.surface.machined_patch;
+    json["degree"] = Json::array({patch.degree_u(), patch.degree_v()});
+    json["rational"] = patch.rational();
+    json["flipped"] = project.surface.flipped;
+    json["box_mm"]["min"] = vector(patch.control_box().min());
+    json["box_mm"]["max"] = vector(patch.control_box().max());
+    return json;
+}
+
+Json machine(const Project& project, const Plan& plan) {
+    const kinematics::MachineModel& model = plan.workpiece->machine;
+    Json json;
+    json["file"] = project.machine.file;
+    json["name"] = model.name();
+    std::string letters;
+    for (const kinematics::MachineAxis& axis : model.axes()) {
+        letters += axis.letter;
+    }
+    json["axes"] = letters;
+    json["workpiece_offset_mm"] = vector(model.description().workpiece_offset);
+    json["angle_mode"] = row_of(angle_modes(), project.machine.angle_mode).id;
+    return json;
+}
+
+Json grid_json(const Project& project, const Evaluation& chosen) {
+    const GridOutcome& outcome = chosen.outcome;
+    Json json;
+    json["nu"] = outcome.grid.nu();
+    json["nv"] = outcome.grid.nv();
+    json["direction"] = row_of(track_directions(), project.grid.direction).id;
+    json["method"] = row_of(grid_methods(), project.grid.method).id;
+    json["status"] = status_id(outcome.status);
+    json["rounds"] = outcome.rounds;
+    json["iterations"] = outcome.iterations;
+    json["norm"] = norm_of(outcome);
+    json["min_jacobian"] = rounded(outcome.grid.min_jacobian());
+    json["note"] = outcome.note;
+    return json;
+}
+
+Json singular_points(const Plan& plan) {
+    Json json = Json::array();
+    for (const toolpath::SingularPoint& point : plan.singular_points) {
+        Json entry;
+        entry["u"] = rounded(point.uv.x());
+        entry["v"] = rounded(point.uv.y());
+        entry["position_mm"] = vector(point.position);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+Json program(const Plan& plan) {
+    const gcode::PostNotes& notes = plan.program_notes;
+    Json json;
+    json["blocks"] = plan.program->block_count();
+    json["lines"] = plan.listing->line_count();
+    json["cut_moves"] = notes.cut_moves;
+    json["slowed_moves"] = notes.slowed_moves;
+    json["links"] = notes.links;
+    json["raised_links"] = notes.raised_links;
+    json["safe_height_links"] = notes.safe_height_links;
+    json["cut_length_mm"] = rounded(notes.cut_length);
+    return json;
+}
+
+} // namespace
+
+std::string report_text(const Project& project, const Plan& plan) {
+    expects(plan.uniform && plan.elliptic && plan.optimised && plan.program && plan.listing &&
+                plan.trajectory,
+            "a plan is complete before it is reported");
+    const Evaluation& chosen = *plan.evaluation(project.grid.method);
+    Json json;
+    json["format"] = "millwright-report";
+    json["version"] = 1;
+    json["made_by"] = "Millwright " + std::string(version());
+    json["project"] = project.name;
+    json["surface"] = surface(project, plan);
+    json["machine"] = machine(project, plan);
+    json["grid"] = grid_json(project, chosen);
+    json["error"]["uniform"] = errors(*plan.uniform);
+    json["error"]["adapted"] = errors(*plan.elliptic);
+    json["error"]["optimised"] = errors(*plan.optimised);
+    json["singular_points"] = singular_points(plan);
+    json["points"] = std::ssize(chosen.toolpath.points);
+    json["path_length_mm"] = rounded(chosen.path_length);
+    json["track_gap_mm"] = rounded(chosen.track_gap);
+    json["estimated_time_s"] = rounded(plan.trajectory->duration());
+    json["axis_deviation_deg"]["max"] = rounded(to_degrees(chosen.closest.axis_max));
+    json["axis_deviation_deg"]["mean"] = rounded(to_degrees(chosen.closest.axis_mean));
+    json["program"] = program(plan);
+    return json_text(json);
+}
+
+} // namespace millwright::project
