@@ -6,17 +6,18 @@
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
 #include "core/machine/job.h"
+#include "core/machine/job_log.h"
 
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <vector>
 
 namespace millwright::machine {
 
 /// How a running job stands.
 struct JobReport {
     DriverStatus driver;
-    int executed_blocks = 0;
     int blocks = 0;
     double elapsed = 0.0;      ///< s since the start
     double planned_time = 0.0; ///< of the whole job, s
@@ -31,19 +32,35 @@ public:
 
     /// Runs the job to its end and returns how it ended; blocks, so call it from a thread that may wait.
     /// `listener` is called from that thread. Cancelling `progress` stops the machine. Throws Error before
-    /// any motion if something is wrong with job, log folder or driver; throws Error after having stopped the
-    /// machine if the log cannot be written any more. Reports JobEnd::done only if the driver executed all.
+    /// any motion if something is wrong with job, log folder or driver, or another job is running; if the log
+    /// cannot be written any more or the listener throws, stops the machine and passes that on. Reports
+    /// JobEnd::done only if the driver executed every block.
     JobOutcome run(const Job& job, const Progress& progress, const Listener& listener = {});
 
-    /// From any thread, at once, also entered in the log of a running job.
+    /// From any thread, at once; entered in the log of the running job.
     void hold();
     void resume();
     void stop();
 
 private:
+    struct Request {
+        LogEvent event = LogEvent::hold;
+        double clock_time = 0.0;
+        DriverStatus status; ///< when it was made
+    };
+    class Watch;
+    class Turn;
+
+    void request(LogEvent event, void (Driver::*command)());
+    [[nodiscard]] std::vector<Request> take_requests();
+    void bring_to_rest();
+
     Driver& driver_;
     Clock& clock_;
     std::filesystem::path log_folder_;
+    std::mutex mutex_; ///< guards what follows
+    bool running_ = false;
+    std::vector<Request> requests_;
 };
 
 } // namespace millwright::machine

@@ -7,29 +7,39 @@
 #include "core/machine/driver.h"
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
 namespace millwright::machine {
 
-struct VirtualMachineSettings {
+namespace internal {
+class VirtualAxes;
+}
+
+/// Machine seconds a second: 0.01 to 1000, or `unlimited`: as fast as it can be computed.
+struct VirtualSpeed {
     static constexpr double unlimited = 0.0;
-    double speed =
-        1.0; ///< machine seconds a second, 0.01 to 1000, or `unlimited`: as fast as it can be computed
+    static constexpr double slowest = 0.01;
+    static constexpr double fastest = 1000.0;
+    double factor = 1.0;
 };
 
+/// Its own thread moves it on; the position that status() gives is that of the very moment of the call. On
+/// close() it brakes to rest at once, without taking the time.
 class VirtualMachine final : public Driver {
 public:
     /// Stands at `position`, disconnected. `clock` must outlive it. Throws Error for a speed out of range.
-    VirtualMachine(kinematics::AxisPositions position, VirtualMachineSettings settings, Clock& clock);
+    VirtualMachine(kinematics::AxisPositions position, VirtualSpeed speed, Clock& clock);
     VirtualMachine(const VirtualMachine&) = delete;
     VirtualMachine& operator=(const VirtualMachine&) = delete;
     ~VirtualMachine() override;
 
     [[nodiscard]] std::string name() const override { return "virtual"; }
     [[nodiscard]] DriverStatus status() const override;
-    /// May be changed while running.
-    void set_speed(double speed);
+    /// Also while running. Throws Error if it is out of range.
+    void set_speed(VirtualSpeed speed);
 
     void connect() override;
     void start(Work work) override;
@@ -41,7 +51,17 @@ public:
     void close() noexcept override;
 
 private:
-    class Axes;
+    void run(const std::stop_token& stop) noexcept;
+    void move_on(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+    void catch_up() const;
+
+    Clock& clock_;
+    mutable std::mutex mutex_; ///< guards all below
+    std::condition_variable_any changed_;
+    VirtualSpeed speed_;
+    mutable double caught_up_to_ = 0.0; ///< clock time
+    std::unique_ptr<internal::VirtualAxes> axes_;
+    std::jthread thread_; ///< last: ends before what it uses
 };
 
 } // namespace millwright::machine

@@ -1,0 +1,284 @@
+#include "core/machine/dispatcher.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+constexpr double poll_time = 0.02; // s: a fifth of what a person notices
+
+/// Throws what is wrong first, and says how much else there is.
+void throw_first(std::vector<Diagnostic> faults) {
+    if (faults.empty()) {
+        return;
+    }
+    if (faults.size() > 1) {
+        faults.front().hint +=
+            fmt::format("{}and {} more", faults.front().hint.empty() ? "" : "; ", faults.size() - 1);
+    }
+    throw Error(std::move(faults.front()));
+}
+
+bool ended(DriverState state) {
+    return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm ||
+           state == DriverState::disconnected;
+}
+
+std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed) {
+    const std::string executed = fmt::format(
+        "{} of {} blocks were executed in {}", status.executed_blocks, blocks, clock_time(elapsed));
+    switch (end) {
+    case JobEnd::done:
+        return fmt::format("All {} blocks were executed in {}.", blocks, clock_time(elapsed));
+    case JobEnd::stopped:
+        return fmt::format("The machine was stopped: {}.", executed);
+    case JobEnd::cancelled:
+        return fmt::format("The job was cancelled: {}.", executed);
+    case JobEnd::fault:
+        break;
+    }
+    const std::string why = status.state == DriverState::disconnected ? "the link was lost"
+                            : status.message.empty()                  ? "the program did not get to its end"
+                                                                      : status.message;
+    return fmt::format("Fault: {}; {} for certain.", why, executed);
+}
+
+} // namespace
+
+/// One job at a time.
+class Dispatcher::Turn {
+public:
+    explicit Turn(Dispatcher& dispatcher) : dispatcher_(dispatcher) {
+        const std::scoped_lock lock(dispatcher_.mutex_);
+        if (dispatcher_.running_) {
+            throw Error("a job is running already", {}, "stop it, or wait for its end");
+        }
+        dispatcher_.running_ = true;
+        dispatcher_.requests_.clear();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+    ~Turn() {
+        const std::scoped_lock lock(dispatcher_.mutex_);
+        dispatcher_.running_ = false;
+    }
+
+private:
+    Dispatcher& dispatcher_;
+};
+
+/// A job on its way: what has been seen of it, and its log.
+class Dispatcher::Watch {
+public:
+    Watch(Dispatcher& dispatcher, const Job& job, JobLog& log, double planned_time)
+        : dispatcher_(dispatcher), job_(job), log_(log), planned_time_(planned_time),
+          start_(dispatcher.clock_.now()) {}
+
+    JobOutcome to_the_end(const Progress& progress, const Listener& listener) {
+        while (true) {
+            if (progress.cancelled() && !std::exchange(cancelled_, true)) {
+                dispatcher_.stop();
+            }
+            const DriverStatus status = dispatcher_.driver_.status();
+            remember(status);
+            write_requests();
+            write_executed();
+            tell(progress, listener);
+            if (ended(status.state)) {
+                return outcome(status);
+            }
+            dispatcher_.clock_.wait(poll_time);
+        }
+    }
+
+    /// The last line of a job that ends by our own failure, if it still can be written.
+    void log_failure() noexcept {
+        try {
+            remember(dispatcher_.driver_.status());
+            LogRecord end = record(LogEvent::end, elapsed(), last_);
+            end.end = JobEnd::fault;
+            end.text = "The job was broken off by a failure of this program.";
+            log_.write(end);
+        } catch (const std::exception&) {
+            // The failure itself is on its way to the user, and a log without an end promises nothing.
+        }
+    }
+
+private:
+    Dispatcher& dispatcher_;
+    const Job& job_;
+    JobLog& log_;
+    double planned_time_ = 0.0;
+    double start_ = 0.0;
+    DriverStatus last_; ///< with the last known position where the link is gone
+    int logged_blocks_ = 0;
+    bool cancelled_ = false;
+
+    [[nodiscard]] double elapsed() const { return dispatcher_.clock_.now() - start_; }
+    [[nodiscard]] int blocks() const { return job_.program->block_count(); }
+
+    void remember(const DriverStatus& status) {
+        if (status.state != DriverState::disconnected) {
+            last_ = status;
+            return;
+        }
+        last_.state = status.state;
+        last_.message = status.message;
+    }
+
+    [[nodiscard]] LogRecord record(LogEvent event, double time, const DriverStatus& status) const {
+        LogRecord line;
+        line.event = event;
+        line.time = time;
+        line.executed_blocks = status.executed_blocks;
+        const auto next = static_cast<std::size_t>(status.executed_blocks);
+        const auto& lines = job_.listing->line_of_block;
+        line.line = next < lines.size() ? lines[next] : job_.listing->line_count();
+        line.position = status.position;
+        return line;
+    }
+
+    void write_requests() {
+        for (const Request& request : dispatcher_.take_requests()) {
+            const double time = std::max(0.0, request.clock_time - start_);
+            if (request.status.state != DriverState::disconnected) {
+                log_.write(record(request.event, time, request.status));
+                logged_blocks_ = std::max(logged_blocks_, request.status.executed_blocks);
+            }
+        }
+    }
+
+    void write_executed() {
+        if (last_.executed_blocks > logged_blocks_) {
+            logged_blocks_ = last_.executed_blocks;
+            log_.write(record(LogEvent::executed, elapsed(), last_));
+        }
+    }
+
+    void tell(const Progress& progress, const Listener& listener) const {
+        const double fraction = planned_time_ > 0.0 ? last_.planned_time / planned_time_ : 1.0;
+        progress.report(fraction, fmt::format("block {} of {}", last_.executed_blocks, blocks()));
+        if (listener) {
+            listener({last_, blocks(), elapsed(), planned_time_});
+        }
+    }
+
+    [[nodiscard]] JobEnd end_of(const DriverStatus& status) const {
+        if (status.state == DriverState::idle && status.executed_blocks == blocks()) {
+            return JobEnd::done;
+        }
+        if (status.state == DriverState::stopped) {
+            return cancelled_ ? JobEnd::cancelled : JobEnd::stopped;
+        }
+        return JobEnd::fault;
+    }
+
+    JobOutcome outcome(const DriverStatus& status) {
+        write_requests(); // one that came between the last look at them and the end
+        JobOutcome result;
+        result.end = end_of(status);
+        result.executed_blocks = last_.executed_blocks;
+        result.blocks = blocks();
+        result.elapsed = elapsed();
+        result.position = last_.position;
+        result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed);
+        result.log_file = log_.file();
+        if (result.end == JobEnd::fault) {
+            LogRecord fault = record(LogEvent::fault, result.elapsed, last_);
+            fault.text = last_.message;
+            log_.write(fault);
+        }
+        LogRecord end = record(LogEvent::end, result.elapsed, last_);
+        end.end = result.end;
+        end.text = result.sentence;
+        log_.write(end);
+        return result;
+    }
+};
+
+Dispatcher::Dispatcher(Driver& driver, Clock& clock, std::filesystem::path log_folder)
+    : driver_(driver), clock_(clock), log_folder_(std::move(log_folder)) {}
+
+JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Listener& listener) {
+    const Turn turn(*this);
+    throw_first(preflight(job));
+    driver_.connect();
+    const DriverStatus before = driver_.status();
+    if (before.state != DriverState::idle && before.state != DriverState::stopped) {
+        throw Error(
+            fmt::format("the machine is {} and takes no job", to_text(before.state)), {}, before.message);
+    }
+    constexpr double planning = 0.02; // of the progress
+    auto trajectory = std::make_shared<const motion::Trajectory>(
+        motion::plan(*job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
+
+    JobLog log(log_folder_, job.name);
+    log.write(LogStart{.job = job.name,
+                       .project = job.project,
+                       .machine = job.machine->name(),
+                       .driver = driver_.name(),
+                       .program_hash = program_hash(job.listing->text),
+                       .started_at = job.started_at,
+                       .axes = job.program->axes,
+                       .blocks = job.program->block_count(),
+                       .planned_time = trajectory->duration()});
+    progress.check();
+    Watch watch(*this, job, log, trajectory->duration());
+    try {
+        driver_.start({job.program, trajectory, job.listing});
+        return watch.to_the_end(progress.part(planning, 1.0), listener);
+    } catch (...) {
+        bring_to_rest();
+        watch.log_failure();
+        throw;
+    }
+}
+
+/// After something went wrong on our side. A machine that does not come to rest by itself is cut off.
+void Dispatcher::bring_to_rest() {
+    constexpr double patience = 10.0; // s
+    driver_.stop();
+    for (double waited = 0.0; !ended(driver_.status().state); waited += poll_time) {
+        if (waited > patience) {
+            driver_.emergency_stop();
+            return;
+        }
+        clock_.wait(poll_time);
+    }
+}
+
+void Dispatcher::hold() {
+    request(LogEvent::hold, &Driver::hold);
+}
+
+void Dispatcher::resume() {
+    request(LogEvent::resume, &Driver::resume);
+}
+
+void Dispatcher::stop() {
+    request(LogEvent::stop, &Driver::stop);
+}
+
+void Dispatcher::request(LogEvent event, void (Driver::*command)()) {
+    const std::scoped_lock lock(mutex_); // so that a job cannot end between the command and its note
+    (driver_.*command)();
+    if (running_) {
+        requests_.push_back({event, clock_.now(), driver_.status()});
+    }
+}
+
+std::vector<Dispatcher::Request> Dispatcher::take_requests() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(requests_, {});
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,148 @@
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+
+#include "core/base/error.h"
+#include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+bool unlimited(VirtualSpeed speed) {
+    return !(speed.factor > VirtualSpeed::unlimited);
+}
+
+void check(VirtualSpeed speed) {
+    const double factor = speed.factor;
+    const bool in_range = factor >= VirtualSpeed::slowest && factor <= VirtualSpeed::fastest;
+    if (!in_range && !(factor >= 0.0 && unlimited(speed))) {
+        throw Error(
+            fmt::format("the virtual machine's speed of {} is not between {} and {}, nor 0 for unlimited",
+                        factor,
+                        VirtualSpeed::slowest,
+                        VirtualSpeed::fastest));
+    }
+}
+
+} // namespace
+
+VirtualMachine::VirtualMachine(kinematics::AxisPositions position, VirtualSpeed speed, Clock& clock)
+    : clock_(clock), speed_(speed), axes_(std::make_unique<internal::VirtualAxes>(std::move(position))) {
+    check(speed);
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+VirtualMachine::~VirtualMachine() {
+    close();
+}
+
+DriverStatus VirtualMachine::status() const {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    return axes_->status();
+}
+
+void VirtualMachine::set_speed(VirtualSpeed speed) {
+    check(speed);
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    speed_ = speed;
+    changed_.notify_all();
+}
+
+void VirtualMachine::connect() {
+    const std::scoped_lock lock(mutex_);
+    axes_->connect();
+}
+
+void VirtualMachine::start(Work work) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->start(std::move(work));
+    changed_.notify_all();
+}
+
+void VirtualMachine::hold() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->hold();
+}
+
+void VirtualMachine::resume() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->resume();
+    changed_.notify_all();
+}
+
+void VirtualMachine::stop() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->stop();
+}
+
+void VirtualMachine::emergency_stop() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->emergency_stop("emergency stop");
+}
+
+void VirtualMachine::reset() {
+    const std::scoped_lock lock(mutex_);
+    axes_->reset();
+}
+
+void VirtualMachine::close() noexcept {
+    const std::scoped_lock lock(mutex_);
+    try {
+        catch_up();
+        axes_->close();
+    } catch (const std::exception& defect) {
+        axes_->emergency_stop(defect.what());
+    }
+}
+
+/// Moves the axes to where they are at this moment of the clock.
+void VirtualMachine::catch_up() const {
+    const double now = clock_.now();
+    const double passed = std::max(0.0, now - std::exchange(caught_up_to_, now));
+    if (!unlimited(speed_)) {
+        axes_->advance(passed * speed_.factor);
+    }
+}
+
+void VirtualMachine::run(const std::stop_token& stop) noexcept {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        try {
+            move_on(lock, stop);
+        } catch (const std::exception& defect) {
+            axes_->emergency_stop(defect.what());
+        }
+    }
+}
+
+void VirtualMachine::move_on(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+    const auto woken = [&] { return stop.stop_requested(); };
+    if (!axes_->moving()) {
+        changed_.wait(lock, stop, [&] { return axes_->moving(); });
+        return;
+    }
+    if (unlimited(speed_)) {
+        constexpr double stride = 0.5;                  // s of the machine
+        constexpr std::chrono::microseconds others{50}; // in which commands get their turn
+        axes_->advance(stride);
+        changed_.wait_for(lock, stop, others, woken);
+        return;
+    }
+    constexpr std::chrono::milliseconds tick{5};
+    catch_up();
+    changed_.wait_for(lock, stop, tick, woken);
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,127 @@
+#include "core/machine/job.h"
+
+#include "core/base/units.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+namespace millwright::machine {
+
+namespace {
+
+using gcode::Block;
+using gcode::BlockKind;
+using kinematics::AxisKind;
+using kinematics::MachineAxis;
+using kinematics::MachineModel;
+
+void check_axes(const gcode::Program& program, const MachineModel& machine, std::vector<Diagnostic>& found) {
+    bool same = static_cast<int>(program.axes.size()) == machine.axis_count();
+    std::string wanted;
+    for (const gcode::ProgramAxis& axis : program.axes) {
+        const int n = machine.axis_index(axis.letter);
+        same = same && n == static_cast<int>(wanted.size()) && machine.axis(n).kind == axis.kind;
+        wanted += axis.letter;
+    }
+    if (!same) {
+        found.push_back({{},
+                         fmt::format("the program is for axes {} of '{}', not for machine '{}'",
+                                     wanted,
+                                     program.machine,
+                                     machine.name()),
+                         "make the program for this machine"});
+    }
+}
+
+std::string outside_sentence(const MachineAxis& axis, double position) {
+    const bool rotary = axis.kind == AxisKind::rotary;
+    const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
+    return fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+                       axis.letter,
+                       shown(position),
+                       shown(axis.min),
+                       shown(axis.max),
+                       rotary ? "deg" : "mm");
+}
+
+class BlockChecks {
+public:
+    BlockChecks(const Job& job, std::vector<Diagnostic>& found) : job_(job), found_(found) {}
+
+    void check(int n) {
+        const Block& block = job_.program->blocks[static_cast<std::size_t>(n)];
+        for (int axis = 0; axis < job_.machine->axis_count(); ++axis) {
+            const MachineAxis& limits = job_.machine->axis(axis);
+            const double position = block.target[axis];
+            const bool inside = position >= limits.min && position <= limits.max;
+            if (!inside && reported_.insert(limits.letter).second) {
+                report(n, outside_sentence(limits, position));
+            }
+        }
+        const bool timed = block.kind == BlockKind::feed || block.kind == BlockKind::dwell;
+        if (timed && !(std::isfinite(block.duration) && block.duration > 0.0)) {
+            report(n, fmt::format("a duration of {} s cannot be executed", block.duration));
+        }
+    }
+
+private:
+    const Job& job_;
+    std::vector<Diagnostic>& found_;
+    std::set<char> reported_; ///< once an axis is enough
+
+    void report(int n, std::string sentence) {
+        const int line = job_.listing->line_of_block[static_cast<std::size_t>(n)];
+        found_.push_back({{job_.name, line, 0, -1}, std::move(sentence), {}});
+    }
+};
+
+} // namespace
+
+std::string_view to_text(JobEnd end) {
+    switch (end) {
+    case JobEnd::done:
+        return "done";
+    case JobEnd::stopped:
+        return "stopped";
+    case JobEnd::cancelled:
+        return "cancelled";
+    case JobEnd::fault:
+        return "fault";
+    }
+    return "unknown";
+}
+
+std::vector<Diagnostic> preflight(const Job& job) {
+    expects(job.machine != nullptr && job.program != nullptr && job.listing != nullptr,
+            "a job has a machine, a program and its listing");
+    const gcode::Program& program = *job.program;
+    expects(std::ssize(job.listing->line_of_block) == program.block_count(),
+            "a listing belongs to its program");
+    std::vector<Diagnostic> found;
+    check_axes(program, *job.machine, found);
+    if (!found.empty()) {
+        return found;
+    }
+    if (program.blocks.empty() || program.blocks.back().kind != BlockKind::end) {
+        found.push_back({{job.name, 0, 0, -1}, "the program does not say where it ends", {}});
+    }
+    BlockChecks checks(job, found);
+    for (int n = 0; n < program.block_count(); ++n) {
+        checks.check(n);
+    }
+    return found;
+}
+
+std::string program_hash(std::string_view listing) {
+    std::uint64_t hash = 0xcbf29ce484222325U; // offset basis and prime of FNV-1a, 64 bit
+    for (const char c : listing) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001b3U;
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+} // namespace millwright::machine

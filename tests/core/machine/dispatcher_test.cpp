@@ -1,0 +1,244 @@
+#include "core/machine/dispatcher.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/job_log.h"
+#include "tests/support/jobs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace millwright::machine {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Bench {
+    test::TemporaryFolder folder;
+    test::ManualClock clock;
+    Job job = test::dome_job();
+    VirtualMachine machine{job.program->start, {}, clock};
+    Dispatcher dispatcher{machine, clock, folder.path() / "logs"};
+
+    [[nodiscard]] int blocks() const { return job.program->block_count(); }
+};
+
+std::vector<LogEvent> events(const ReadLog& log) {
+    std::vector<LogEvent> result;
+    for (const LogRecord& record : log.records) {
+        if (record.event != LogEvent::executed) {
+            result.push_back(record.event);
+        }
+    }
+    return result;
+}
+
+TEST(Dispatcher, RunsAJobToItsEndAndLogsIt) {
+    Bench bench;
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {});
+    EXPECT_EQ(outcome.end, JobEnd::done);
+    EXPECT_EQ(outcome.executed_blocks, bench.blocks());
+    EXPECT_EQ(outcome.position, bench.job.program->blocks.back().target);
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_EQ(log.end(), JobEnd::done);
+    EXPECT_EQ(log.executed_blocks(), bench.blocks());
+    EXPECT_EQ(log.start.program_hash, program_hash(bench.job.listing->text));
+    EXPECT_NEAR(log.start.planned_time, outcome.elapsed, 0.05);
+    int before = 0;
+    for (const LogRecord& record : log.records) {
+        EXPECT_GE(record.executed_blocks, before);
+        before = record.executed_blocks;
+    }
+}
+
+TEST(Dispatcher, TellsHowFarTheJobIs) {
+    Bench bench;
+    std::vector<JobReport> reports;
+    std::vector<double> fractions;
+    const Progress progress([&](const Progress::Report& report) { fractions.push_back(report.fraction); },
+                            {});
+    (void)bench.dispatcher.run(
+        bench.job, progress, [&](const JobReport& report) { reports.push_back(report); });
+    ASSERT_GT(reports.size(), 100U);
+    EXPECT_EQ(reports.back().driver.executed_blocks, reports.back().blocks);
+    EXPECT_DOUBLE_EQ(fractions.back(), 1.0);
+    EXPECT_NEAR(reports[reports.size() / 2].driver.planned_time, reports[reports.size() / 2].elapsed, 1e-6);
+}
+
+TEST(Dispatcher, LogsHoldResumeAndStopWithTimeAndPosition) {
+    Bench bench;
+    int looks = 0;
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
+        ++looks;
+        if (looks == 100) {
+            bench.dispatcher.hold();
+        } else if (looks == 200) {
+            bench.dispatcher.resume();
+        } else if (looks == 300) {
+            bench.dispatcher.stop();
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::stopped);
+    EXPECT_THAT(outcome.sentence, HasSubstr("stopped"));
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_EQ(events(log), (std::vector{LogEvent::hold, LogEvent::resume, LogEvent::stop, LogEvent::end}));
+    EXPECT_EQ(log.end(), JobEnd::stopped);
+    EXPECT_LT(outcome.executed_blocks, bench.blocks());
+    EXPECT_EQ(log.executed_blocks(), outcome.executed_blocks);
+    EXPECT_LT((log.records.back().position - bench.machine.status().position).norm(), 1e-5);
+}
+
+TEST(Dispatcher, StopsTheMachineWhenItsProgressIsCancelled) {
+    Bench bench;
+    std::stop_source source;
+    int looks = 0;
+    const JobOutcome outcome =
+        bench.dispatcher.run(bench.job, Progress({}, source.get_token()), [&](const JobReport&) {
+            if (++looks == 150) {
+                source.request_stop();
+            }
+        });
+    EXPECT_EQ(outcome.end, JobEnd::cancelled);
+    EXPECT_EQ(bench.machine.status().state, DriverState::stopped);
+    EXPECT_EQ(read_job_log(outcome.log_file).end(), JobEnd::cancelled);
+}
+
+TEST(Dispatcher, DoesNotStartWhatIsCancelledBefore) {
+    Bench bench;
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW((void)bench.dispatcher.run(bench.job, Progress({}, source.get_token())), Cancelled);
+    EXPECT_EQ(bench.machine.status().position, bench.job.program->start);
+}
+
+TEST(Dispatcher, ReportsAFaultAndWhatWasExecutedForCertain) {
+    Bench bench;
+    int looks = 0;
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
+        if (++looks == 400) {
+            bench.machine.emergency_stop();
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::fault);
+    EXPECT_THAT(outcome.sentence, HasSubstr("emergency stop"));
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_EQ(events(log), (std::vector{LogEvent::fault, LogEvent::end}));
+    EXPECT_EQ(log.end(), JobEnd::fault);
+    EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}), Error); // nothing before the reset
+}
+
+TEST(Dispatcher, TakesALostLinkForAFaultWithTheLastKnownPosition) {
+    Bench bench;
+    kinematics::AxisPositions last;
+    int looks = 0;
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport& report) {
+        last = report.driver.position;
+        if (++looks == 400) {
+            bench.machine.close();
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::fault);
+    EXPECT_THAT(outcome.sentence, HasSubstr("the link was lost"));
+    EXPECT_EQ(outcome.position, last);
+}
+
+TEST(Dispatcher, RunsAJobAgainFromWhereTheMachineWasStopped) {
+    Bench bench;
+    int looks = 0;
+    (void)bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
+        if (++looks == 300) {
+            bench.dispatcher.stop();
+        }
+    });
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {});
+    EXPECT_EQ(outcome.end, JobEnd::done);
+    EXPECT_EQ(outcome.log_file.filename(), "test-0002.jsonl");
+}
+
+TEST(Dispatcher, MovesNothingIfTheLogFolderCannotBeMade) {
+    Bench bench;
+    write_file(bench.folder.path() / "logs", "in the way");
+    EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}), Error);
+    bench.clock.wait(10.0);
+    EXPECT_EQ(bench.machine.status().position, bench.job.program->start);
+}
+
+TEST(Dispatcher, MovesNothingIfThePreflightFindsSomething) {
+    Bench bench;
+    gcode::Program program = *bench.job.program;
+    program.blocks[9].target[1] = 1e4;
+    program.blocks[9].target[2] = -1e4;
+    try {
+        (void)bench.dispatcher.run(test::job_of(program), {});
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("axis Y would go to 10000.000"));
+        EXPECT_THAT(error.what(), HasSubstr("and 1 more"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(bench.folder.path() / "logs"));
+    EXPECT_EQ(bench.machine.status().state, DriverState::disconnected);
+}
+
+TEST(Dispatcher, StopsTheMachineIfItsListenerFails) {
+    Bench bench;
+    int looks = 0;
+    const auto failing = [&](const JobReport&) {
+        if (++looks == 300) {
+            throw Error("the window is gone");
+        }
+    };
+    EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}, failing), Error);
+    EXPECT_EQ(bench.machine.status().state, DriverState::stopped);
+    const ReadLog log = read_job_log(bench.folder.path() / "logs" / "test-0001.jsonl");
+    EXPECT_EQ(log.end(), JobEnd::fault);
+    EXPECT_EQ(log.executed_blocks(), bench.machine.status().executed_blocks);
+}
+
+TEST(Dispatcher, RunsOneJobAtATime) {
+    Bench bench;
+    int looks = 0;
+    const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
+        if (++looks == 10) {
+            EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}), Error);
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::done);
+}
+
+/// A driver that says it is idle before everything was executed.
+class EarlyDriver final : public Driver {
+public:
+    explicit EarlyDriver(kinematics::AxisPositions position) { status_.position = std::move(position); }
+    [[nodiscard]] std::string name() const override { return "early"; }
+    [[nodiscard]] DriverStatus status() const override { return status_; }
+    void connect() override { status_.state = DriverState::idle; }
+    void start(Work work) override { status_.executed_blocks = work.program->block_count() - 1; }
+    void hold() override {}
+    void resume() override {}
+    void stop() override {}
+    void emergency_stop() override {}
+    void reset() override {}
+    void close() noexcept override {}
+
+private:
+    DriverStatus status_;
+};
+
+TEST(Dispatcher, NeverReportsDoneUnlessTheDriverExecutedEveryBlock) {
+    const test::TemporaryFolder folder;
+    test::ManualClock clock;
+    const Job job = test::dome_job();
+    EarlyDriver driver(job.program->start);
+    driver.connect();
+    const JobOutcome outcome = Dispatcher(driver, clock, folder.path()).run(job, {});
+    EXPECT_EQ(outcome.end, JobEnd::fault);
+    EXPECT_EQ(outcome.executed_blocks, job.program->block_count() - 1);
+    EXPECT_THAT(outcome.sentence, HasSubstr("did not get to its end"));
+}
+
+} // namespace
+} // namespace millwright::machine

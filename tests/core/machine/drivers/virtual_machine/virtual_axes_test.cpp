@@ -1,0 +1,208 @@
+#include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
+
+#include "core/base/error.h"
+#include "tests/support/jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace millwright::machine::internal {
+namespace {
+
+using kinematics::AxisPositions;
+
+/// Axes at zero, connected, about to execute the dome.
+struct Bench {
+    Job job = test::dome_job();
+    Work work = test::work_of(job);
+    VirtualAxes axes{job.program->start};
+
+    Bench() { axes.connect(); }
+    [[nodiscard]] double duration() const { return work.trajectory->duration(); }
+};
+
+TEST(VirtualAxes, FollowTheTrajectoryToItsEnd) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    double time = 0.0;
+    while (bench.axes.moving()) {
+        const DriverStatus status = bench.axes.status();
+        EXPECT_EQ(status.state, DriverState::running);
+        EXPECT_LT((status.position - bench.work.trajectory->at(time).position).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_NEAR(status.planned_time, time, 1e-6);
+        bench.axes.advance(0.25);
+        time += 0.25;
+    }
+    const DriverStatus status = bench.axes.status();
+    EXPECT_EQ(status.state, DriverState::idle);
+    EXPECT_EQ(status.executed_blocks, bench.job.program->block_count());
+    EXPECT_EQ(status.position, bench.job.program->blocks.back().target);
+    EXPECT_NEAR(time, bench.duration(), 0.25);
+}
+
+TEST(VirtualAxes, CountABlockOnlyWhenItIsCompletelyExecuted) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    for (double time = 0.0; time < bench.duration(); time += 0.1) {
+        const int executed = bench.axes.status().executed_blocks;
+        if (executed > 0) {
+            EXPECT_LE(bench.work.trajectory->end_of(executed - 1), time + 1e-9);
+        }
+        EXPECT_GE(bench.work.trajectory->end_of(executed), time - 1e-9);
+        bench.axes.advance(0.1);
+    }
+}
+
+TEST(VirtualAxes, HoldOnThePathAndResumeToTheSameEnd) {
+    std::mt19937 random(7);
+    Bench first;
+    std::uniform_real_distribution<double> when(0.0, first.duration());
+    for (int run = 0; run < 50; ++run) {
+        Bench bench;
+        bench.axes.start(bench.work);
+        bench.axes.advance(when(random));
+        bench.axes.hold();
+        EXPECT_EQ(bench.axes.status().state, DriverState::holding);
+        bench.axes.advance(run % 2 == 0 ? 10.0 : 0.03);
+        const AxisPositions held = bench.axes.status().position;
+        if (run % 2 == 0) {
+            EXPECT_FALSE(bench.axes.moving());
+            bench.axes.advance(100.0);
+            EXPECT_EQ(bench.axes.status().position, held);
+        }
+        bench.axes.resume();
+        EXPECT_LT((bench.axes.status().position - held).cwiseAbs().maxCoeff(), 1e-9);
+        bench.axes.advance(1e6);
+        EXPECT_EQ(bench.axes.status().state, DriverState::idle);
+        EXPECT_EQ(bench.axes.status().executed_blocks, bench.job.program->block_count());
+        EXPECT_EQ(bench.axes.status().position, bench.job.program->blocks.back().target);
+    }
+}
+
+TEST(VirtualAxes, StopInTheTimeThatTheirAccelerationNeedsAndDoNotResume) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    bench.axes.advance(bench.duration() / 2.0);
+    bench.axes.stop();
+    EXPECT_EQ(bench.axes.status().state, DriverState::stopping);
+    bench.axes.advance(2.0);
+    const DriverStatus stopped = bench.axes.status();
+    EXPECT_EQ(stopped.state, DriverState::stopped);
+    EXPECT_LT(stopped.executed_blocks, bench.job.program->block_count());
+    bench.axes.resume();
+    bench.axes.hold();
+    bench.axes.advance(100.0);
+    EXPECT_EQ(bench.axes.status().state, DriverState::stopped);
+    EXPECT_EQ(bench.axes.status().position, stopped.position);
+}
+
+TEST(VirtualAxes, StopFromAHoldWithoutMovingAgain) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    bench.axes.advance(3.0);
+    bench.axes.hold();
+    bench.axes.advance(10.0);
+    const AxisPositions held = bench.axes.status().position;
+    bench.axes.stop();
+    EXPECT_EQ(bench.axes.status().state, DriverState::stopped);
+    bench.axes.advance(10.0);
+    EXPECT_EQ(bench.axes.status().position, held);
+}
+
+TEST(VirtualAxes, FreezeAtAnEmergencyStopAndStartNothingBeforeTheReset) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    bench.axes.advance(3.0);
+    const AxisPositions there = bench.axes.status().position;
+    bench.axes.emergency_stop("pressed");
+    EXPECT_EQ(bench.axes.status().state, DriverState::alarm);
+    EXPECT_EQ(bench.axes.status().message, "pressed");
+    bench.axes.advance(10.0);
+    bench.axes.resume();
+    bench.axes.advance(10.0);
+    EXPECT_EQ(bench.axes.status().position, there);
+    EXPECT_THROW(bench.axes.start(bench.work), Error);
+    bench.axes.reset();
+    EXPECT_EQ(bench.axes.status().state, DriverState::idle);
+    EXPECT_EQ(bench.axes.status().position, there);
+}
+
+TEST(VirtualAxes, RefuseAMotionThatBeginsElsewhere) {
+    Bench bench;
+    bench.axes.start(bench.work);
+    bench.axes.advance(3.0);
+    bench.axes.stop();
+    bench.axes.advance(3.0);
+    EXPECT_THROW(bench.axes.start(bench.work), Error);
+    const auto from_here =
+        motion::plan(*bench.job.program, *bench.job.machine, {}, {}, bench.axes.status().position);
+    bench.axes.start(
+        {bench.job.program, std::make_shared<const motion::Trajectory>(from_here), bench.job.listing});
+    bench.axes.advance(1e6);
+    EXPECT_EQ(bench.axes.status().position, bench.job.program->blocks.back().target);
+}
+
+TEST(VirtualAxes, RefuseAProgramWhileOneRunsOrWithoutALink) {
+    Bench bench;
+    VirtualAxes unlinked(bench.job.program->start);
+    EXPECT_THROW(unlinked.start(bench.work), Error);
+    bench.axes.start(bench.work);
+    EXPECT_THROW(bench.axes.start(bench.work), Error);
+}
+
+/// Commands in any order at any time: the axes move only while running, or braking from it.
+TEST(VirtualAxes, MoveOnlyWhenTheyMayWhateverTheyAreTold) {
+    std::mt19937 random(42);
+    std::uniform_int_distribution<int> what(0, 9);
+    std::uniform_real_distribution<double> pause(0.0, 0.4);
+    for (int run = 0; run < 100; ++run) {
+        Bench bench;
+        for (int k = 0; k < 60; ++k) {
+            switch (what(random)) {
+            case 0:
+            case 1:
+                if (bench.axes.status().state == DriverState::idle && k == 0) {
+                    bench.axes.start(bench.work);
+                }
+                break;
+            case 2:
+            case 3:
+                bench.axes.hold();
+                break;
+            case 4:
+            case 5:
+                bench.axes.resume();
+                break;
+            case 6:
+                if (k > 30) {
+                    bench.axes.stop();
+                }
+                break;
+            case 7:
+                if (k > 50) {
+                    bench.axes.emergency_stop("test");
+                }
+                break;
+            default:
+                break;
+            }
+            const DriverStatus before = bench.axes.status();
+            const bool may_move = bench.axes.moving();
+            bench.axes.advance(pause(random));
+            const DriverStatus after = bench.axes.status();
+            if (!may_move) {
+                EXPECT_EQ(before.position, after.position);
+                EXPECT_EQ(before.velocity.norm(), 0.0);
+            } else {
+                EXPECT_TRUE(before.state == DriverState::running || before.state == DriverState::holding ||
+                            before.state == DriverState::stopping);
+            }
+            EXPECT_LE(before.executed_blocks, after.executed_blocks);
+        }
+    }
+}
+
+} // namespace
+} // namespace millwright::machine::internal
