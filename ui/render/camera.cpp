@@ -1,6 +1,7 @@
 #include "ui/render/camera.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 
 #include <glm/common.hpp>
@@ -101,6 +102,12 @@ Extent extent(std::span<const glm::dvec3> points,
 }
 
 } // namespace
+
+bool operator==(const CameraPose& a, const CameraPose& b) {
+    return exactly_equal(a.target.x, b.target.x) && exactly_equal(a.target.y, b.target.y) &&
+           exactly_equal(a.target.z, b.target.z) && exactly_equal(a.distance, b.distance) &&
+           exactly_equal(a.yaw, b.yaw) && exactly_equal(a.pitch, b.pitch) && a.projection == b.projection;
+}
 
 double half_height(const Camera& camera) {
     return camera.pose().distance * tan_half_field;

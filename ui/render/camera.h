@@ -24,7 +24,8 @@ struct CameraPose {
     double pitch = 0.6154797086703873;
     Projection projection = Projection::perspective;
 
-    friend bool operator==(const CameraPose&, const CameraPose&) = default;
+    /// Exactly the same place.
+    friend bool operator==(const CameraPose& a, const CameraPose& b);
 };
 
 /// A value: moving it gives another camera. Both projections show the target plane at the same size.
