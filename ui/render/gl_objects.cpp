@@ -17,8 +17,8 @@ template <typename Make> GLuint made(Make make) {
 }
 
 const void* byte_offset(std::ptrdiff_t offset) {
-    return reinterpret_cast<const void*>(
-        offset); // NOLINT(performance-no-int-to-ptr): the interface of OpenGL
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface of OpenGL
+    return reinterpret_cast<const void*>(offset);
 }
 
 } // namespace

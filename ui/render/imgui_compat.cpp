@@ -38,7 +38,8 @@ constexpr std::array<std::pair<ImGuiKey_, Key>, 22> named_keys = {{{ImGuiKey_Tab
 
 ImTextureID texture_id(GlId texture) {
     const std::uintptr_t id = texture;
-    return reinterpret_cast<ImTextureID>(id); // NOLINT(performance-no-int-to-ptr): the interface of ImGui
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface of ImGui
+    return reinterpret_cast<ImTextureID>(id);
 }
 
 void show(const ViewTarget& target, const ImVec2& size) {

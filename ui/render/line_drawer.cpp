@@ -54,7 +54,7 @@ void LineDrawer::draw(const LineBuffer& buffer,
     if (count == 0) {
         return;
     }
-    const float scale = static_cast<float>(view.content_scale);
+    const auto scale = static_cast<float>(view.content_scale);
     const float width = style.width_px * scale;
     program_.use();
     set_view(program_, view, style.model);

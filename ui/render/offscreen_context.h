@@ -12,6 +12,8 @@ class OffscreenContext final : public Context {
 public:
     /// Current on return. Throws Error if there is no EGL or no OpenGL 3.3, Defect if the size has no area.
     explicit OffscreenContext(const PixelSize& size, double content_scale = 1.0);
+    OffscreenContext(const OffscreenContext&) = delete;
+    OffscreenContext& operator=(const OffscreenContext&) = delete;
     ~OffscreenContext() override;
 
     [[nodiscard]] PixelSize framebuffer_size() const override;

@@ -43,7 +43,7 @@ Difference difference(const Picture& a, const Picture& b, int tolerance) {
         largest = std::max(largest, std::abs(a.pixels[i][3] - b.pixels[i][3]));
         differing += largest > tolerance ? 1 : 0;
     }
-    const double count = static_cast<double>(a.pixels.size());
+    const auto count = static_cast<double>(a.pixels.size());
     return {.mean = sum / (3.0 * 255.0 * count), .fraction = static_cast<double>(differing) / count};
 }
 

@@ -29,7 +29,7 @@ void PointDrawer::draw(const PointBuffer& buffer,
     if (buffer.count() == 0) {
         return;
     }
-    const float scale = static_cast<float>(view.content_scale);
+    const auto scale = static_cast<float>(view.content_scale);
     program_.use();
     set_view(program_, view, style.model);
     set_coloring(program_, style.coloring, maps);

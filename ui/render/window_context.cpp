@@ -30,8 +30,7 @@ class Library {
 public:
     Library() {
         // Asking before GLFW does gives a plainer sentence.
-        const char* display =
-            std::getenv("DISPLAY"); // NOLINT(concurrency-mt-unsafe): before any thread is made
+        const char* display = std::getenv("DISPLAY");
         const std::string hint =
             "start the program in a desktop session, or use the commands that need no window";
         if (display == nullptr || *display == '\0') {
@@ -202,6 +201,7 @@ bool WindowContext::close_requested() const {
     return glfwWindowShouldClose(handle()) != GLFW_FALSE;
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): it changes the window
 void WindowContext::keep_open() {
     glfwSetWindowShouldClose(handle(), GLFW_FALSE);
 }
@@ -210,6 +210,7 @@ bool WindowContext::focused() const {
     return glfwGetWindowAttrib(handle(), GLFW_FOCUSED) != GLFW_FALSE;
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): it changes the window
 void WindowContext::set_title(const std::string& title) {
     glfwSetWindowTitle(handle(), title.c_str());
 }

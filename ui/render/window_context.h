@@ -28,6 +28,8 @@ public:
 
     /// Current on return. Throws Error if there is no display, no OpenGL 3.3, or no window can be opened.
     explicit WindowContext(const WindowOptions& options);
+    WindowContext(const WindowContext&) = delete;
+    WindowContext& operator=(const WindowContext&) = delete;
     ~WindowContext() override;
 
     [[nodiscard]] PixelSize framebuffer_size() const override;
