@@ -15,6 +15,12 @@ struct MoveError {
     double tip = 0.0;    ///< largest distance of the true tip from the surface curve between the nodes, mm
     double axis = 0.0;   ///< largest angle of the true tool axis to the surface normal, rad
     double length = 0.0; ///< length of the surface curve between the nodes, mm
+    /// What of `tip` leaves the surface (gouge or excess), largest, mm. The rest goes along the surface,
+    /// across the track: it moves the cut but not the surface. 0 from a model that cannot tell.
+    double off_surface = 0.0;
+    /// Largest distance from the surface point at the same fraction of the parameters, mm: also counts a tip
+    /// that is on the curve, but early or late. 0 from a model that cannot tell.
+    double param = 0.0;
 };
 
 /// How finely a move is sampled. The search uses `coarse`, final figures `fine`.

@@ -72,7 +72,8 @@ AxisPositions follow(const MachineModel& machine, const AxisPositions& from, std
 
 struct Nearest {
     double squared = infinity;
-    Vec3 normal = Vec3::UnitZ();
+    Vec3 point = Vec3::Zero();
+    Vec3 normal = Vec3::UnitZ(); // not scaled
 };
 
 Nearest nearest_on(const Curve& curve, const Vec3& p) {
@@ -85,10 +86,19 @@ Nearest nearest_on(const Curve& curve, const Vec3& p) {
         const double squared = (a + s * ab - p).squaredNorm();
         if (squared < best.squared) {
             best.squared = squared;
+            best.point = a + s * ab;
             best.normal = (1.0 - s) * curve.normals[n - 1] + s * curve.normals[n];
         }
     }
     return best;
+}
+
+/// The point at fraction t of the curve's parameters.
+Vec3 point_at(const Curve& curve, double t) {
+    const double chords = static_cast<double>(curve.points.size() - 1);
+    const auto n = std::min(static_cast<std::size_t>(t * chords), curve.points.size() - 2);
+    const double inside = t * chords - static_cast<double>(n);
+    return (1.0 - inside) * curve.points[n] + inside * curve.points[n + 1];
 }
 
 double curve_length(const Curve& curve) {
@@ -103,7 +113,7 @@ grid::MoveError judge(
     const MachineModel& machine, const Node& first, const Node& second, const Curve& curve, int tip_samples) {
     const Node a = off_the_pole(machine, first, second);
     const Node b = off_the_pole(machine, second, first);
-    grid::MoveError error{infinity, infinity, curve_length(curve)};
+    grid::MoveError error{infinity, infinity, curve_length(curve), infinity, infinity};
     if (a.branches.empty() || b.branches.empty()) {
         return error;
     }
@@ -111,11 +121,16 @@ grid::MoveError judge(
     const AxisPositions step = follow(machine, from, b.branches) - from;
     double squared = 0.0;
     error.axis = 0.0;
+    error.off_surface = 0.0;
+    error.param = 0.0;
     for (int k = 1; k <= tip_samples; ++k) {
         const double t = static_cast<double>(k) / (tip_samples + 1);
         const ToolPose actual = kinematics::forward(machine, from + t * step);
         const Nearest nearest = nearest_on(curve, actual.tip);
         squared = std::max(squared, nearest.squared);
+        const double off = std::abs((actual.tip - nearest.point).dot(nearest.normal.normalized()));
+        error.off_surface = std::max(error.off_surface, off);
+        error.param = std::max(error.param, (actual.tip - point_at(curve, t)).norm());
         error.axis = std::max(error.axis, angle_between(actual.axis, nearest.normal));
     }
     error.tip = std::sqrt(squared);

@@ -1,0 +1,143 @@
+#include "core/grid/track_path.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double window_slack = 1e-9; // of a window: a move exactly as long as the window is inside
+
+/// The moves of a table as numbers, in rows that the dynamic programming runs along.
+struct Weights {
+    const MoveTable& table;
+    std::vector<std::vector<double>> rows;
+};
+
+template <typename Weight> Weights weigh(const MoveTable& table, const MoveLimits& limits, Weight weight) {
+    Weights found{table, {}};
+    for (int k = 0; k < table.size(); ++k) {
+        std::vector<double>& row = found.rows.emplace_back();
+        for (int l = table.first(k); l < table.end(k); ++l) {
+            const MoveError& move = table.move(k, l);
+            row.push_back(limits.allow(move) ? weight(move) : infinity);
+        }
+    }
+    return found;
+}
+
+/// One step of D_m(l) = min_k join(D_{m-1}(k), w(k,l)): the new D, and in `from` the k that gave it.
+template <typename Join>
+std::vector<double>
+one_move_more(const Weights& weights, const std::vector<double>& reached, std::vector<int>& from, Join join) {
+    std::vector<double> next(reached.size(), infinity);
+    for (int k = 0; k < weights.table.size(); ++k) {
+        const double before = reached[static_cast<std::size_t>(k)];
+        if (!(before < infinity)) {
+            continue;
+        }
+        auto l = static_cast<std::size_t>(weights.table.first(k));
+        for (const double weight : weights.rows[static_cast<std::size_t>(k)]) {
+            const double value = join(before, weight);
+            if (value < next[l]) {
+                next[l] = value;
+                from[l] = k;
+            }
+            ++l;
+        }
+    }
+    return next;
+}
+
+template <typename Join> std::optional<LatticePath> best_path(const Weights& weights, int moves, Join join) {
+    expects(moves >= 1, "a path has a move");
+    const auto size = static_cast<std::size_t>(weights.table.size());
+    std::vector<double> reached(size, infinity);
+    reached.at(0) = 0.0;
+    std::vector<std::vector<int>> from(static_cast<std::size_t>(moves), std::vector<int>(size, -1));
+    for (std::vector<int>& step : from) {
+        reached = one_move_more(weights, reached, step, join);
+    }
+    if (!(reached.back() < infinity)) {
+        return std::nullopt;
+    }
+    LatticePath path{{weights.table.size() - 1}, reached.back()};
+    for (auto step = from.rbegin(); step != from.rend(); ++step) {
+        path.nodes.push_back((*step)[static_cast<std::size_t>(path.nodes.back())]);
+    }
+    std::ranges::reverse(path.nodes);
+    return path;
+}
+
+} // namespace
+
+MoveTable::MoveTable(const ErrorModel& model,
+                     const Track& track,
+                     std::vector<double> places,
+                     MoveWindow window,
+                     Sampling sampling,
+                     const Progress& progress)
+    : places_(std::move(places)) {
+    expects(size() >= 2 && std::ranges::is_sorted(places_), "the places of a table ascend");
+    std::vector<Vec2> nodes;
+    for (const double place : places_) {
+        nodes.push_back(track.at(place));
+    }
+    const auto errors = model.lattice(nodes, sampling);
+    for (int k = 0; k < size(); ++k) {
+        progress.check();
+        const double here = places_[static_cast<std::size_t>(k)];
+        const auto after = places_.begin() + k + 1;
+        const auto nearest =
+            std::lower_bound(after, places_.end(), here + (1.0 - window_slack) * window.shortest);
+        const auto beyond =
+            std::upper_bound(nearest, places_.end(), here + (1.0 + window_slack) * window.longest);
+        const Row row{static_cast<int>(nearest - places_.begin()),
+                      static_cast<int>(beyond - places_.begin()),
+                      moves_.size()};
+        for (int l = row.first; l < row.end; ++l) {
+            moves_.push_back(errors->between(k, l));
+        }
+        rows_.push_back(row);
+    }
+}
+
+const MoveError& MoveTable::move(int k, int l) const {
+    const Row& row = rows_[static_cast<std::size_t>(k)];
+    expects(row.first <= l && l < row.end, "a move of a table is inside its window");
+    return moves_[row.offset + static_cast<std::size_t>(l - row.first)];
+}
+
+int MoveTable::index_of(double place) const {
+    const auto found = std::ranges::lower_bound(places_, place);
+    expects(found != places_.end() && exactly_equal(*found, place), "the place is in the lattice");
+    return static_cast<int>(found - places_.begin());
+}
+
+std::optional<LatticePath>
+cheapest_path(const MoveTable& table, int moves, const MoveCost& cost, const MoveLimits& limits) {
+    return best_path(weigh(table, limits, cost), moves, [](double sum, double next) { return sum + next; });
+}
+
+std::optional<LatticePath>
+least_worst_path(const MoveTable& table, int moves, double MoveError::*quantity, const MoveLimits& limits) {
+    const auto weight = [quantity](const MoveError& move) { return move.*quantity; };
+    const auto worse = [](double worst, double next) { return std::max(worst, next); };
+    return best_path(weigh(table, limits, weight), moves, worse);
+}
+
+std::vector<double> places_of(const MoveTable& table, const LatticePath& path) {
+    std::vector<double> places;
+    for (const int n : path.nodes) {
+        places.push_back(table.places()[static_cast<std::size_t>(n)]);
+    }
+    return places;
+}
+
+} // namespace millwright::grid

@@ -1,0 +1,75 @@
+// The best nodes of one track, exactly: with the error of a move depending on its two nodes alone, the best
+// choice of n nodes among the places of a lattice is a path of n - 1 moves through a graph, found by dynamic
+// programming. It jumps over singular points of the machine where the tip survives it, which no descent from
+// a given grid finds.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/grid/error_model.h"
+#include "core/grid/move_cost.h"
+#include "core/grid/track.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace millwright::grid {
+
+/// Which moves of a lattice are looked at: those whose places differ by `shortest` to `longest`.
+struct MoveWindow {
+    double shortest = 0.0;
+    double longest = 1.0;
+};
+
+/// The errors of all moves of a lattice inside a window, [a row a place].
+class MoveTable {
+public:
+    /// `places` ascend. Measures every move once; throws Cancelled within one row.
+    MoveTable(const ErrorModel& model,
+              const Track& track,
+              std::vector<double> places,
+              MoveWindow window,
+              Sampling sampling,
+              const Progress& progress);
+
+    [[nodiscard]] const std::vector<double>& places() const { return places_; }
+    [[nodiscard]] int size() const { return static_cast<int>(std::ssize(places_)); }
+    /// The moves from place k go to the places l with first(k) <= l < end(k).
+    [[nodiscard]] int first(int k) const { return rows_[static_cast<std::size_t>(k)].first; }
+    [[nodiscard]] int end(int k) const { return rows_[static_cast<std::size_t>(k)].end; }
+    [[nodiscard]] const MoveError& move(int k, int l) const;
+    /// The position of `place`, which is one of places().
+    [[nodiscard]] int index_of(double place) const;
+
+private:
+    struct Row {
+        int first = 0;
+        int end = 0;
+        std::size_t offset = 0; // of the row's first move in moves_
+    };
+
+    std::vector<double> places_;
+    std::vector<Row> rows_;
+    std::vector<MoveError> moves_;
+};
+
+/// A path from the first place to the last.
+struct LatticePath {
+    std::vector<int> nodes;
+    double value = 0.0; ///< the sum of costs, or the largest quantity
+};
+
+/// The path of exactly `moves` moves inside `limits` with the least sum of costs. Nothing if there is none
+/// of finite cost.
+[[nodiscard]] std::optional<LatticePath>
+cheapest_path(const MoveTable& table, int moves, const MoveCost& cost, const MoveLimits& limits);
+
+/// The path of exactly `moves` moves inside `limits` whose largest `quantity` (&MoveError::tip, say) is
+/// least.
+[[nodiscard]] std::optional<LatticePath>
+least_worst_path(const MoveTable& table, int moves, double MoveError::*quantity, const MoveLimits& limits);
+
+/// The places of `path`.
+[[nodiscard]] std::vector<double> places_of(const MoveTable& table, const LatticePath& path);
+
+} // namespace millwright::grid
