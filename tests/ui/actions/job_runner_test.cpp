@@ -1,0 +1,68 @@
+#include "ui/actions/workshop.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace millwright::actions {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WorkshopOnDisk : public ::testing::Test {
+protected:
+    WorkshopOnDisk()
+        : folder_(fs::temp_directory_path() / ("workshop_" + std::to_string(::getpid()))),
+          workshop_({"assets", folder_ / "jobs", {}, [] {}}) {
+        workshop_.wait_idle();
+    }
+    ~WorkshopOnDisk() override { fs::remove_all(folder_); }
+
+    fs::path folder_;
+    Workshop workshop_;
+};
+
+TEST_F(WorkshopOnDisk, HoldsResumesAndStopsAJob) {
+    workshop_.session().machine_speed = 50.0;
+    workshop_.run("machine.run");
+    const auto state = [&] {
+        const auto report = workshop_.look().job.report;
+        return report ? report->driver.state : machine::DriverState::disconnected;
+    };
+    while (workshop_.look().job.running && state() != machine::DriverState::running) {
+        std::this_thread::yield();
+    }
+    workshop_.run("machine.hold");
+    while (workshop_.look().job.running && state() != machine::DriverState::holding) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(state(), machine::DriverState::holding);
+    workshop_.run("machine.stop");
+    workshop_.wait_idle();
+    const auto outcome = workshop_.look().job.outcome;
+    ASSERT_TRUE(outcome.has_value());
+    EXPECT_EQ(outcome->end, machine::JobEnd::stopped);
+    EXPECT_LT(outcome->executed_blocks, outcome->blocks);
+}
+
+TEST_F(WorkshopOnDisk, AJobThatCannotBeLoggedDoesNotStart) {
+    fs::create_directories(folder_);
+    std::FILE* blocker = std::fopen((folder_ / "jobs").c_str(), "w");
+    ASSERT_NE(blocker, nullptr);
+    std::fclose(blocker);
+    workshop_.run("machine.run");
+    workshop_.wait_idle();
+    EXPECT_TRUE(workshop_.look().job.failure.has_value());
+    EXPECT_FALSE(workshop_.look().job.outcome.has_value());
+}
+
+TEST_F(WorkshopOnDisk, ARefusedActionTellsItsReasonAndChangesNothing) {
+    const project::Project before = workshop_.look().project;
+    workshop_.run("edit.undo");
+    EXPECT_EQ(workshop_.look().project, before);
+    EXPECT_EQ(workshop_.session().log.back(), "There is nothing to undo.");
+}
+
+} // namespace
+} // namespace millwright::actions

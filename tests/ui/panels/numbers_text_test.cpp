@@ -1,0 +1,26 @@
+#include "ui/panels/numbers_text.h"
+
+#include "core/base/units.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace millwright::panels {
+namespace {
+
+TEST(NumbersText, ShowsTheDigitsThatMatter) {
+    EXPECT_EQ(length_text(15.8601), "15.860");
+    EXPECT_EQ(length_text(0.04567), "0.0457");
+    EXPECT_EQ(angle_text(pi / 8.0), "22.50");
+    EXPECT_EQ(length_text(std::numeric_limits<double>::infinity()), "-");
+}
+
+TEST(NumbersText, NamesAChangeWithItsSign) {
+    EXPECT_EQ(change_text(2.0, 1.0), "-50.0 %");
+    EXPECT_EQ(change_text(2.0, 3.0), "+50.0 %");
+    EXPECT_EQ(change_text(0.0, 3.0), "-");
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,130 @@
+#include "tests/ui/panels/person.h"
+
+#include "core/base/error.h"
+
+#include <unistd.h>
+
+namespace millwright::test {
+
+namespace {
+
+std::filesystem::path fresh_folder() {
+    static int count = 0;
+    const auto folder = std::filesystem::temp_directory_path() /
+                        ("millwright_person_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+} // namespace
+
+Person::Person(const render::PixelSize& screen)
+    : folder_(fresh_folder()), context_(screen),
+      workshop_({"assets", folder_ / "jobs", folder_ / "recent.json", [] {}}) {
+    desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);
+    wait_idle();
+}
+
+Person::~Person() {
+    desktop_.reset();
+    std::filesystem::remove_all(folder_);
+}
+
+void Person::open(const std::filesystem::path& project_file) {
+    workshop_.open(project_file);
+    wait_idle();
+}
+
+void Person::frame() {
+    (void)workshop_.advance(static_cast<double>(input_.seconds));
+    desktop_->frame(input_);
+    context_.present();
+    input_.text.clear();
+    input_.wheel = 0.0F;
+}
+
+void Person::frames(int count) {
+    for (int n = 0; n < count; ++n) {
+        frame();
+    }
+}
+
+void Person::wait_idle() {
+    frames(2);
+    workshop_.wait_idle();
+    frames(3);
+}
+
+widgets::Rect Person::place(std::string_view path) {
+    const auto found = desktop_->ui().place(path);
+    if (!found) {
+        std::string near;
+        for (const auto& [known, seen] : desktop_->ui().places().all()) {
+            near += known + " ";
+        }
+        throw Error("no widget '" + std::string(path) + "' among: " + near);
+    }
+    return *found;
+}
+
+bool Person::sees(std::string_view path) {
+    return desktop_->ui().place(path).has_value();
+}
+
+void Person::hover(widgets::Point at) {
+    input_.mouse_x = at.x;
+    input_.mouse_y = at.y;
+    frames(2);
+}
+
+void Person::click(std::string_view path) {
+    hover(place(path).centre());
+    input_.buttons[0] = true;
+    frames(2);
+    input_.buttons[0] = false;
+    frames(2);
+}
+
+void Person::drag(widgets::Point from, widgets::Point to, int steps) {
+    hover(from);
+    input_.buttons[0] = true;
+    frames(2);
+    for (int n = 1; n <= steps; ++n) {
+        const float t = static_cast<float>(n) / static_cast<float>(steps);
+        hover({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
+    }
+    input_.buttons[0] = false;
+    frames(2);
+}
+
+void Person::press_key(render::Key key, bool ctrl, bool shift) {
+    input_.ctrl = ctrl;
+    input_.shift = shift;
+    input_.keys = {key};
+    frames(2);
+    input_.keys.clear();
+    input_.ctrl = input_.shift = false;
+    frames(2);
+}
+
+void Person::type(std::string_view text) {
+    input_.text = text;
+    frames(2);
+}
+
+void Person::fill_in(std::string_view path, std::string_view text) {
+    click(path);
+    press_key(render::Key::a, true);
+    type(text);
+    press_key(render::Key::enter);
+}
+
+render::Picture Person::picture() {
+    desktop_->frame(input_);
+    render::Picture picture = context_.read_back();
+    context_.present();
+    return picture;
+}
+
+} // namespace millwright::test

@@ -1,0 +1,56 @@
+// A person at the workbench without a screen: the whole window in real OpenGL in memory, real mouse and keys.
+// Widgets are found by their path.
+#pragma once
+
+#include "ui/panels/desktop.h"
+#include "ui/render/offscreen_context.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace millwright::test {
+
+class Person {
+public:
+    explicit Person(const render::PixelSize& screen = {1280, 800});
+    Person(const Person&) = delete;
+    Person& operator=(const Person&) = delete;
+    ~Person();
+
+    [[nodiscard]] actions::Workshop& workshop() { return workshop_; }
+    [[nodiscard]] panels::Desktop& desktop() { return *desktop_; }
+    [[nodiscard]] const project::Project& project() { return workshop_.look().project; }
+
+    void open(const std::filesystem::path& project_file);
+    /// Draws `count` frames of 1/60 s, without anything being done.
+    void frames(int count = 2);
+    /// Waits until nothing runs in the background, then looks twice.
+    void wait_idle();
+
+    /// Where a widget was in the last frame. Throws Error if it was not drawn.
+    [[nodiscard]] widgets::Rect place(std::string_view path);
+    [[nodiscard]] bool sees(std::string_view path);
+
+    void click(std::string_view path);
+    void drag(widgets::Point from, widgets::Point to, int steps = 5);
+    void hover(widgets::Point at);
+    void press_key(render::Key key, bool ctrl = false, bool shift = false);
+    void type(std::string_view text);
+    /// Clicks a field, replaces its text and commits with Enter.
+    void fill_in(std::string_view path, std::string_view text);
+
+    [[nodiscard]] render::Picture picture();
+    [[nodiscard]] std::filesystem::path folder() const { return folder_; }
+
+private:
+    void frame();
+
+    std::filesystem::path folder_;
+    render::OffscreenContext context_;
+    actions::Workshop workshop_;
+    std::unique_ptr<panels::Desktop> desktop_;
+    render::InputState input_;
+};
+
+} // namespace millwright::test

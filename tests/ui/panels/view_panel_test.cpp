@@ -1,0 +1,54 @@
+#include "ui/panels/view_panel.h"
+
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::panels {
+namespace {
+
+using test::Person;
+using viewport::ControlPointId;
+
+constexpr geometry::PatchId first_patch{0};
+
+TEST(ViewPanel, ADragMovesTheControlPointAndOneUndoTakesItBack) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    const Vec3 before = person.project().surface.patches[0].point(1, 2);
+    const auto handle = person.place("view/control_point(1,2)").centre();
+    person.drag(handle, {handle.x + 20.0F, handle.y - 60.0F});
+    const Vec3 after = person.project().surface.patches[0].point(1, 2);
+    EXPECT_GT((after - before).norm(), 1.0);
+    EXPECT_EQ(person.project().surface.preset, "");
+    EXPECT_EQ(person.workshop().look().undo_title, "Move a control point");
+    person.wait_idle();
+    EXPECT_NE(person.workshop().look().plan->plan.surface->patch(first_patch).net().point(1, 2), before);
+    person.press_key(render::Key::z, true);
+    EXPECT_EQ(person.project().surface.patches[0].point(1, 2), before);
+}
+
+TEST(ViewPanel, AClickSelectsThePointAndTheInspectorShowsIt) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    person.click("view/control_point(2,1)");
+    ASSERT_EQ(person.workshop().session().selected.size(), 1U);
+    EXPECT_EQ(person.workshop().session().selected[0], (ControlPointId{first_patch, 2, 1}));
+    person.fill_in("inspector/point/z", "80/2");
+    EXPECT_DOUBLE_EQ(person.project().surface.patches[0].point(2, 1).z(), 40.0);
+}
+
+TEST(ViewPanel, AMoveThatWasClickedIsWhereTheTimelineGoes) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    ActionQueue ask;
+    obey(viewport::GoToMove{100, 0.5}, person.workshop().look(), ask);
+    person.workshop().perform(ask);
+    const auto moment = person.workshop().look().moment();
+    ASSERT_TRUE(moment.has_value());
+    EXPECT_EQ(moment->move, 100);
+    EXPECT_NEAR(moment->fraction, 0.5, 1e-6);
+}
+
+} // namespace
+} // namespace millwright::panels

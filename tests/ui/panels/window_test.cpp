@@ -1,0 +1,175 @@
+// The workbench driven by real mouse and keys, drawn in real OpenGL.
+#include "ui/panels/window.h"
+
+#include "core/base/files.h"
+#include "core/project/project_file.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::panels {
+namespace {
+
+using actions::Workspace;
+using project::GridMethod;
+using test::Person;
+
+constexpr const char* dome = "assets/projects/dome.json";
+
+class EveryWorkspace : public ::testing::TestWithParam<Workspace> {};
+
+TEST_P(EveryWorkspace, ShowsItsPanesWithoutCuttingAnyTextAt1280x800) {
+    Person person;
+    person.open(dome);
+    person.workshop().session().workspace = GetParam();
+    person.frames(3);
+    std::string cut;
+    for (const std::string& text : person.desktop().ui().cut_texts()) {
+        cut += "'" + text + "' ";
+    }
+    EXPECT_EQ(cut, "");
+    for (const char* path : {"menu/file", "emergency/machine_emergency_stop", "timeline/timeline/play"}) {
+        EXPECT_TRUE(person.sees(path)) << path;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         EveryWorkspace,
+                         ::testing::Values(Workspace::design,
+                                           Workspace::grid,
+                                           Workspace::toolpath,
+                                           Workspace::program,
+                                           Workspace::machine));
+
+TEST(Workbench, ChangesWorkspaceByATab) {
+    Person person;
+    person.click("menu/workspaces/grid");
+    EXPECT_EQ(person.workshop().session().workspace, Workspace::grid);
+    person.press_key(render::Key::f6);
+    EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+}
+
+TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
+    Person person;
+    person.click("menu/workspaces/grid");
+    person.fill_in("inspector/grid/nu", "40/4");
+    EXPECT_EQ(person.project().grid.nu, 10);
+    person.wait_idle();
+    EXPECT_EQ(person.workshop().look().evaluation(GridMethod::uniform)->outcome.grid.nu(), 10);
+    person.press_key(render::Key::z, true);
+    EXPECT_EQ(person.project().grid.nu, 20);
+    person.press_key(render::Key::y, true);
+    EXPECT_EQ(person.project().grid.nu, 10);
+}
+
+TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
+    Person person;
+    person.click("menu/workspaces/grid");
+    person.fill_in("inspector/grid/nu", "1");
+    EXPECT_EQ(person.project().grid.nu, 20);
+    const auto* seen = person.desktop().ui().places().find("inspector/grid/nu");
+    ASSERT_NE(seen, nullptr);
+    EXPECT_FALSE(seen->reason.empty());
+}
+
+TEST(Workbench, AWatchedAdaptationStepsAndGoesBack) {
+    Person person;
+    person.click("menu/workspaces/grid");
+    person.click("inspector/watch/grid_adapt");
+    person.click("inspector/watch/grid_pause");
+    person.wait_idle();
+    const auto watched = person.workshop().look().watched;
+    ASSERT_TRUE(watched && watched->state);
+    EXPECT_EQ(watched->method, GridMethod::elliptic);
+    EXPECT_LE(watched->state->of_best.mean, watched->state->start.mean);
+    const int before = watched->state->iteration;
+    person.click("inspector/watch/grid_step");
+    person.wait_idle();
+    EXPECT_GE(person.workshop().look().watched->state->iteration, before);
+}
+
+TEST(Workbench, StepsThroughTheProgramAndTheListingFollows) {
+    Person person;
+    person.open(dome);
+    person.workshop().run("play.forward");
+    person.workshop().run("play.forward");
+    person.frames();
+    const auto now = person.workshop().look();
+    EXPECT_GT(now.time(), 0.0);
+    ASSERT_TRUE(now.moment().has_value());
+    EXPECT_EQ(now.moment()->axes.size(), 5);
+    EXPECT_GE(now.block(), 1);
+    person.press_key(render::Key::left, true);
+    EXPECT_EQ(person.workshop().look().time(), 0.0);
+}
+
+TEST(Workbench, PlaysUntilPaused) {
+    Person person;
+    person.open(dome);
+    person.press_key(render::Key::space);
+    EXPECT_TRUE(person.workshop().session().playback.playing);
+    person.frames(10);
+    const double time = person.workshop().look().time();
+    EXPECT_GT(time, 0.0);
+    person.press_key(render::Key::space);
+    EXPECT_FALSE(person.workshop().session().playback.playing);
+}
+
+TEST(Workbench, RunsTheProgramOnTheVirtualMachineToItsEnd) {
+    Person person;
+    person.open(dome);
+    person.workshop().session().machine_speed = 0.0;
+    person.press_key(render::Key::f9);
+    person.wait_idle();
+    const auto job = person.workshop().look().job;
+    ASSERT_TRUE(job.outcome.has_value()) << (job.failure ? job.failure->message : "no outcome");
+    EXPECT_EQ(job.outcome->end, machine::JobEnd::done);
+    EXPECT_EQ(job.outcome->executed_blocks, job.outcome->blocks);
+    EXPECT_TRUE(std::filesystem::exists(job.outcome->log_file));
+}
+
+TEST(Workbench, FindsAnActionByAFewLetters) {
+    Person person;
+    person.press_key(render::Key::k, true);
+    ASSERT_TRUE(person.sees("search/letters"));
+    person.type("fourv");
+    person.press_key(render::Key::enter);
+    EXPECT_TRUE(person.workshop().session().four_views);
+}
+
+TEST(Workbench, SavesOpensAndTellsAboutABrokenFile) {
+    Person person;
+    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    const auto file = person.folder() / "mine.json";
+    person.workshop().save(file);
+    EXPECT_FALSE(person.workshop().look().changed());
+    EXPECT_EQ(project::read_project(file).grid.nv, 12);
+    write_file(file, "{ \"format\": ");
+    actions::ActionQueue ask;
+    ask.open_file(file);
+    person.workshop().perform(ask);
+    EXPECT_EQ(person.project().grid.nv, 12);
+    EXPECT_NE(person.workshop().session().log.back().find("mine.json"), std::string::npos);
+}
+
+TEST(Workbench, DrawsNothingNewWhenIdle) {
+    Person person;
+    person.open(dome);
+    person.hover({640.0F, 300.0F});
+    person.frames(5);
+    EXPECT_FALSE(person.desktop().next_change().has_value());
+    const render::Picture before = person.picture();
+    EXPECT_EQ(before, person.picture());
+}
+
+TEST(Workbench, HasALightThemeToo) {
+    Person person;
+    person.open(dome);
+    const render::Picture dark = person.picture();
+    person.workshop().run("view.theme");
+    person.frames(2);
+    EXPECT_NE(dark, person.picture());
+}
+
+} // namespace
+} // namespace millwright::panels

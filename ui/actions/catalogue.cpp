@@ -1,0 +1,14 @@
+#include "ui/actions/internal/simple_action.h"
+
+namespace millwright::actions {
+
+Catalogue::Catalogue() {
+    add_file_actions(actions_);
+    add_edit_actions(actions_);
+    add_view_actions(actions_);
+    add_grid_actions(actions_);
+    add_playback_actions(actions_);
+    add_machine_actions(actions_);
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,96 @@
+#include "ui/actions/internal/simple_action.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using viewport::ControlPointId;
+using widgets::Permission;
+
+Permission has_selection(const Workbench& now) {
+    return now.session.selected.empty() ? Permission::refused("No control point is selected.") : Permission{};
+}
+
+void select_all(Hands& hands) {
+    hands.session.selected.clear();
+    const auto& patches = hands.history.current().surface.patches;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+        for (int i = 0; i < patches[p].rows; ++i) {
+            for (int j = 0; j < patches[p].columns; ++j) {
+                hands.session.selected.push_back({static_cast<geometry::PatchId>(p), i, j});
+            }
+        }
+    }
+}
+
+/// Moves the selected points to the mean height of their neighbours in the net.
+double mean_of_neighbours(const geometry::ControlNet& net, int i, int j) {
+    double sum = 0.0;
+    int count = 0;
+    const auto take = [&](int k, int l) {
+        if (k >= 0 && k < net.rows && l >= 0 && l < net.columns) {
+            sum += net.point(k, l).z();
+            ++count;
+        }
+    };
+    take(i - 1, j);
+    take(i + 1, j);
+    take(i, j - 1);
+    take(i, j + 1);
+    return sum / count;
+}
+
+void smooth(Hands& hands) {
+    project::Project draft = hands.history.current();
+    const auto& before = hands.history.current().surface.patches;
+    for (const ControlPointId& id : hands.session.selected) {
+        const auto patch = static_cast<std::size_t>(id.patch);
+        draft.surface.patches[patch].point(id.i, id.j).z() = mean_of_neighbours(before[patch], id.i, id.j);
+    }
+    hands.history.commit(std::move(draft), "Smooth control points");
+}
+
+} // namespace
+
+void add_edit_actions(Actions& actions) {
+    add(
+        actions,
+        {"edit.undo", "Edit", "Undo", "Takes back the last change of the project.", "Ctrl+Z", icons::undo},
+        [](const Workbench& now) {
+            return now.undo_title.empty() ? Permission::refused("There is nothing to undo.") : Permission{};
+        },
+        [](Hands& hands) { hands.history.undo(); });
+    add(
+        actions,
+        {"edit.redo", "Edit", "Redo", "Brings back what was undone.", "Ctrl+Y", icons::redo},
+        [](const Workbench& now) {
+            return now.redo_title.empty() ? Permission::refused("There is nothing to redo.") : Permission{};
+        },
+        [](Hands& hands) { hands.history.redo(); });
+    add(actions,
+        {"edit.select_all",
+         "Edit",
+         "Select all control points",
+         "Selects every control point.",
+         "Ctrl+A",
+         ""},
+        always,
+        select_all);
+    add(actions,
+        {"edit.select_none", "Edit", "Select nothing", "Drops the selection.", "Esc", ""},
+        has_selection,
+        [](Hands& hands) { hands.session.selected.clear(); });
+    add(actions,
+        {"edit.smooth",
+         "Edit",
+         "Smooth the selected points",
+         "Moves each selected point to the mean height of its neighbours.",
+         "",
+         ""},
+        has_selection,
+        smooth);
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,78 @@
+#include "core/base/files.h"
+#include "core/project/project_file.h"
+#include "ui/actions/internal/simple_action.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using widgets::Permission;
+
+void ask_for(Hands& hands, FileQuestion question) {
+    hands.session.question = question;
+}
+
+void save(Hands& hands) {
+    if (hands.document.file.empty()) {
+        ask_for(hands, FileQuestion::save_as);
+        return;
+    }
+    project::write_project(hands.history.current(), hands.document.file);
+    hands.document.saved = hands.history.current();
+    tell(hands.session, widgets::Severity::good, "Saved.", hands.document.file.string());
+}
+
+Permission has_listing(const Workbench& now) {
+    return now.listing() ? Permission{} : Permission::refused("There is no program yet.");
+}
+
+/// Beside the project file, or in the current folder for a project never saved.
+std::filesystem::path program_file(const Document& document) {
+    std::filesystem::path file = document.file.empty() ? "program.json" : document.file;
+    return file.replace_extension(".ngc");
+}
+
+void write_program(Hands& hands) {
+    const std::filesystem::path file = program_file(hands.document);
+    write_file(file, hands.now.listing()->text);
+    tell(hands.session, widgets::Severity::good, "G-code written.", file.string());
+}
+
+} // namespace
+
+void add_file_actions(Actions& actions) {
+    add(actions,
+        {"file.open", "File", "Open a project ...", "Opens a project file.", "Ctrl+O", icons::folder},
+        always,
+        [](Hands& hands) { ask_for(hands, FileQuestion::open); });
+    add(actions,
+        {"file.save",
+         "File",
+         "Save",
+         "Saves the project; the old file survives a failure.",
+         "Ctrl+S",
+         icons::save},
+        always,
+        save);
+    add(actions,
+        {"file.save_as", "File", "Save as ...", "Saves the project to another file.", "Ctrl+Shift+S", ""},
+        always,
+        [](Hands& hands) { ask_for(hands, FileQuestion::save_as); });
+    add(actions,
+        {"file.write_program",
+         "File",
+         "Write G-code",
+         "Writes the program beside the project file.",
+         "Ctrl+E",
+         ""},
+        has_listing,
+        write_program);
+    add(actions,
+        {"file.quit", "File", "Quit", "Closes the workbench; a running job is stopped first.", "Ctrl+Q", ""},
+        always,
+        [](Hands& hands) { hands.session.quit_wanted = true; });
+}
+
+} // namespace millwright::actions

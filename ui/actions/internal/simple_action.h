@@ -1,0 +1,49 @@
+// An action that is a row of a table: what it says of itself, when it is allowed, what it does.
+#pragma once
+
+#include "ui/actions/action.h"
+#include "ui/widgets/icons.h"
+
+#include <utility>
+
+namespace millwright::actions {
+
+class SimpleAction final : public Action {
+public:
+    using Allowed = widgets::Permission (*)(const Workbench&);
+    using Does = void (*)(Hands&);
+
+    SimpleAction(const ActionInfo& info, Allowed allowed, Does does)
+        : info_(info), allowed_(allowed), does_(does) {}
+
+    [[nodiscard]] const ActionInfo& info() const override { return info_; }
+    [[nodiscard]] widgets::Permission permission(const Workbench& now) const override {
+        return allowed_(now);
+    }
+    void run(Hands& hands) const override { does_(hands); }
+
+private:
+    ActionInfo info_;
+    Allowed allowed_;
+    Does does_;
+};
+
+using Actions = std::vector<std::unique_ptr<Action>>;
+
+inline widgets::Permission always(const Workbench&) {
+    return {};
+}
+
+inline void
+add(Actions& actions, const ActionInfo& info, SimpleAction::Allowed allowed, SimpleAction::Does does) {
+    actions.push_back(std::make_unique<SimpleAction>(info, allowed, does));
+}
+
+void add_file_actions(Actions& actions);
+void add_edit_actions(Actions& actions);
+void add_view_actions(Actions& actions);
+void add_grid_actions(Actions& actions);
+void add_playback_actions(Actions& actions);
+void add_machine_actions(Actions& actions);
+
+} // namespace millwright::actions

@@ -1,0 +1,126 @@
+#include "ui/actions/job_runner.h"
+
+#include "core/base/error.h"
+
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+namespace millwright::actions {
+
+/// One job with its machine, its thread and what is known of it.
+class JobRunner::Run {
+public:
+    Run(machine::Job job, double speed, const std::filesystem::path& log_folder, std::function<void()> wake)
+        : job_(std::move(job)), wake_(std::move(wake)),
+          machine_(job_.program->start, machine::VirtualSpeed{speed}, clock_),
+          dispatcher_(machine_, clock_, log_folder) {
+        view_.running = true;
+        view_.name = job_.name;
+        thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+    }
+
+    void hold() { dispatcher_.hold(); }
+    void resume() { dispatcher_.resume(); }
+    void stop() { dispatcher_.stop(); }
+    void emergency_stop() { machine_.emergency_stop(); }
+    void set_speed(double speed) { machine_.set_speed(machine::VirtualSpeed{speed}); }
+    void wait() {
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+
+    [[nodiscard]] JobView view() const {
+        const std::scoped_lock lock(mutex_);
+        return view_;
+    }
+
+private:
+    template <class Change> void publish(Change&& change) {
+        {
+            const std::scoped_lock lock(mutex_);
+            change(view_);
+        }
+        wake_();
+    }
+
+    void work(const std::stop_token& stop) {
+        try {
+            const machine::JobOutcome outcome =
+                dispatcher_.run(job_, Progress(nullptr, stop), [this](const machine::JobReport& report) {
+                    publish([&](JobView& view) { view.report = report; });
+                });
+            publish([&](JobView& view) { view.outcome = outcome; });
+        } catch (const Error& error) {
+            publish([&](JobView& view) { view.failure = error.diagnostic(); });
+        } catch (const std::exception& defect) {
+            publish([&](JobView& view) { view.failure = Diagnostic{{}, defect.what(), {}}; });
+        }
+        machine_.close();
+        publish([](JobView& view) { view.running = false; });
+    }
+
+    machine::Job job_;
+    std::function<void()> wake_;
+    machine::SteadyClock clock_;
+    machine::VirtualMachine machine_;
+    machine::Dispatcher dispatcher_;
+    mutable std::mutex mutex_;
+    JobView view_;
+    std::jthread thread_; // last: it is joined before what it uses goes
+};
+
+JobRunner::JobRunner(std::filesystem::path log_folder, std::function<void()> wake)
+    : log_folder_(std::move(log_folder)), wake_(std::move(wake)) {}
+
+JobRunner::~JobRunner() = default;
+
+void JobRunner::start(machine::Job job, double speed) {
+    expects(!view().running, "one job at a time");
+    run_.reset();
+    run_ = std::make_unique<Run>(std::move(job), speed, log_folder_, wake_);
+}
+
+void JobRunner::hold() {
+    if (run_) {
+        run_->hold();
+    }
+}
+
+void JobRunner::resume() {
+    if (run_) {
+        run_->resume();
+    }
+}
+
+void JobRunner::stop() {
+    if (run_) {
+        run_->stop();
+    }
+}
+
+void JobRunner::emergency_stop() {
+    if (run_) {
+        run_->emergency_stop();
+    }
+}
+
+void JobRunner::set_speed(double speed) {
+    if (run_) {
+        run_->set_speed(speed);
+    }
+}
+
+JobView JobRunner::view() const {
+    return run_ ? run_->view() : JobView{};
+}
+
+void JobRunner::wait() {
+    if (run_) {
+        run_->wait();
+    }
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,21 @@
+#include "ui/actions/session.h"
+
+namespace millwright::actions {
+
+Session new_session() {
+    using viewport::ViewKind;
+    Session session;
+    session.layers = {viewport::layers_of(ViewKind::design),
+                      viewport::layers_of(ViewKind::grid),
+                      viewport::layers_of(ViewKind::error),
+                      viewport::layers_of(ViewKind::toolpath),
+                      viewport::layers_of(ViewKind::machine)};
+    return session;
+}
+
+void tell(Session& session, widgets::Severity severity, std::string text, std::string place) {
+    session.log.push_back(place.empty() ? text : place + ": " + text);
+    session.notices.push_back({severity, std::move(text), std::move(place)});
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,120 @@
+#include "ui/actions/internal/simple_action.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+template <Workspace workspace> void go(Hands& hands) {
+    hands.session.workspace = workspace;
+}
+
+template <project::GridMethod method> void show(Hands& hands) {
+    hands.session.shown = method;
+}
+
+template <project::GridMethod method> widgets::Permission is_there(const Workbench& now) {
+    return now.evaluation(method) ? widgets::Permission{}
+                                  : widgets::Permission::refused("This grid has not been computed yet.");
+}
+
+template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
+    hands.session.panes.*pane = !(hands.session.panes.*pane);
+}
+
+} // namespace
+
+void add_view_actions(Actions& actions) {
+    using project::GridMethod;
+    add(actions,
+        {"view.design", "View", "Design", "Control points and surface.", "F2", ""},
+        always,
+        go<Workspace::design>);
+    add(actions,
+        {"view.grid", "View", "Grid", "The grid and its adaptation.", "F3", ""},
+        always,
+        go<Workspace::grid>);
+    add(actions,
+        {"view.toolpath", "View", "Toolpath", "The path and its error.", "F4", ""},
+        always,
+        go<Workspace::toolpath>);
+    add(actions,
+        {"view.program", "View", "Program", "The G-code in step with the motion.", "F5", ""},
+        always,
+        go<Workspace::program>);
+    add(actions,
+        {"view.machine", "View", "Machine", "The machine at work.", "F6", ""},
+        always,
+        go<Workspace::machine>);
+    add(actions,
+        {"view.show_uniform",
+         "View",
+         "Show the uniform grid",
+         "Draws path and error of the uniform grid.",
+         "",
+         ""},
+        is_there<GridMethod::uniform>,
+        show<GridMethod::uniform>);
+    add(actions,
+        {"view.show_elliptic",
+         "View",
+         "Show the elliptic grid",
+         "Draws path and error of the adapted grid.",
+         "",
+         ""},
+        is_there<GridMethod::elliptic>,
+        show<GridMethod::elliptic>);
+    add(actions,
+        {"view.show_tracks",
+         "View",
+         "Show the optimised tracks",
+         "Draws path and error of the best grid.",
+         "",
+         ""},
+        is_there<GridMethod::tracks>,
+        show<GridMethod::tracks>);
+    add(actions,
+        {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
+        always,
+        [](Hands& hands) { hands.session.fit_wanted = true; });
+    add(actions,
+        {"view.four", "View", "Four views", "Top, front, right and free view side by side.", "Ctrl+4", ""},
+        always,
+        [](Hands& hands) { hands.session.four_views = !hands.session.four_views; });
+    add(actions,
+        {"view.outline", "View", "Outline pane", "Shows or hides the outline.", "", ""},
+        always,
+        toggle_pane<&PaneSizes::outline_shown>);
+    add(actions,
+        {"view.inspector", "View", "Inspector pane", "Shows or hides the inspector.", "", ""},
+        always,
+        toggle_pane<&PaneSizes::inspector_shown>);
+    add(actions,
+        {"view.lower", "View", "Lower pane", "Shows or hides plots, listing and log.", "", ""},
+        always,
+        toggle_pane<&PaneSizes::lower_shown>);
+    add(actions,
+        {"view.theme",
+         "View",
+         "Dark or light",
+         "Changes between the dark and the light theme.",
+         "",
+         icons::moon},
+        always,
+        [](Hands& hands) {
+            const bool dark = hands.session.theme == widgets::Theme::dark;
+            hands.session.theme = dark ? widgets::Theme::light : widgets::Theme::dark;
+        });
+    add(actions,
+        {"view.search",
+         "View",
+         "Search for an action ...",
+         "Everything by a few letters.",
+         "Ctrl+K",
+         icons::search},
+        always,
+        [](Hands& hands) { hands.session.search_wanted = true; });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,197 @@
+#include "ui/panels/design_panel.h"
+
+#include "core/geometry/presets.h"
+#include "ui/panels/internal/fields.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace millwright::panels {
+
+namespace {
+
+using geometry::ControlNet;
+using viewport::ControlPointId;
+
+constexpr double farthest = project::farthest_point_mm;
+
+ControlNet& net_of(project::Project& project, const ControlPointId& id) {
+    return project.surface.patches[static_cast<std::size_t>(id.patch)];
+}
+const ControlNet& net_of(const project::Project& project, const ControlPointId& id) {
+    return project.surface.patches[static_cast<std::size_t>(id.patch)];
+}
+
+/// Moves every point of `ids` by `by`.
+void move_points(ActionQueue& ask, const std::vector<ControlPointId>& ids, const Vec3& by) {
+    ask.edit(ids.size() == 1 ? "Move a control point" : fmt::format("Move {} control points", ids.size()),
+             [ids, by](project::Project& draft) {
+                 for (const ControlPointId& id : ids) {
+                     net_of(draft, id).point(id.i, id.j) += by;
+                 }
+                 draft.surface.preset.clear();
+             });
+}
+
+std::vector<widgets::Option> preset_options() {
+    std::vector<widgets::Option> options{{"own", "Own shape", {}, "The surface was changed by hand", {}}};
+    for (const geometry::SurfacePreset& preset : geometry::surface_presets()) {
+        options.push_back({preset.id, preset.title, {}, preset.source, {}});
+    }
+    return options;
+}
+
+int preset_index(const std::string& id) {
+    const auto presets = geometry::surface_presets();
+    for (std::size_t n = 0; n < presets.size(); ++n) {
+        if (presets[n].id == id) {
+            return static_cast<int>(n) + 1;
+        }
+    }
+    return 0;
+}
+
+void set_preset(project::Project& draft, const geometry::SurfacePreset& preset) {
+    draft.surface = project::project_from_preset(preset.id).surface;
+}
+
+} // namespace
+
+void DesignPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_surface(ui, now, ask);
+    draw_point(ui, now, ask);
+    draw_net(ui, now, ask);
+}
+
+void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("surface", "Surface");
+    if (!section) {
+        return;
+    }
+    const auto options = preset_options();
+    if (const auto chosen = ui.choice("preset",
+                                      "Start from",
+                                      preset_index(now.project.surface.preset),
+                                      options,
+                                      "Replaces the surface by one of the literature; undo brings it back");
+        chosen && *chosen > 0) {
+        const geometry::SurfacePreset preset =
+            geometry::surface_presets()[static_cast<std::size_t>(*chosen - 1)];
+        ask.edit("Start from " + std::string(preset.title),
+                 [preset](project::Project& draft) { set_preset(draft, preset); });
+        ask.run("view.fit");
+    }
+    const ControlNet& net = now.project.surface.patches.front();
+    ui.value("degree", "Degree u, v", fmt::format("{}, {}", net.rows - 1, net.columns - 1));
+    if (now.project.surface.patches.size() > 1) {
+        const widgets::FieldInfo info{"machined",
+                                      "Machined patch",
+                                      "",
+                                      "The patch that the tool path covers, counted from 0",
+                                      0.0,
+                                      static_cast<double>(now.project.surface.patches.size() - 1),
+                                      0.0,
+                                      0};
+        if (const auto patch = ui.integer(now.project.surface.machined_patch, info)) {
+            ask.edit("Choose the machined patch",
+                     [n = *patch](project::Project& draft) { draft.surface.machined_patch = n; });
+        }
+    }
+    if (const auto flipped = ui.toggle("flipped",
+                                       "Cut the other side",
+                                       now.project.surface.flipped,
+                                       "The tool stands against the normal S_u x S_v")) {
+        ask.edit("Cut the other side",
+                 [on = *flipped](project::Project& draft) { draft.surface.flipped = on; });
+    }
+}
+
+void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("point", "Control point");
+    if (!section) {
+        return;
+    }
+    const std::vector<ControlPointId>& selected = now.session.selected;
+    if (selected.empty()) {
+        ui.note(
+            "Click a control point in the view; Ctrl adds to the selection. Drag to move it, with X, Y or Z "
+            "held along one axis.");
+        return;
+    }
+    const ControlPointId& id = selected.front();
+    const ControlNet& net = net_of(now.project, id);
+    const Vec3& at = net.point(id.i, id.j);
+    ui.value("which",
+             "Selected",
+             selected.size() == 1 ? fmt::format("row {}, column {}", id.i, id.j)
+                                  : fmt::format("{} points, first ({},{})", selected.size(), id.i, id.j));
+    const std::array<std::pair<const char*, const char*>, 3> names{{{"x", "X"}, {"y", "Y"}, {"z", "Z"}}};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto& [name, label] = names[static_cast<std::size_t>(axis)];
+        const widgets::FieldInfo info{
+            name,
+            label,
+            "mm",
+            "Coordinate of the control point; the others of the selection move along",
+            -farthest,
+            farthest};
+        if (const auto value = ui.number(at[axis], info)) {
+            Vec3 by = Vec3::Zero();
+            by[axis] = *value - at[axis];
+            move_points(ask, selected, by);
+        }
+    }
+    const widgets::FieldInfo weight{
+        "weight", "Weight", "", "Rational weight; 1 everywhere gives a polynomial patch", 1e-6, 1e6, 1.0, 4};
+    if (const auto value = ui.number(net.weight(id.i, id.j), weight)) {
+        ask.edit("Change a weight", [selected, w = *value](project::Project& draft) {
+            for (const ControlPointId& point : selected) {
+                net_of(draft, point).weight(point.i, point.j) = w;
+            }
+            draft.surface.preset.clear();
+        });
+    }
+    action_button(ui, now, ask, catalogue_, "edit.smooth");
+}
+
+void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("net", "Control net");
+    if (!section) {
+        return;
+    }
+    const std::array<widgets::Option, 4> coordinates{{{"x", "X"}, {"y", "Y"}, {"z", "Z"}, {"w", "Weight"}}};
+    if (const auto chosen = ui.segmented("coordinate", "", shown_coordinate_, coordinates)) {
+        shown_coordinate_ = *chosen;
+    }
+    const ControlNet& net = now.project.surface.patches.front();
+    const bool weights = shown_coordinate_ == 3;
+    for (int i = 0; i < net.rows; ++i) {
+        const auto scope = ui.scope(fmt::format("row{}", i));
+        const auto line = ui.row(net.columns);
+        for (int j = 0; j < net.columns; ++j) {
+            const std::string id = fmt::format("column{}", j);
+            const widgets::FieldInfo info{id,
+                                          "",
+                                          "",
+                                          weights ? "Rational weight" : "mm; rows follow u, columns v",
+                                          weights ? 1e-6 : -farthest,
+                                          weights ? 1e6 : farthest,
+                                          std::numeric_limits<double>::quiet_NaN(),
+                                          weights ? 3 : 2};
+            const double value = weights ? net.weight(i, j) : net.point(i, j)[shown_coordinate_];
+            if (const auto changed = ui.number(value, info)) {
+                ask.edit(weights ? "Change a weight" : "Move a control point",
+                         [i, j, axis = shown_coordinate_, v = *changed](project::Project& draft) {
+                             ControlNet& edited = draft.surface.patches.front();
+                             (axis == 3 ? edited.weight(i, j) : edited.point(i, j)[axis]) = v;
+                             draft.surface.preset.clear();
+                         });
+            }
+        }
+    }
+    ui.note("Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2");
+}
+
+} // namespace millwright::panels

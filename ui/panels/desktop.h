@@ -1,0 +1,46 @@
+// The workbench on a context: ImGui, fonts, look and window together, one frame at a time. The app runs it in
+// a window, tests and pictures in memory.
+#pragma once
+
+#include "ui/panels/window.h"
+#include "ui/render/imgui_session.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace millwright::panels {
+
+class Desktop {
+public:
+    /// `workshop` and the context must outlive it.
+    Desktop(render::WindowContext& context, actions::Workshop& workshop);
+    Desktop(render::OffscreenContext& context, actions::Workshop& workshop);
+    Desktop(const Desktop&) = delete;
+    Desktop& operator=(const Desktop&) = delete;
+    ~Desktop();
+
+    /// Draws one frame and performs what was asked in it.
+    void frame();
+    /// The same with this input in place of the real one.
+    void frame(const render::InputState& input);
+
+    /// Seconds until the picture changes by itself; empty: only when something happens.
+    [[nodiscard]] std::optional<double> next_change() const;
+
+    [[nodiscard]] widgets::Ui& ui() { return *ui_; }
+    [[nodiscard]] Window& window() { return *window_; }
+
+private:
+    void start();
+    void draw();
+    void follow_theme();
+
+    render::Context& context_;
+    actions::Workshop& workshop_;
+    std::unique_ptr<render::ImGuiSession> session_;
+    std::unique_ptr<widgets::Ui> ui_;
+    std::unique_ptr<Window> window_;
+};
+
+} // namespace millwright::panels

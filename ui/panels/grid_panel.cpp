@@ -1,0 +1,159 @@
+#include "ui/panels/grid_panel.h"
+
+#include "core/base/text.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+
+#include <fmt/format.h>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::GridMethod;
+using project::Project;
+
+/// What is wrong with `text` as the weight's expression, as a sentence; "" if nothing is.
+std::string fault_of_expression(Project project, std::string_view text) {
+    const auto before = project::faults_of(project).size();
+    project.grid.elliptic.expression = text;
+    const auto faults = project::faults_of(project);
+    return faults.size() > before ? faults.back() : std::string();
+}
+
+std::string status_text(const project::WatchedAdaptation& watched) {
+    if (watched.failure) {
+        return watched.failure->message;
+    }
+    if (!watched.state) {
+        return "not started";
+    }
+    return watched.state->note;
+}
+
+} // namespace
+
+void GridPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_grid(ui, now, ask);
+    draw_watched(ui, now, ask);
+    draw_tracks(ui, now, ask);
+    draw_elliptic(ui, now, ask);
+}
+
+void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("grid", "Grid");
+    if (!section) {
+        return;
+    }
+    number_fields<project::GridInput>(
+        ui, ask, project::grid_numbers(), now.project.grid, [](Project& p) -> project::GridInput& {
+            return p.grid;
+        });
+    choice_field<grid::TrackDirection>(ui,
+                                       ask,
+                                       "direction",
+                                       "Tracks",
+                                       "Turn the tracks",
+                                       project::track_directions(),
+                                       now.project.grid.direction,
+                                       [](Project& p, grid::TrackDirection d) { p.grid.direction = d; });
+    choice_field<GridMethod>(ui,
+                             ask,
+                             "method",
+                             "Program uses",
+                             "Choose the grid of the program",
+                             project::grid_methods(),
+                             now.project.grid.method,
+                             [](Project& p, GridMethod m) { p.grid.method = m; });
+}
+
+void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("watch", "Watch it adapt");
+    if (!section) {
+        return;
+    }
+    {
+        const auto row = ui.row(2);
+        action_button(ui, now, ask, catalogue_, "grid.adapt", widgets::Rank::normal, "Elliptic");
+        action_button(ui, now, ask, catalogue_, "grid.optimise", widgets::Rank::primary, "Tracks");
+    }
+    if (!now.watched) {
+        ui.note("Starts from the uniform grid and shows every step in the view.");
+        return;
+    }
+    {
+        const auto row = ui.row(3);
+        const bool playing = now.watched->playing;
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      playing ? "grid.pause" : "grid.play",
+                      widgets::Rank::normal,
+                      playing ? "Pause" : "Play");
+        action_button(ui, now, ask, catalogue_, "grid.step", widgets::Rank::normal, "Step");
+        action_button(ui, now, ask, catalogue_, "grid.reset", widgets::Rank::normal, "Reset");
+    }
+    if (const auto& state = now.watched->state) {
+        ui.value("rounds", "Round", fmt::format("{}", state->round));
+        ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
+        ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
+        ui.value("before", "Mean error before", length_text(state->start.mean), "mm");
+        ui.value("now", "Mean error now", length_text(state->now.mean), "mm");
+        ui.value("best", "Mean error best", length_text(state->of_best.mean), "mm");
+        ui.value("gain", "Gain", change_text(state->start.mean, state->of_best.mean));
+    }
+    ui.note(status_text(*now.watched));
+}
+
+void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("tracks", "Track optimiser", false);
+    if (!section) {
+        return;
+    }
+    number_fields<project::TracksInput>(
+        ui, ask, project::tracks_numbers(), now.project.grid.tracks, [](Project& p) -> project::TracksInput& {
+            return p.grid.tracks;
+        });
+}
+
+void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("elliptic", "Elliptic adaptation", false);
+    if (!section) {
+        return;
+    }
+    const project::EllipticInput& input = now.project.grid.elliptic;
+    choice_field<project::WeightSource>(
+        ui,
+        ask,
+        "weight",
+        "Weight",
+        "Choose the weight",
+        project::weight_sources(),
+        input.weight,
+        [](Project& p, project::WeightSource w) { p.grid.elliptic.weight = w; });
+    if (input.weight == project::WeightSource::expression) {
+        if (const auto text = ui.expression(
+                "expression",
+                "w(u, v) =",
+                input.expression,
+                [&](std::string_view typed) { return fault_of_expression(now.project, typed); },
+                "Positive where cells should be small; of u and v")) {
+            ask.edit("Change the weight's expression",
+                     [t = *text](Project& p) { p.grid.elliptic.expression = t; });
+        }
+    }
+    number_fields<project::EllipticInput>(
+        ui, ask, project::elliptic_numbers(), input, [](Project& p) -> project::EllipticInput& {
+            return p.grid.elliptic;
+        });
+    if (const auto on = ui.toggle("sliding",
+                                  "Boundary slides",
+                                  input.sliding_boundary,
+                                  "Boundary nodes may move along their side; corners stay")) {
+        ask.edit("Change how the boundary is held",
+                 [v = *on](Project& p) { p.grid.elliptic.sliding_boundary = v; });
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,156 @@
+#include "ui/panels/lower_panel.h"
+
+#include "core/base/text.h"
+#include "ui/panels/error_table.h"
+#include "ui/panels/path_series.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/listing.h"
+#include "ui/widgets/plot.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace millwright::panels {
+
+namespace {
+
+namespace icons = widgets::icons;
+using actions::LowerTab;
+using project::GridMethod;
+
+constexpr std::array<widgets::Option, 5> tabs{{{"plots", "Error along the path", icons::plot},
+                                               {"listing", "Listing", icons::program},
+                                               {"compare", "Side by side", icons::table},
+                                               {"jobs", "Job", icons::machine},
+                                               {"log", "Log", icons::info}}};
+
+/// The time at which the program has done the move that lies at `length` of the path.
+void go_to_length(ActionQueue& ask,
+                  const Workbench& now,
+                  const project::Evaluation& evaluation,
+                  double length) {
+    const auto trajectory = now.trajectory();
+    const auto program = now.program();
+    if (!trajectory || !program) {
+        return;
+    }
+    double end = 0.0;
+    std::size_t move = 0;
+    while (move < evaluation.field.moves.size() && end + evaluation.field.moves[move].length < length) {
+        end += evaluation.field.moves[move++].length;
+    }
+    const auto points = static_cast<int>(evaluation.toolpath.points.size());
+    const std::vector<int> blocks = gcode::blocks_of_points(*program, points);
+    const std::size_t point = std::min(move + 1, blocks.size() - 1);
+    if (blocks[point] >= 0) {
+        ask.show([time = trajectory->start_of(blocks[point])](actions::Session& session) {
+            session.playback.playing = false;
+            session.playback.time = time;
+        });
+    }
+}
+
+} // namespace
+
+void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const int tab = static_cast<int>(now.session.lower_tab);
+    if (const auto chosen = ui.tabs("tabs", tab, tabs)) {
+        ask.show([t = static_cast<LowerTab>(*chosen)](actions::Session& session) { session.lower_tab = t; });
+    }
+    switch (now.session.lower_tab) {
+    case LowerTab::plots:
+        return draw_plots(ui, now, ask);
+    case LowerTab::listing:
+        return draw_listing(ui, now, ask);
+    case LowerTab::compare:
+        return error_table(ui, "compare", now, ask);
+    case LowerTab::jobs:
+        return draw_jobs(ui, now);
+    case LowerTab::log:
+        return draw_log(ui, now);
+    }
+}
+
+void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto uniform = now.evaluation(GridMethod::uniform);
+    const auto shown = now.shown();
+    if (!uniform || !shown) {
+        ui.note("No path yet.");
+        return;
+    }
+    const ErrorOverPath before = error_over_path(*uniform);
+    const ErrorOverPath after = error_over_path(*shown);
+    std::vector<widgets::Series> series{{"uniform grid", before.at, before.error, 0, false}};
+    if (shown != uniform) {
+        series.push_back({"shown grid", after.at, after.error, 0, true});
+    }
+    widgets::PlotView view;
+    view.x_label = "path length";
+    view.x_unit = "mm";
+    view.y_label = "error";
+    view.y_unit = "mm";
+    view.series = series;
+    view.limit_y = now.session.error.limit;
+    if (const auto x = widgets::line_plot(ui, "error", view)) {
+        go_to_length(ask, now, *shown, *x);
+    }
+}
+
+void LowerPanel::draw_listing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto listing = now.listing();
+    const auto trajectory = now.trajectory();
+    if (!listing || !trajectory) {
+        ui.note("No program yet.");
+        return;
+    }
+    widgets::ListingView view;
+    view.lines = listing->line_count();
+    view.line = [&](std::ptrdiff_t line) { return std::string(listing->line(static_cast<int>(line) + 1)); };
+    const int block = now.block();
+    view.current = block >= 0 ? listing->line_of_block[static_cast<std::size_t>(block)] - 1 : -1;
+    if (const auto line = widgets::listing(ui, "listing", view)) {
+        const int chosen = listing->block_at_line(static_cast<int>(*line) + 1);
+        if (chosen >= 0) {
+            ask.show([time = trajectory->start_of(chosen)](actions::Session& session) {
+                session.playback.playing = false;
+                session.playback.time = time;
+            });
+        }
+    }
+}
+
+void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
+    if (now.job.name.empty()) {
+        ui.note("No job has been sent yet. Machine > Run on the virtual machine (F9).");
+        return;
+    }
+    if (now.job.report) {
+        const machine::JobReport& report = *now.job.report;
+        ui.value("state", "State", machine::to_text(report.driver.state));
+        ui.value("blocks",
+                 "Executed",
+                 fmt::format("{} of {} blocks", report.driver.executed_blocks, report.blocks));
+        ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
+    }
+    if (now.job.outcome) {
+        ui.value("end", "Ended", machine::to_text(now.job.outcome->end));
+        ui.text(now.job.outcome->sentence);
+        ui.note("Log: " + now.job.outcome->log_file.string());
+    }
+    if (now.job.failure) {
+        ui.text(to_text(*now.job.failure));
+    }
+}
+
+void LowerPanel::draw_log(Ui& ui, const Workbench& now) const {
+    if (now.session.log.empty()) {
+        ui.note("Nothing has been said yet.");
+    }
+    for (auto line = now.session.log.rbegin(); line != now.session.log.rend(); ++line) {
+        ui.text(*line);
+    }
+}
+
+} // namespace millwright::panels

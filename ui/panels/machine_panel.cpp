@@ -1,0 +1,143 @@
+#include "ui/panels/machine_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/forward.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/readout.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace millwright::panels {
+
+namespace {
+
+using kinematics::AxisKind;
+
+/// Near a limit means within a twentieth of the travel.
+widgets::AxisState state_of(const kinematics::MachineAxis& axis, double position) {
+    const double margin = 0.05 * (axis.max - axis.min);
+    if (position <= axis.min || position >= axis.max) {
+        return widgets::AxisState::at_limit;
+    }
+    const bool near = std::isfinite(margin) && (position < axis.min + margin || position > axis.max - margin);
+    return near ? widgets::AxisState::near_limit : widgets::AxisState::normal;
+}
+
+std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machine,
+                                           const kinematics::AxisPositions& position,
+                                           std::vector<std::string>& letters) {
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        letters.emplace_back(1, axis.letter);
+    }
+    std::vector<widgets::AxisReading> result;
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        const kinematics::MachineAxis& axis = machine.axis(n);
+        const bool rotary = axis.kind == AxisKind::rotary;
+        widgets::AxisReading reading;
+        reading.letter = letters[static_cast<std::size_t>(n)];
+        reading.value = rotary ? to_degrees(position[n]) : position[n];
+        reading.unit = rotary ? "\u00b0" : "mm";
+        reading.state = state_of(axis, position[n]);
+        result.push_back(reading);
+    }
+    return result;
+}
+
+constexpr std::array<double, 6> speeds{1.0, 5.0, 20.0, 100.0, 1000.0, 0.0};
+constexpr std::array<widgets::Option, 6> speed_options{{{"x1", "1 x real time"},
+                                                        {"x5", "5 x"},
+                                                        {"x20", "20 x"},
+                                                        {"x100", "100 x"},
+                                                        {"x1000", "1000 x"},
+                                                        {"unlimited", "as fast as possible"}}};
+
+int speed_index(double speed) {
+    for (std::size_t n = 0; n < speeds.size(); ++n) {
+        if (!(speeds[n] < speed) && !(speeds[n] > speed)) {
+            return static_cast<int>(n);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_job(ui, now, ask);
+    draw_position(ui, now);
+}
+
+void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("position", "Position");
+    const auto moment = now.moment();
+    if (!section || !now.plan || !now.plan->plan.workpiece) {
+        return;
+    }
+    const kinematics::MachineModel& machine = now.plan->plan.workpiece->machine;
+    if (!moment || moment->axes.size() != machine.axis_count()) {
+        ui.note("No program yet.");
+        return;
+    }
+    std::vector<std::string> letters;
+    const auto axes = readings(machine, moment->axes, letters);
+    widgets::readout(ui, "axes", axes);
+    const geometry::ToolPose pose = kinematics::forward(machine, moment->axes);
+    ui.value(
+        "tip",
+        "Tip on the part",
+        fmt::format("{}  {}  {}", fixed(pose.tip.x(), 2), fixed(pose.tip.y(), 2), fixed(pose.tip.z(), 2)),
+        "mm");
+    ui.value(
+        "axis",
+        "Tool axis",
+        fmt::format("{}  {}  {}", fixed(pose.axis.x(), 3), fixed(pose.axis.y(), 3), fixed(pose.axis.z(), 3)));
+}
+
+void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("job", "Job");
+    if (!section) {
+        return;
+    }
+    if (const auto chosen = ui.choice("speed",
+                                      "Virtual machine",
+                                      speed_index(now.session.machine_speed),
+                                      speed_options,
+                                      "How fast the virtual machine's time passes")) {
+        ask.show([speed = speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
+            session.machine_speed = speed;
+        });
+    }
+    action_button(ui, now, ask, catalogue_, "machine.run", widgets::Rank::primary, "Run");
+    {
+        const auto row = ui.row(3);
+        action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");
+        action_button(ui, now, ask, catalogue_, "machine.resume", widgets::Rank::normal, "Resume");
+        action_button(ui, now, ask, catalogue_, "machine.stop", widgets::Rank::normal, "Stop");
+    }
+    action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
+    if (now.job.running && now.job.report) {
+        const machine::JobReport& report = *now.job.report;
+        const double fraction =
+            report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
+        ui.value("state", "State", machine::to_text(report.driver.state));
+        ui.value(
+            "time", "Time", clock_time(report.driver.planned_time) + " / " + clock_time(report.planned_time));
+        if (ui.progress("progress",
+                        fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks),
+                        fraction)) {
+            ask.run("machine.stop");
+        }
+    } else if (now.job.outcome) {
+        ui.value("end", "Last job", machine::to_text(now.job.outcome->end));
+        ui.note(now.job.outcome->sentence);
+        ui.note("Log: " + now.job.outcome->log_file.string());
+    }
+    if (now.job.failure) {
+        ui.note(to_text(*now.job.failure));
+    }
+}
+
+} // namespace millwright::panels

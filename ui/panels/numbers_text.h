@@ -1,0 +1,15 @@
+// Numbers as the panels show them: short, with the digits that matter.
+#pragma once
+
+#include <string>
+
+namespace millwright::panels {
+
+/// mm with three decimals, four below 0.1; "-" where there is no number.
+[[nodiscard]] std::string length_text(double mm);
+/// Degrees with two decimals, from radians.
+[[nodiscard]] std::string angle_text(double rad);
+/// "-53 %" for a change from `before` to `now`; "-" where that means nothing.
+[[nodiscard]] std::string change_text(double before, double now);
+
+} // namespace millwright::panels

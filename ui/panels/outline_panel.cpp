@@ -1,0 +1,89 @@
+#include "ui/panels/outline_panel.h"
+
+#include "core/base/text.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/notices.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+namespace icons = widgets::icons;
+using actions::Workspace;
+using project::GridMethod;
+
+struct Row {
+    std::string id, name, detail;
+    Workspace workspace;
+};
+
+std::string error_of(const Workbench& now, GridMethod method) {
+    const auto evaluation = now.evaluation(method);
+    return evaluation ? length_text(evaluation->closest.mean) + " mm" : "...";
+}
+
+std::vector<Row> rows_of(const Workbench& now) {
+    const auto& net = now.project.surface.patches.front();
+    std::vector<Row> rows{
+        {"surface",
+         "Surface",
+         fmt::format("degree {}, {}", net.rows - 1, net.columns - 1),
+         Workspace::design},
+        {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
+        {"uniform", "  Uniform", error_of(now, GridMethod::uniform), Workspace::toolpath},
+        {"elliptic", "  Elliptic", error_of(now, GridMethod::elliptic), Workspace::toolpath},
+        {"tracks", "  Tracks", error_of(now, GridMethod::tracks), Workspace::toolpath}};
+    const auto shown = now.shown();
+    rows.push_back({"toolpath",
+                    "Toolpath",
+                    shown ? fmt::format("{} moves", shown->field.moves.size()) : "...",
+                    Workspace::toolpath});
+    const auto program = now.program();
+    rows.push_back({"program",
+                    "Program",
+                    program ? fmt::format("{} blocks", program->block_count()) : "...",
+                    Workspace::program});
+    const auto trajectory = now.trajectory();
+    rows.push_back(
+        {"machine", "Machine", trajectory ? clock_time(trajectory->duration()) : "...", Workspace::machine});
+    return rows;
+}
+
+} // namespace
+
+void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    ui.heading(now.project.name);
+    ui.note(now.document.file.empty() ? "not saved yet" : now.document.file.filename().string());
+    ui.gap();
+    const std::vector<Row> rows = rows_of(now);
+    constexpr std::array<widgets::Column, 2> columns{{{"Stage", "", 1.0F, false}, {"", "", 1.0F, true}}};
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(rows);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const Row& entry = rows[static_cast<std::size_t>(row)];
+        return column == 0 ? entry.name : entry.detail;
+    };
+    view.row_id = [&](std::ptrdiff_t row) { return rows[static_cast<std::size_t>(row)].id; };
+    if (const auto row = widgets::table(ui, "stages", view)) {
+        const Row& chosen = rows[static_cast<std::size_t>(*row)];
+        ask.show(
+            [workspace = chosen.workspace](actions::Session& session) { session.workspace = workspace; });
+        if (chosen.workspace == Workspace::toolpath && chosen.id != "toolpath") {
+            ask.run("view.show_" + chosen.id);
+        }
+    }
+    if (!now.failure().empty()) {
+        ui.gap();
+        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, now.failure(), {}});
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,103 @@
+#include "ui/panels/program_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+
+#include <fmt/format.h>
+
+namespace millwright::panels {
+
+namespace {
+
+std::string limit_text(const motion::Trajectory::BlockLimit& limit, const gcode::Program& program) {
+    switch (limit.limit) {
+    case motion::Limit::standing:
+        return "stands still";
+    case motion::Limit::programmed_feed:
+        return "programmed feed";
+    case motion::Limit::axis_velocity:
+    case motion::Limit::axis_acceleration: {
+        const std::string what = limit.limit == motion::Limit::axis_velocity ? "velocity" : "acceleration";
+        const bool known = limit.axis >= 0 && limit.axis < static_cast<int>(program.axes.size());
+        return known
+                   ? fmt::format("{} of {}", what, program.axes[static_cast<std::size_t>(limit.axis)].letter)
+                   : what;
+    }
+    }
+    return {};
+}
+
+} // namespace
+
+void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_settings(ui, now, ask);
+    draw_summary(ui, now, ask);
+    draw_block(ui, now);
+}
+
+void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("settings", "Feeds and clearances");
+    if (!section) {
+        return;
+    }
+    number_fields<project::ProgramInput>(
+        ui,
+        ask,
+        project::program_numbers(),
+        now.project.program,
+        [](project::Project& p) -> project::ProgramInput& { return p.program; });
+    choice_field<project::LinkInput>(ui,
+                                     ask,
+                                     "link",
+                                     "Track to track",
+                                     "Choose how tracks are linked",
+                                     project::links(),
+                                     now.project.program.link,
+                                     [](project::Project& p, project::LinkInput l) { p.program.link = l; });
+}
+
+void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("summary", "Program");
+    if (!section) {
+        return;
+    }
+    const auto program = now.program();
+    const auto trajectory = now.trajectory();
+    if (!program || !trajectory) {
+        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        return;
+    }
+    ui.value("machine", "Machine", program->machine);
+    ui.value("blocks", "Blocks", fmt::format("{}", program->block_count()));
+    ui.value("time", "Estimated time", clock_time(trajectory->duration()));
+    ui.value("length", "Way of the tip", fixed(trajectory->part_length(), 1), "mm");
+    action_button(ui, now, ask, catalogue_, "file.write_program");
+}
+
+void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("block", "This block");
+    const auto program = now.program();
+    const auto trajectory = now.trajectory();
+    if (!section || !program || !trajectory || program->blocks.empty()) {
+        return;
+    }
+    const int n = now.block();
+    const gcode::Block& block = program->blocks[static_cast<std::size_t>(n)];
+    if (const auto listing = now.listing()) {
+        ui.value("line", "Line", fmt::format("{}", listing->line_of_block[static_cast<std::size_t>(n)]));
+    }
+    ui.value("limit", "Limited by", limit_text(trajectory->limit_of(n), *program));
+    if (block.kind == gcode::BlockKind::feed) {
+        ui.value("feed", "Feed on the part", fixed(to_mm_per_min(block.feed), 0), "mm/min");
+    }
+    const auto shown = now.evaluation(now.project.grid.method);
+    const auto move = static_cast<std::size_t>(block.path_point - 1);
+    if (shown && block.path_point > 0 && move < shown->field.moves.size()) {
+        ui.value("error", "Error of this move", length_text(shown->field.moves[move].closest), "mm");
+        ui.value("axis", "Axis deviation", angle_text(shown->field.moves[move].axis), "deg");
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,22 @@
+// The inspector of the Program workspace: feeds and clearances, what the program is, the block under the
+// cursor.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+namespace millwright::panels {
+
+class ProgramPanel final : public Panel {
+public:
+    explicit ProgramPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_block(Ui& ui, const Workbench& now) const;
+
+    const actions::Catalogue& catalogue_;
+};
+
+} // namespace millwright::panels

@@ -1,0 +1,147 @@
+#include "ui/panels/toolpath_panel.h"
+
+#include "core/base/text.h"
+#include "core/project/assets.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::GridMethod;
+using project::Project;
+
+std::vector<std::string> machine_choices(const Workbench& now) {
+    std::vector<std::string> ids = project::machine_ids(now.assets);
+    if (std::find(ids.begin(), ids.end(), now.project.machine.file) == ids.end()) {
+        ids.push_back(now.project.machine.file);
+    }
+    return ids;
+}
+
+Vec3 workpiece_offset(const Workbench& now) {
+    if (now.project.machine.workpiece_offset) {
+        return *now.project.machine.workpiece_offset;
+    }
+    const bool known = now.plan && now.plan->plan.workpiece;
+    return known ? now.plan->plan.workpiece->machine.description().workpiece_offset : Vec3(Vec3::Zero());
+}
+
+} // namespace
+
+void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_error(ui, now, ask);
+    draw_setup(ui, now, ask);
+    draw_singular(ui, now);
+}
+
+void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("error", "Error of the path");
+    if (!section) {
+        return;
+    }
+    const auto [options, index] = options_of(project::grid_methods(), now.session.shown);
+    if (const auto chosen = ui.segmented("shown", "", index, options)) {
+        const GridMethod method = project::grid_methods()[static_cast<std::size_t>(*chosen)].value;
+        ask.show([method](actions::Session& session) { session.shown = method; });
+    }
+    const auto shown = now.shown();
+    if (!shown) {
+        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        return;
+    }
+    const auto start = now.evaluation(GridMethod::uniform);
+    const auto& before = start->closest;
+    const auto& error = shown->closest;
+    ui.value(
+        "max", "Largest", length_text(error.max) + "  (" + change_text(before.max, error.max) + ")", "mm");
+    ui.value("mean",
+             "Mean a move",
+             length_text(error.mean) + "  (" + change_text(before.mean, error.mean) + ")",
+             "mm");
+    ui.value("lmean", "Mean by length", length_text(error.lmean), "mm");
+    ui.value("p95", "95 % below", length_text(error.p95), "mm");
+    ui.value("axis", "Axis deviation", angle_text(error.axis_max), "deg");
+    ui.value("gap", "Largest track gap", length_text(shown->track_gap), "mm");
+    ui.value("cross", "Cross moves, largest", length_text(shown->cross_closest.max), "mm");
+    const widgets::FieldInfo limit{
+        "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};
+    if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {
+        ask.show([v = *value](actions::Session& session) { session.error.limit = v; });
+    }
+}
+
+void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("setup", "Machine and set-up");
+    if (!section) {
+        return;
+    }
+    const std::vector<std::string> ids = machine_choices(now);
+    std::vector<widgets::Option> options;
+    int index = 0;
+    for (std::size_t n = 0; n < ids.size(); ++n) {
+        options.push_back({ids[n], ids[n], {}, {}, {}});
+        index = ids[n] == now.project.machine.file ? static_cast<int>(n) : index;
+    }
+    if (const auto chosen =
+            ui.choice("machine", "Machine", index, options, "The machine that will cut the part")) {
+        ask.edit("Choose the machine", [id = ids[static_cast<std::size_t>(*chosen)]](Project& p) {
+            p.machine.file = id;
+            p.machine.workpiece_offset.reset();
+        });
+    }
+    const Vec3 offset = workpiece_offset(now);
+    const widgets::FieldInfo info{
+        "offset", "", "mm", "Where the part's origin lies on the table (a, b, c)", -1e4, 1e4};
+    if (const auto value = ui.vec3("offset", "Part on table", {offset.x(), offset.y(), offset.z()}, info)) {
+        ask.edit("Move the part on the table",
+                 [v = *value](Project& p) { p.machine.workpiece_offset = Vec3(v[0], v[1], v[2]); });
+    }
+    choice_field<kinematics::AngleMode>(
+        ui,
+        ask,
+        "angles",
+        "Angle formulas",
+        "Choose the angle formulas",
+        project::angle_modes(),
+        now.project.machine.angle_mode,
+        [](Project& p, kinematics::AngleMode m) { p.machine.angle_mode = m; });
+    if (now.project.machine.angle_mode != kinematics::AngleMode::consistent) {
+        (void)widgets::banner(
+            ui,
+            "faulty",
+            {widgets::Severity::warning,
+             "These formulas reproduce a fault of the original and tilt the tool wrongly. For "
+             "comparison only.",
+             {}});
+    }
+}
+
+void ToolpathPanel::draw_singular(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("singular", "Singular points");
+    if (!section) {
+        return;
+    }
+    if (!now.plan || now.plan->plan.singular_points.empty()) {
+        ui.note("None on this surface.");
+        return;
+    }
+    ui.note("Here the normal lies along the turning axis: the table spins fast nearby, and the error is "
+            "largest.");
+    int n = 1;
+    for (const toolpath::SingularPoint& point : now.plan->plan.singular_points) {
+        ui.value(fmt::format("p{}", n),
+                 fmt::format("Point {}", n),
+                 fmt::format("u {}  v {}", fixed(point.uv.x(), 3), fixed(point.uv.y(), 3)));
+        ++n;
+    }
+}
+
+} // namespace millwright::panels

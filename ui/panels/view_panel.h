@@ -1,0 +1,32 @@
+// The 3D view in the window: what it shows comes from the workbench, what is done in it becomes actions.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/viewport/viewport.h"
+
+#include <optional>
+
+namespace millwright::panels {
+
+class ViewPanel {
+public:
+    /// Into `place` of the current pane.
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place);
+
+    /// The surface point under the mouse, workpiece coordinates, mm.
+    [[nodiscard]] std::optional<Vec3> under_mouse() const { return view_.under_mouse().on_surface; }
+    [[nodiscard]] viewport::Viewport& viewport() { return view_; }
+
+private:
+    void draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) const;
+
+    viewport::Viewport view_;
+};
+
+/// What the view shows of the workbench.
+[[nodiscard]] viewport::Scene scene_of(const Workbench& now);
+
+/// Turns what was done in the view into requests.
+void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& ask);
+
+} // namespace millwright::panels

@@ -1,0 +1,223 @@
+#include "ui/panels/window.h"
+
+#include "ui/actions/shortcut.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/status_bar.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/splitter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::panels {
+
+using actions::Workspace;
+using widgets::Rect;
+
+/// Where every pane lies, in pixels. A pane that is hidden has no width or height.
+struct Window::Layout {
+    Rect menu, emergency, outline, view, timeline, inspector, lower, status;
+};
+
+namespace {
+
+constexpr float menu_height = 42.0F;
+constexpr float status_height = 30.0F;
+constexpr float timeline_height = 92.0F;
+constexpr float seam = 2.0F;
+constexpr float smallest_view = 240.0F;
+
+} // namespace
+
+Window::Window(actions::Workshop& workshop)
+    : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
+      grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
+      machine_(workshop.catalogue()) {}
+
+Window::Layout
+Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
+    const actions::PaneSizes& sizes = session.panes;
+    const float s = ui.px(seam);
+    const float top = ui.px(menu_height);
+    const float bottom = height - ui.px(status_height);
+    const float left = sizes.outline_shown ? ui.px(sizes.outline) : 0.0F;
+    const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
+    const float lower = sizes.lower_shown ? ui.px(sizes.lower) : 0.0F;
+    const float emergency = ui.px(150.0F);
+    const float middle_top = top + s;
+    const float middle_bottom = bottom - s - lower;
+    const float view_left = left > 0.0F ? left + s : 0.0F;
+    const float view_right = right > 0.0F ? width - right - s : width;
+    const float timeline_top = middle_bottom - ui.px(timeline_height);
+    Layout result;
+    result.menu = {0.0F, 0.0F, width - emergency, top};
+    result.emergency = {width - emergency, 0.0F, emergency, top};
+    result.outline = {0.0F, middle_top, left, middle_bottom - middle_top};
+    result.view = {view_left, middle_top, view_right - view_left, timeline_top - s - middle_top};
+    result.timeline = {view_left, timeline_top, view_right - view_left, middle_bottom - timeline_top};
+    result.inspector = {width - right, middle_top, right, bottom - s - middle_top};
+    result.lower = {0.0F, middle_bottom + s, view_right, lower > 0.0F ? lower - s : 0.0F};
+    result.status = {0.0F, bottom, width, height - bottom};
+    return result;
+}
+
+void Window::draw(Ui& ui, float width, float height) {
+    const Workbench now = workshop_.look();
+    const Layout place = layout(ui, now.session, width, height);
+    draw_panes(ui, now, place);
+    draw_splitters(ui, now, place, width, height);
+    draw_over(ui, now, width, height);
+    obey_shortcuts(now);
+    workshop_.perform(ask_);
+    for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
+        toasts_.push(std::move(notice));
+    }
+}
+
+void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
+    {
+        const auto pane = ui.pane("menu", place.menu);
+        menu_bar_.draw(ui, now, ask_);
+    }
+    {
+        const auto pane = ui.pane("emergency", place.emergency);
+        action_button(ui,
+                      now,
+                      ask_,
+                      workshop_.catalogue(),
+                      "machine.emergency_stop",
+                      widgets::Rank::danger,
+                      "Emergency stop");
+    }
+    if (place.outline.w > 0.0F) {
+        const auto pane = ui.pane("outline", place.outline, "Project");
+        outline_.draw(ui, now, ask_);
+    }
+    {
+        const auto pane = ui.bare_pane("view", place.view);
+        view_.draw(ui, now, ask_, place.view);
+    }
+    {
+        const auto pane = ui.pane("timeline", place.timeline);
+        timeline_.draw(ui, now, ask_);
+    }
+    if (place.inspector.w > 0.0F) {
+        const auto pane = ui.pane("inspector", place.inspector, "Inspector");
+        draw_inspector(ui, now);
+    }
+    if (place.lower.h > 0.0F) {
+        const auto pane = ui.pane("lower", place.lower);
+        lower_.draw(ui, now, ask_);
+    }
+    const auto pane = ui.pane("status", place.status);
+    status_bar(ui, now, ask_, view_.under_mouse());
+}
+
+void Window::draw_inspector(Ui& ui, const Workbench& now) {
+    if (now.session.question != actions::FileQuestion::none) {
+        files_.draw(ui, now, ask_);
+        return;
+    }
+    switch (now.session.workspace) {
+    case Workspace::design:
+        return design_.draw(ui, now, ask_);
+    case Workspace::grid:
+        return grid_.draw(ui, now, ask_);
+    case Workspace::toolpath:
+        return toolpath_.draw(ui, now, ask_);
+    case Workspace::program:
+        return program_.draw(ui, now, ask_);
+    case Workspace::machine:
+        return machine_.draw(ui, now, ask_);
+    }
+}
+
+void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, float width, float height) {
+    const auto scope = ui.scope("splitters");
+    const actions::PaneSizes& sizes = now.session.panes;
+    const float s = ui.px(seam);
+    const auto drag = [&](std::string_view id,
+                          const Rect& bar,
+                          widgets::SizeOf side,
+                          float actions::PaneSizes::*size,
+                          float min,
+                          float max) {
+        if (const auto dragged = widgets::splitter(
+                ui, id, {bar, side, ui.px(sizes.*size), ui.px(min), std::max(ui.px(min), max)})) {
+            ask_.show([size, value = *dragged / ui.px(1.0F)](actions::Session& session) {
+                session.panes.*size = value;
+            });
+        }
+    };
+    const float spare = width - ui.px(smallest_view);
+    if (sizes.outline_shown) {
+        drag("outline",
+             {place.outline.w, place.outline.y, s, place.outline.h},
+             widgets::SizeOf::left,
+             &actions::PaneSizes::outline,
+             140.0F,
+             spare - place.inspector.w);
+    }
+    if (sizes.inspector_shown) {
+        drag("inspector",
+             {place.inspector.x - s, place.inspector.y, s, place.inspector.h},
+             widgets::SizeOf::right,
+             &actions::PaneSizes::inspector,
+             240.0F,
+             spare - place.outline.w);
+    }
+    if (sizes.lower_shown) {
+        drag("lower",
+             {0.0F, place.lower.y - s, place.lower.w, s},
+             widgets::SizeOf::below,
+             &actions::PaneSizes::lower,
+             90.0F,
+             height - ui.px(smallest_view + timeline_height + menu_height));
+    }
+}
+
+void Window::draw_over(Ui& ui, const Workbench& now, float width, float height) {
+    if (now.session.search_wanted) {
+        search_.open();
+        ask_.show([](actions::Session& session) { session.search_wanted = false; });
+    }
+    std::vector<widgets::SearchItem> items;
+    std::vector<std::string> ids;
+    for (const auto& action : workshop_.catalogue().all()) {
+        const actions::ActionInfo& info = action->info();
+        ids.emplace_back(info.id);
+        items.push_back({info.id, info.title, info.menu, info.shortcut, action->permission(now)});
+    }
+    if (const auto chosen = search_.draw(ui, "search", items)) {
+        ask_.run(ids[static_cast<std::size_t>(*chosen)]);
+    }
+    toasts_.draw(ui, "notices", {0.0F, 0.0F, width, height - ui.px(status_height)});
+}
+
+void Window::obey_shortcuts(const Workbench& now) {
+    const ImGuiIO& io = ImGui::GetIO();
+    for (const auto& action : workshop_.catalogue().all()) {
+        const actions::ActionInfo& info = action->info();
+        if (info.shortcut.empty()) {
+            continue;
+        }
+        const actions::Shortcut keys = actions::shortcut(info.shortcut);
+        const bool plain = !keys.ctrl && !keys.alt;
+        const bool typing = io.WantTextInput && plain && keys.key < render::Key::f1;
+        const bool modifiers = io.KeyCtrl == keys.ctrl && io.KeyShift == keys.shift && io.KeyAlt == keys.alt;
+        if (!typing && modifiers && render::key_pressed(keys.key) && action->permission(now).allowed) {
+            ask_.run(std::string(info.id));
+        }
+    }
+}
+
+std::optional<double> Window::next_change() const {
+    const auto& session = workshop_.look().session;
+    if (session.playback.playing) {
+        return 0.0;
+    }
+    return std::nullopt;
+}
+
+} // namespace millwright::panels

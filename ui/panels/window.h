@@ -1,0 +1,62 @@
+// The whole window: lays out the panes, draws every panel, hands shortcuts and requests to the workshop.
+// Knows neither GLFW nor files: the app runs it in a window, tests and pictures run it in memory.
+#pragma once
+
+#include "ui/actions/workshop.h"
+#include "ui/panels/design_panel.h"
+#include "ui/panels/file_panel.h"
+#include "ui/panels/grid_panel.h"
+#include "ui/panels/lower_panel.h"
+#include "ui/panels/machine_panel.h"
+#include "ui/panels/menu_bar.h"
+#include "ui/panels/outline_panel.h"
+#include "ui/panels/program_panel.h"
+#include "ui/panels/timeline_panel.h"
+#include "ui/panels/toolpath_panel.h"
+#include "ui/panels/view_panel.h"
+#include "ui/widgets/notices.h"
+#include "ui/widgets/search.h"
+
+namespace millwright::panels {
+
+class Window {
+public:
+    explicit Window(actions::Workshop& workshop);
+
+    /// One frame of `width` x `height` pixels between Ui::begin_frame and end_frame: draws, then performs
+    /// what was asked.
+    void draw(Ui& ui, float width, float height);
+
+    /// Seconds until the picture changes by itself; empty: only when something happens.
+    [[nodiscard]] std::optional<double> next_change() const;
+
+    [[nodiscard]] ViewPanel& view() { return view_; }
+
+private:
+    struct Layout;
+    [[nodiscard]] Layout
+    layout(const Ui& ui, const actions::Session& session, float width, float height) const;
+    void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
+    void draw_inspector(Ui& ui, const Workbench& now);
+    void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
+    void draw_over(Ui& ui, const Workbench& now, float width, float height);
+    void obey_shortcuts(const Workbench& now);
+
+    actions::Workshop& workshop_;
+    ActionQueue ask_;
+    MenuBar menu_bar_;
+    OutlinePanel outline_;
+    DesignPanel design_;
+    GridPanel grid_;
+    ToolpathPanel toolpath_;
+    ProgramPanel program_;
+    MachinePanel machine_;
+    LowerPanel lower_;
+    TimelinePanel timeline_;
+    FilePanel files_;
+    ViewPanel view_;
+    widgets::Toasts toasts_;
+    widgets::Search search_;
+};
+
+} // namespace millwright::panels
