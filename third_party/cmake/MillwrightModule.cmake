@@ -34,6 +34,7 @@ function(millwright_test name)
     set_target_properties(${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     gtest_discover_tests(${name}_test
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+        NO_PRETTY_VALUES # ctest and --gtest_filter call a test the same
         DISCOVERY_TIMEOUT 120
         PROPERTIES TIMEOUT 600)
 endfunction()
