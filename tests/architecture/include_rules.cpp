@@ -140,7 +140,8 @@ constexpr std::array<std::string_view, 5> window = {"imgui", "backends/imgui", "
 constexpr std::array<std::string_view, 6> opengl = {"GL/", "GLES", "KHR/", "EGL/", "epoxy/", "GLX"};
 constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "bench"};
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
-constexpr std::array<std::string_view, 4> json_home = {"core/base", "core/project", "app", "tests"};
+constexpr std::array<std::string_view, 5> json_home = {
+    "core/base", "core/machine", "core/project", "app", "tests"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},

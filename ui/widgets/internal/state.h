@@ -46,8 +46,8 @@ struct Ui::State {
     std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
     std::map<std::string, double, std::less<>> memory;      ///< by path: scroll positions, open sections
     Tip tip;
-    std::string under_mouse;        ///< path of the last widget of this frame that the mouse is over
-    std::string under_mouse_before; ///< the same of the frame before: the one on top
+    std::string under_mouse;            ///< path of the last widget of this frame that the mouse is over
+    std::string under_mouse_before;     ///< the same of the frame before: the one on top
     std::vector<Hint> hints;            ///< of this frame
     std::vector<std::string> cut_texts; ///< of this frame
     std::vector<Cells> cells;
