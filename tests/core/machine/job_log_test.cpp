@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 namespace millwright::machine {
 namespace {
@@ -112,6 +113,22 @@ TEST(JobLog, NamesTheLineOfAnythingElseThatIsWrong) {
     }
     write_file(file, "{}\n");
     EXPECT_THROW((void)read_job_log(file), Error);
+}
+
+TEST(JobLog, LooksAsItsReferencePageShows) {
+    const test::TemporaryFolder folder;
+    std::istringstream page(read_file("docs/reference/job-log.md"));
+    std::string shown;
+    for (std::string line; std::getline(page, line);) {
+        shown += line.rfind("{\"record\"", 0) == 0 ? line + "\n" : "";
+    }
+    write_file(folder.path() / "shown.jsonl", shown);
+    const ReadLog log = read_job_log(folder.path() / "shown.jsonl");
+    EXPECT_EQ(log.records.size(), 1U);
+    JobLog again(folder.path(), "again");
+    again.write(log.start);
+    again.write(log.records[0]);
+    EXPECT_EQ(read_file(again.file()), shown);
 }
 
 TEST(JobLog, NeverOverwritesAnOlderOne) {
