@@ -28,12 +28,16 @@ double nearest_rank_95(std::vector<double> tips) {
 
 } // namespace
 
-std::vector<MoveError>
-measure(const ErrorModel& model, const Grid& grid, TrackDirection direction, Sampling sampling) {
+std::vector<MoveError> measure(const ErrorModel& model,
+                               const Grid& grid,
+                               TrackDirection direction,
+                               Sampling sampling,
+                               const Progress& progress) {
     const int tracks = grid.track_count(direction);
     const int moves = grid.nodes_per_track(direction) - 1;
     std::vector<MoveError> found(static_cast<std::size_t>(tracks) * static_cast<std::size_t>(moves));
     parallel_for(tracks, 1, [&](std::ptrdiff_t track) {
+        progress.check();
         const int t = static_cast<int>(track);
         for (int k = 0; k < moves; ++k) {
             found[static_cast<std::size_t>(track * moves + k)] =

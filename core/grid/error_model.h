@@ -2,6 +2,7 @@
 // Implemented by core/toolpath for real machines, and by tests with closed forms.
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/grid/grid.h"
 
 #include <memory>
@@ -57,9 +58,13 @@ public:
     [[nodiscard]] virtual double track_gap(const Grid& grid, TrackDirection direction) const = 0;
 };
 
-/// All moves inside tracks, [tracks x (nodes - 1)], track by track. Parallel over tracks.
-[[nodiscard]] std::vector<MoveError>
-measure(const ErrorModel& model, const Grid& grid, TrackDirection direction, Sampling sampling);
+/// All moves inside tracks, [tracks x (nodes - 1)], track by track. Parallel over tracks. Throws Cancelled
+/// through `progress`.
+[[nodiscard]] std::vector<MoveError> measure(const ErrorModel& model,
+                                             const Grid& grid,
+                                             TrackDirection direction,
+                                             Sampling sampling,
+                                             const Progress& progress = Progress());
 
 /// The figures that are always shown together. Lengths mm, angles rad.
 struct ErrorSummary {

@@ -24,15 +24,15 @@ enum class ImproverStatus {
 /// What a person watches. `best` is never worse than the start in the mean error.
 struct ImproverState {
     ImproverStatus status = ImproverStatus::running;
-    int round = 0;        ///< outer loops (elliptic) or stages and sweeps (tracks) done
-    int iteration = 0;    ///< inner iterations done in all rounds
-    double norm = 0.0;    ///< residual norm (elliptic) or largest node step of the last sweep (tracks)
-    NodeArray current;    ///< as it stands now; may be between two grids
-    Grid best;            ///< the best grid seen
-    ErrorSummary start;   ///< of the start grid
-    ErrorSummary now;     ///< of the last complete grid
-    ErrorSummary of_best; ///< of `best`
-    std::string note;     ///< one sentence: what was just done, or why it ended
+    int round = 0;          ///< outer loops (elliptic) or stages and sweeps (tracks) done
+    int iteration = 0;      ///< inner iterations done in all rounds
+    double norm = 0.0;      ///< residual norm (elliptic) or largest node step of the last sweep (tracks)
+    NodeArray current{};    ///< as it stands now; may be between two grids
+    Grid best;              ///< the best grid seen
+    ErrorSummary start{};   ///< of the start grid
+    ErrorSummary now{};     ///< of the last complete grid
+    ErrorSummary of_best{}; ///< of `best`
+    std::string note{};     ///< one sentence: what was just done, or why it ended
 };
 
 class GridImprover {

@@ -85,9 +85,7 @@ WeightPtr weight_w5(double scale) {
 
 std::vector<double> weight_at_nodes(const Weight& weight, const NodeArray& nodes) {
     std::vector<double> w(nodes.nodes.size());
-    for_rows(nodes.rows, nodes.columns, [&](int i) {
-        const std::size_t first = nodes.index(i, 0);
-        const auto count = static_cast<std::size_t>(nodes.columns);
+    for_pieces(w.size(), [&](std::size_t first, std::size_t count) {
         weight.values(std::span(nodes.nodes).subspan(first, count), std::span(w).subspan(first, count));
     });
     return w;

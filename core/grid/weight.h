@@ -47,7 +47,7 @@ struct Ring {
 /// exp((x^2 + y^2) / scale^2). With scale 1 it is beyond the range of numbers from 27 nodes on.
 [[nodiscard]] WeightPtr weight_w5(double scale);
 
-/// w at every node, row by row. Parallel over rows.
+/// w at every node, row by row. Parallel.
 [[nodiscard]] std::vector<double> weight_at_nodes(const Weight& weight, const NodeArray& nodes);
 
 /// How many nodes have a weight that is not positive. If any, the functional may have no minimum: warn.

@@ -1,29 +1,44 @@
-// Weights that no person would ask for.
+// Weights for tests of solvers.
 #pragma once
 
 #include "core/grid/weight.h"
 
-#include <algorithm>
+#include <functional>
 #include <memory>
+#include <utility>
 
 namespace millwright::grid {
 
-/// `value` at every point, whatever it is.
-[[nodiscard]] inline WeightPtr broken_weight(double value) {
-    class Broken final : public Weight {
+struct WeightAndSlope {
+    double w = 0.0;
+    Vec2 slope = Vec2::Zero();
+};
+
+/// The weight that `formula` is.
+[[nodiscard]] inline WeightPtr weight_from(std::function<WeightAndSlope(const Vec2&)> formula) {
+    class Formula final : public Weight {
     public:
-        explicit Broken(double everywhere) : value_(everywhere) {}
-        void values(std::span<const Vec2>, std::span<double> w) const override {
-            std::ranges::fill(w, value_);
+        explicit Formula(std::function<WeightAndSlope(const Vec2&)> at) : at_(std::move(at)) {}
+        void values(std::span<const Vec2> at, std::span<double> w) const override {
+            for (std::size_t k = 0; k < at.size(); ++k) {
+                w[k] = at_(at[k]).w;
+            }
         }
-        void gradients(std::span<const Vec2>, std::span<Vec2> gradient) const override {
-            std::ranges::fill(gradient, Vec2(Vec2::Zero()));
+        void gradients(std::span<const Vec2> at, std::span<Vec2> gradient) const override {
+            for (std::size_t k = 0; k < at.size(); ++k) {
+                gradient[k] = at_(at[k]).slope;
+            }
         }
 
     private:
-        double value_;
+        std::function<WeightAndSlope(const Vec2&)> at_;
     };
-    return std::make_shared<Broken>(value);
+    return std::make_shared<Formula>(std::move(formula));
+}
+
+/// `value` at every point, whatever it is.
+[[nodiscard]] inline WeightPtr broken_weight(double value) {
+    return weight_from([value](const Vec2&) { return WeightAndSlope{value, Vec2::Zero()}; });
 }
 
 } // namespace millwright::grid

@@ -1,0 +1,161 @@
+#include "core/grid/discrete_minimiser.h"
+
+#include "core/base/error.h"
+#include "core/grid/internal/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr std::size_t memory_length = 8;
+constexpr double longest_step = 0.3;         // of a uniform cell, for one node in one iteration
+constexpr double sufficient_decrease = 1e-4; // Armijo
+constexpr int most_halvings = 40;
+constexpr double least_curvature = 1e-12; // s.y against |s||y|; below, the pair says nothing
+
+double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        sum += a[k].dot(b[k]);
+    }
+    return sum;
+}
+
+void add(std::vector<Vec2>& to, double factor, const std::vector<Vec2>& step) {
+    for (std::size_t k = 0; k < to.size(); ++k) {
+        to[k] += factor * step[k];
+    }
+}
+
+double longest(const std::vector<Vec2>& steps) {
+    double found = 0.0;
+    for (const Vec2& step : steps) {
+        found = std::max(found, step.norm());
+    }
+    return found;
+}
+
+double norm_of(const NodeArray& gradient) {
+    double largest = 0.0;
+    for (const Vec2& g : gradient.nodes) {
+        largest = std::max(largest, (std::abs(g.x()) + std::abs(g.y())) / 4.0);
+    }
+    return largest;
+}
+
+} // namespace
+
+DiscreteMinimiser::DiscreteMinimiser(NodeArray start, WeightPtr weight, const EllipticSettings& settings)
+    : nodes_(std::move(start)), weight_(std::move(weight)), settings_(settings) {
+    expects(nodes_.rows >= 2 && nodes_.columns >= 2, "a grid to solve for has at least 2 x 2 nodes");
+    expects(all_finite(nodes_), "a grid to solve for is finite");
+    expects(weight_ != nullptr, "a solver has a weight");
+    expects(settings_.boundary == Boundary::fixed || is_axis_rectangle(nodes_),
+            "nodes slide only along the sides of a rectangle parallel to the axes");
+    if (!(min_corner_jacobian(nodes_) > 0.0)) {
+        status_ = SolverStatus::folded;
+        return;
+    }
+    now_ = evaluate(nodes_);
+    status_ = std::isfinite(now_.value) ? SolverStatus::running : SolverStatus::not_finite;
+}
+
+std::unique_ptr<EllipticSolver> DiscreteMinimiser::clone() const {
+    return std::make_unique<DiscreteMinimiser>(*this);
+}
+
+/// The gradient along what may move.
+DiscreteFunctional DiscreteMinimiser::evaluate(const NodeArray& nodes) const {
+    DiscreteFunctional found = discrete_functional(nodes, *weight_, settings_.functional);
+    for (int i = 0; i < found.gradient.rows; ++i) {
+        for (int j = 0; j < found.gradient.columns; ++j) {
+            Vec2& g = found.gradient.at(i, j);
+            g = g.cwiseProduct(freedom(nodes, i, j, settings_.boundary == Boundary::sliding)).eval();
+        }
+    }
+    return found;
+}
+
+/// The two-loop recursion (Nocedal 1980).
+std::vector<Vec2> DiscreteMinimiser::direction() const {
+    std::vector<Vec2> d = now_.gradient.nodes;
+    std::vector<double> alpha(memory_.size());
+    for (std::size_t k = memory_.size(); k-- > 0;) {
+        alpha[k] = memory_[k].inverse_sy * dot(memory_[k].s, d);
+        add(d, -alpha[k], memory_[k].y);
+    }
+    const double scale =
+        memory_.empty() ? 1.0 : 1.0 / (memory_.back().inverse_sy * dot(memory_.back().y, memory_.back().y));
+    for (Vec2& step : d) {
+        step *= -scale;
+    }
+    for (std::size_t k = 0; k < memory_.size(); ++k) {
+        const double beta = memory_[k].inverse_sy * dot(memory_[k].y, d);
+        add(d, -alpha[k] - beta, memory_[k].s);
+    }
+    return d;
+}
+
+/// Takes the longest of the halved steps that decreases the functional enough; false if none does.
+bool DiscreteMinimiser::search(const std::vector<Vec2>& direction) {
+    const double slope = dot(now_.gradient.nodes, direction);
+    const double length = longest(direction);
+    if (!(slope < 0.0) || !(length > 0.0)) {
+        return false;
+    }
+    double factor = std::min(1.0, longest_step / length);
+    for (int halving = 0; halving < most_halvings; ++halving, factor /= 2.0) {
+        NodeArray tried = nodes_;
+        add(tried.nodes, factor, direction);
+        DiscreteFunctional there = evaluate(tried);
+        if (there.value <= now_.value + sufficient_decrease * factor * slope) {
+            std::swap(nodes_, tried);
+            std::swap(now_, there);
+            remember(tried, there);
+            return true;
+        }
+    }
+    return false;
+}
+
+void DiscreteMinimiser::remember(const NodeArray& old_nodes, const DiscreteFunctional& old) {
+    Pair pair{nodes_.nodes, now_.gradient.nodes, 0.0};
+    add(pair.s, -1.0, old_nodes.nodes);
+    add(pair.y, -1.0, old.gradient.nodes);
+    const double sy = dot(pair.s, pair.y);
+    if (!(sy > least_curvature * std::sqrt(dot(pair.s, pair.s) * dot(pair.y, pair.y)))) {
+        return;
+    }
+    pair.inverse_sy = 1.0 / sy;
+    memory_.push_back(std::move(pair));
+    if (memory_.size() > memory_length) {
+        memory_.pop_front();
+    }
+}
+
+bool DiscreteMinimiser::iterate() {
+    if (status_ != SolverStatus::running) {
+        return false;
+    }
+    const bool gradient_alone = memory_.empty();
+    const bool moved = search(direction());
+    ++iterations_;
+    norm_ = norm_of(now_.gradient);
+    if (norm_ <= settings_.tolerance) {
+        status_ = SolverStatus::converged;
+    } else if (!moved && gradient_alone) {
+        status_ = SolverStatus::stalled;
+    } else if (iterations_ >= settings_.max_iterations) {
+        status_ = SolverStatus::iteration_limit;
+    }
+    if (!moved) {
+        memory_.clear();
+    }
+    return status_ == SolverStatus::running;
+}
+
+} // namespace millwright::grid

@@ -1,0 +1,53 @@
+// The robust solver: minimises the discrete functional (discrete_functional.h) by L-BFGS. A step that would
+// close a corner triangle is shortened, so no iteration ever folds a cell, however strong the weight.
+#pragma once
+
+#include "core/grid/discrete_functional.h"
+#include "core/grid/elliptic_solver.h"
+
+#include <deque>
+
+namespace millwright::grid {
+
+/// Same bytes on any number of threads. The norm is max (|g_x| + |g_y|) / 4 over the nodes that may move, g
+/// the gradient: what JacobiNewton calls the norm, since g is about -2 R.
+class DiscreteMinimiser final : public EllipticSolver {
+public:
+    /// `start` is in solver coordinates, at least 2 x 2, finite; a folded one is reported by the first
+    /// iteration. With a sliding boundary its outline is a rectangle along the axes. Throws Defect if not.
+    DiscreteMinimiser(NodeArray start, WeightPtr weight, const EllipticSettings& settings);
+
+    bool iterate() override;
+
+    [[nodiscard]] SolverStatus status() const override { return status_; }
+    [[nodiscard]] int iterations() const override { return iterations_; }
+    [[nodiscard]] double norm() const override { return norm_; }
+    [[nodiscard]] const NodeArray& nodes() const override { return nodes_; }
+    [[nodiscard]] std::unique_ptr<EllipticSolver> clone() const override;
+
+    /// The functional at the current nodes.
+    [[nodiscard]] double value() const { return now_.value; }
+
+private:
+    /// One remembered step and the change of the gradient along it.
+    struct Pair {
+        std::vector<Vec2> s, y;
+        double inverse_sy = 0.0;
+    };
+
+    [[nodiscard]] DiscreteFunctional evaluate(const NodeArray& nodes) const;
+    [[nodiscard]] std::vector<Vec2> direction() const;
+    bool search(const std::vector<Vec2>& direction);
+    void remember(const NodeArray& old_nodes, const DiscreteFunctional& old);
+
+    NodeArray nodes_;
+    WeightPtr weight_;
+    EllipticSettings settings_;
+    DiscreteFunctional now_;
+    std::deque<Pair> memory_;
+    SolverStatus status_ = SolverStatus::running;
+    int iterations_ = 0;
+    double norm_ = norm_at_start;
+};
+
+} // namespace millwright::grid

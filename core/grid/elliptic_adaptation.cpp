@@ -1,0 +1,280 @@
+#include "core/grid/elliptic_adaptation.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/grid/discrete_minimiser.h"
+#include "core/grid/jacobi_newton.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr int iterations_per_measurement =
+    10; // not those of a step, so that watching does not change the result
+constexpr int most_falls = 3;
+constexpr double fall_of_adaptation = 0.1;
+constexpr int shown_decimals = 4; // of a mean error in mm
+
+bool has_failed(SolverStatus status) {
+    return status == SolverStatus::folded || status == SolverStatus::not_finite ||
+           status == SolverStatus::singular;
+}
+
+ImproverStatus as_improver_status(SolverStatus status) {
+    switch (status) {
+    case SolverStatus::converged:
+        return ImproverStatus::converged;
+    case SolverStatus::folded:
+        return ImproverStatus::folded;
+    case SolverStatus::not_finite:
+        return ImproverStatus::not_finite;
+    case SolverStatus::singular:
+        return ImproverStatus::singular;
+    case SolverStatus::running:
+    case SolverStatus::iteration_limit:
+    case SolverStatus::stalled:
+        break;
+    }
+    return ImproverStatus::iteration_limit;
+}
+
+std::string failure_sentence(SolverStatus status) {
+    switch (status) {
+    case SolverStatus::folded:
+        return "a cell folded";
+    case SolverStatus::singular:
+        return "a node's equations have no solution";
+    default:
+        return "a number left the finite range";
+    }
+}
+
+std::string mean_sentence(const ErrorSummary& error) {
+    return std::isfinite(error.mean) ? "mean error " + fixed(error.mean, shown_decimals) + " mm"
+                                     : "some moves are out of reach";
+}
+
+/// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.
+void keep_outline(NodeArray& nodes, const NodeArray& from) {
+    for (int i = 0; i < nodes.rows; ++i) {
+        nodes.at(i, 0) = from.at(i, 0);
+        nodes.at(i, nodes.columns - 1) = from.at(i, nodes.columns - 1);
+    }
+    for (int j = 0; j < nodes.columns; ++j) {
+        nodes.at(0, j) = from.at(0, j);
+        nodes.at(nodes.rows - 1, j) = from.at(nodes.rows - 1, j);
+    }
+}
+
+void expects_sense(const EllipticAdaptationSettings& settings) {
+    expects(settings.functional.adaptation >= 0.0 && settings.functional.orthogonality >= 0.0,
+            "LV and LO are not negative");
+    expects(settings.tolerance >= 0.0 && settings.error_change >= 0.0, "tolerances are not negative");
+    expects(settings.max_iterations > 0 && settings.max_rounds > 0 && settings.iterations_per_step > 0,
+            "an adaptation does at least one iteration a step and one round");
+    expects(settings.memory >= 0.0 && settings.memory < 1.0, "the memory is a share, and not all");
+    expects(settings.error_weight.exponent > 0.0 && settings.error_weight.floor > 0.0 &&
+                settings.error_weight.smoothing_passes >= 0,
+            "the weight of the error is positive");
+}
+
+std::string warning_of(const Weight* weight, const Grid& start) {
+    if (weight == nullptr) {
+        return {};
+    }
+    const int count = count_not_positive(*weight, to_solver_coordinates(start.array()));
+    return count == 0 ? std::string{}
+                      : "The weight is not positive at " + std::to_string(count) + " of " +
+                            std::to_string(start.array().nodes.size()) +
+                            " nodes, so the functional may have no minimum. ";
+}
+
+} // namespace
+
+EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
+                                       const Grid& start,
+                                       const EllipticAdaptationSettings& settings,
+                                       WeightPtr weight)
+    : model_(model), settings_(settings), weight_(std::move(weight)),
+      warning_(warning_of(weight_.get(), start)),
+      start_(start), at_{.state = {.current = start.array(), .best = start},
+                         .round_start = start,
+                         .functional = settings.functional} {
+    expects_sense(settings_);
+    expects(settings_.method == EllipticMethod::minimiser || (start.nu() >= 3 && start.nv() >= 3),
+            "the reference method has at least 3 x 3 nodes");
+    at_.moves = measure(model_, start_, settings_.direction, settings_.sampling);
+    at_.state.start = summary(at_.moves);
+    at_.state.now = at_.state.start;
+    at_.state.of_best = at_.state.start;
+    at_.round_start_error = at_.state.start.mean;
+    at_.state.note = warning_ + "Start: " + mean_sentence(at_.state.start);
+}
+
+bool EllipticAdaptation::advance(const Progress& progress) {
+    if (at_.state.status != ImproverStatus::running) {
+        return false;
+    }
+    progress.check();
+    Position next = at_;
+    if (next.ending != ImproverStatus::running) {
+        confirm(next, progress);
+    } else if (weight_ == nullptr && next.state.start.max <= no_error) {
+        next.state.status = ImproverStatus::no_gain;
+        next.state.note = "There is no error to reduce";
+    } else {
+        step(next, progress);
+    }
+    at_ = std::move(next);
+    const double rounds = at_.state.round + static_cast<double>(at_.state.iteration - at_.iterations_before) /
+                                                settings_.max_iterations;
+    progress.report(rounds / settings_.max_rounds, at_.state.note);
+    return at_.state.status == ImproverStatus::running;
+}
+
+/// Density of this round and, fading, of those before, as the weight of the next solver.
+WeightPtr EllipticAdaptation::error_weight(Position& at) const {
+    std::vector<double> density = error_density(at.round_start, settings_.direction, at.moves);
+    if (at.density != nullptr) {
+        const std::vector<double> before =
+            weight_at_nodes(*at.density, to_solver_coordinates(at.round_start.array()));
+        for (std::size_t k = 0; k < density.size(); ++k) {
+            density[k] = (1.0 - settings_.memory) * density[k] + settings_.memory * before[k];
+        }
+    }
+    at.density = weight_on(at.round_start, density);
+    return weight_on(
+        at.round_start,
+        scaled_weight(std::move(density), at.round_start.nu(), at.round_start.nv(), settings_.error_weight));
+}
+
+std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) const {
+    const EllipticSettings solver{.functional = at.functional,
+                                  .relaxation = settings_.relaxation,
+                                  .tolerance = settings_.tolerance,
+                                  .max_iterations = settings_.max_iterations,
+                                  .boundary = settings_.boundary};
+    if (at.round_weight == nullptr) {
+        at.round_weight = weight_ != nullptr ? weight_ : error_weight(at);
+    }
+    NodeArray nodes = to_solver_coordinates(at.round_start.array());
+    if (settings_.method == EllipticMethod::reference) {
+        return std::make_unique<JacobiNewton>(std::move(nodes), at.round_weight, solver);
+    }
+    return std::make_unique<DiscreteMinimiser>(std::move(nodes), at.round_weight, solver);
+}
+
+void EllipticAdaptation::step(Position& at, const Progress& progress) const {
+    const std::unique_ptr<EllipticSolver> solver = at.solver != nullptr ? at.solver->clone() : new_solver(at);
+    bool more = true;
+    for (int n = 0; more && n < settings_.iterations_per_step; ++n) {
+        progress.check();
+        more = solver->iterate();
+        if (has_failed(solver->status())) {
+            at.state.iteration = at.iterations_before + solver->iterations();
+            fall(at, solver->status());
+            return;
+        }
+        if (!more || solver->iterations() % iterations_per_measurement == 0) {
+            take(at, solver->nodes(), progress);
+        }
+    }
+    at.state.current = parameters_of(solver->nodes());
+    at.state.iteration = at.iterations_before + solver->iterations();
+    at.state.norm = solver->norm();
+    at.solver = solver->clone();
+    at.state.note = warning_ + "Round " + std::to_string(at.state.round + 1) + ", iteration " +
+                    std::to_string(solver->iterations()) + ": " + mean_sentence(at.state.now);
+    if (!more) {
+        end_round(at, solver->status());
+    }
+}
+
+NodeArray EllipticAdaptation::parameters_of(const NodeArray& nodes) const {
+    NodeArray array = to_parameters(nodes);
+    if (settings_.boundary == Boundary::fixed) {
+        keep_outline(array, start_.array());
+    }
+    return array;
+}
+
+/// Measures the grid that `nodes` are, and keeps it if it is the best so far.
+void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progress& progress) const {
+    const Grid grid(parameters_of(nodes));
+    at.moves = measure(model_, grid, settings_.direction, settings_.sampling, progress);
+    at.state.now = summary(at.moves);
+    const bool axis_is_kept = at.state.now.axis_max <= at.state.start.axis_max;
+    if (at.state.now.mean < at.state.of_best.mean && axis_is_kept) {
+        at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
+        at.state.best = grid;
+        at.state.of_best = at.state.now;
+    }
+}
+
+/// The round starts again with less adaptation, or everything ends if that was tried often enough.
+void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
+    const std::string what = failure_sentence(failure) + " at LV = " + shortest(at.functional.adaptation);
+    at.state.current = at.round_start.array();
+    at.iterations_before = at.state.iteration;
+    at.solver = nullptr;
+    if (at.falls == most_falls || at.functional.adaptation <= 0.0) {
+        at.ending = as_improver_status(failure);
+        at.state.note = warning_ + "Given up: " + what;
+        return;
+    }
+    ++at.falls;
+    at.functional.adaptation *= fall_of_adaptation;
+    at.state.note = warning_ + "Started again with LV = " + shortest(at.functional.adaptation) + ": " + what;
+}
+
+void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
+    const double before = at.round_start_error;
+    const double now = at.state.now.mean;
+    ++at.state.round;
+    at.iterations_before = at.state.iteration;
+    at.solver = nullptr;
+    at.round_weight = nullptr;
+    at.round_start = Grid(at.state.current);
+    at.round_start_error = now;
+    const bool settled = weight_ != nullptr
+                             ? solved != SolverStatus::iteration_limit
+                             : std::isfinite(before) && std::isfinite(now) &&
+                                   std::abs(now - before) <= settings_.error_change * at.state.start.mean;
+    if (settled) {
+        at.ending = weight_ != nullptr ? as_improver_status(solved) : ImproverStatus::converged;
+    } else if (at.state.round >= settings_.max_rounds) {
+        at.ending = ImproverStatus::iteration_limit;
+    }
+}
+
+/// Takes the best candidate that fine sampling finds better than the start, too.
+void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
+    const auto finely = [&](const Grid& grid) {
+        return summary(measure(model_, grid, settings_.direction, fine, progress));
+    };
+    at.state.best = start_;
+    at.state.of_best = at.state.start;
+    bool better = false;
+    const ErrorSummary start = at.candidates.empty() ? ErrorSummary{} : finely(start_);
+    for (auto candidate = at.candidates.rbegin(); !better && candidate != at.candidates.rend(); ++candidate) {
+        const ErrorSummary found = finely((*candidate)->grid);
+        better = found.mean < start.mean && found.axis_max <= start.axis_max;
+        if (better) {
+            at.state.best = (*candidate)->grid;
+            at.state.of_best = (*candidate)->error;
+        }
+    }
+    const bool failed = at.ending == ImproverStatus::folded || at.ending == ImproverStatus::not_finite ||
+                        at.ending == ImproverStatus::singular;
+    at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;
+    if (!failed) {
+        at.state.note = warning_ + (better ? "Best grid: " + mean_sentence(at.state.of_best)
+                                           : "No grid was better than the start");
+    }
+}
+
+} // namespace millwright::grid

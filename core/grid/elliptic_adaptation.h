@@ -1,0 +1,102 @@
+// Adaptation of a grid to the error of a machine by the elliptic functional: the outer loop of
+// (Parasilmongkol 1997, KMITL) ch. 4. Measure the error, make a weight of it, let a solver move the nodes,
+// measure again, until the error no longer changes. All in the parameters (u, v) of one patch, so that a
+// moved node is on the surface by itself.
+#pragma once
+
+#include "core/grid/elliptic_solver.h"
+#include "core/grid/error_weight.h"
+#include "core/grid/improver.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::grid {
+
+/// Who moves the nodes.
+enum class EllipticMethod {
+    minimiser, ///< DiscreteMinimiser: never folds, converges with strong weights
+    reference, ///< JacobiNewton: the thesis's iteration
+};
+
+struct EllipticAdaptationSettings {
+    TrackDirection direction = TrackDirection::along_v;
+    FunctionalWeights functional{.adaptation = 100.0, .orthogonality = 0.0};
+    Boundary boundary = Boundary::sliding;
+    EllipticMethod method = EllipticMethod::minimiser;
+    double relaxation = 0.81;     ///< WW of the reference method
+    double tolerance = 1e-3;      ///< of the solver's norm
+    int max_iterations = 250;     ///< of the solver, in one round
+    int max_rounds = 10;          ///< of the outer loop
+    double error_change = 1e-4;   ///< delta: the outer loop ends when the mean changes by less of its start
+    int iterations_per_step = 10; ///< of the solver, in one advance()
+    ErrorWeightSettings error_weight{};
+    double memory = 0.5; ///< share of the earlier rounds in the error density: damps the outer loop
+    Sampling sampling = coarse;
+
+    friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
+};
+
+/// Measures every ten iterations, so that the grid half-way to a solution can be the best one. If the solver
+/// fails, LV becomes a tenth and the round starts again; after three such falls the adaptation ends with the
+/// solver's failure. Before the end the best grid is confirmed against the start with fine sampling.
+class EllipticAdaptation final : public GridImprover {
+public:
+    /// Adapts `start` to the error of `model`, which must outlive this, or to `weight` (in solver
+    /// coordinates) where one is given: that is one round after another until the solver converges. Throws
+    /// Defect if the settings make no sense, if the reference method gets less than 3 x 3 nodes, or if a
+    /// boundary that slides is not straight.
+    EllipticAdaptation(const ErrorModel& model,
+                       const Grid& start,
+                       const EllipticAdaptationSettings& settings,
+                       WeightPtr weight = nullptr);
+
+    /// Also throws Error if the weight does.
+    bool advance(const Progress& progress) override;
+
+    [[nodiscard]] const ImproverState& state() const override { return at_.state; }
+
+    /// LV of the round that is running: that of the settings until a solver failed.
+    [[nodiscard]] double adaptation() const { return at_.functional.adaptation; }
+
+private:
+    struct Candidate {
+        Grid grid;
+        ErrorSummary error;
+    };
+
+    /// Everything that a step changes; a cancelled step is forgotten with its copy.
+    struct Position {
+        ImproverState state;
+        Grid round_start;
+        double round_start_error = 0.0;                 ///< mean
+        std::vector<MoveError> moves{};                 ///< of the last complete grid
+        WeightPtr density{};                            ///< the error density, remembered from round to round
+        WeightPtr round_weight{};                       ///< null between two rounds
+        std::shared_ptr<const EllipticSolver> solver{}; ///< null between two rounds
+        std::vector<std::shared_ptr<const Candidate>> candidates{}; ///< each better than the one before
+        FunctionalWeights functional{};
+        int falls = 0;
+        int iterations_before = 0;                       ///< done before the solver started
+        ImproverStatus ending = ImproverStatus::running; ///< how it will end, once confirmed
+    };
+
+    [[nodiscard]] WeightPtr error_weight(Position& at) const;
+    [[nodiscard]] std::unique_ptr<EllipticSolver> new_solver(Position& at) const;
+    void step(Position& at, const Progress& progress) const;
+    [[nodiscard]] NodeArray parameters_of(const NodeArray& nodes) const;
+    void take(Position& at, const NodeArray& nodes, const Progress& progress) const;
+    void fall(Position& at, SolverStatus failure) const;
+    void end_round(Position& at, SolverStatus solved) const;
+    void confirm(Position& at, const Progress& progress) const;
+
+    const ErrorModel& model_;
+    EllipticAdaptationSettings settings_;
+    WeightPtr weight_;    ///< null: from the error
+    std::string warning_; ///< about the weight
+    Grid start_;
+    Position at_;
+};
+
+} // namespace millwright::grid

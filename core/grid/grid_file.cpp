@@ -1,0 +1,224 @@
+#include "core/grid/grid_file.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr int decimals = 8;
+constexpr std::size_t width = 18;
+constexpr double farthest = 1e9; // what 18 places hold
+
+/// A number of the file and where it stands.
+struct Number {
+    double value = 0.0;
+    int line = 0;
+    int column = 0;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, int column, std::string message) {
+    Diagnostic found;
+    found.place = {.file = file, .line = line, .column = column};
+    found.message = std::move(message);
+    throw Error(std::move(found));
+}
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// At most the first 40 bytes, with everything that does not print as a dot.
+std::string quoted(std::string_view word) {
+    constexpr std::size_t most = 40;
+    std::string text(word.substr(0, most));
+    std::ranges::replace_if(
+        text, [](char c) { return c < ' ' || c > '~'; }, '.');
+    return "\"" + text + (word.size() > most ? "..." : "") + "\"";
+}
+
+double number(std::string_view word, const std::filesystem::path& file, int line, int column) {
+    const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
+    double value = 0.0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (fault == std::errc::result_out_of_range) {
+        fail(file, line, column, quoted(word) + " is too large or too small for a number");
+    }
+    if (fault != std::errc{} || end != digits.data() + digits.size()) {
+        fail(file, line, column, quoted(word) + " is no number");
+    }
+    if (!std::isfinite(value)) {
+        fail(file, line, column, quoted(word) + " is not finite");
+    }
+    return value;
+}
+
+/// The numbers of one line; `text` has no newline.
+std::vector<Number> numbers_of_line(std::string_view text, const std::filesystem::path& file, int line) {
+    std::vector<Number> found;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        if (is_blank(text[at])) {
+            ++at;
+            continue;
+        }
+        std::size_t end = at;
+        while (end < text.size() && !is_blank(text[end])) {
+            ++end;
+        }
+        const int column = static_cast<int>(at) + 1;
+        found.push_back({number(text.substr(at, end - at), file, line, column), line, column});
+        at = end;
+    }
+    return found;
+}
+
+/// The lines that have numbers.
+std::vector<std::vector<Number>> numbers_of(std::string_view text, const std::filesystem::path& file) {
+    std::vector<std::vector<Number>> lines;
+    int line = 0;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::vector<Number> found = numbers_of_line(text.substr(0, end), file, ++line);
+        if (!found.empty()) {
+            lines.push_back(std::move(found));
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
+/// Where each node's first number stands, row-major, beside the nodes.
+struct Placed {
+    NodeArray nodes;
+    std::vector<Number> places;
+};
+
+bool is_folded(const NodeArray& nodes, int i, int j) {
+    NodeArray cell(2, 2);
+    for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b < 2; ++b) {
+            cell.at(a, b) = nodes.at(i + a, j + b);
+        }
+    }
+    return !(min_corner_jacobian(cell) > 0.0);
+}
+
+void require_sound(const Placed& found, const std::filesystem::path& file) {
+    const NodeArray& nodes = found.nodes;
+    for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+        if (nodes.nodes[k].cwiseAbs().maxCoeff() > farthest) {
+            fail(file,
+                 found.places[k].line,
+                 found.places[k].column,
+                 "A coordinate of this node is beyond 1e9");
+        }
+    }
+    for (int i = 0; i + 1 < nodes.rows; ++i) {
+        for (int j = 0; j + 1 < nodes.columns; ++j) {
+            if (is_folded(nodes, i, j)) {
+                const Number& place = found.places[nodes.index(i, j)];
+                fail(file,
+                     place.line,
+                     place.column,
+                     "The cell from node (" + std::to_string(i) + ", " + std::to_string(j) + ") is folded");
+            }
+        }
+    }
+}
+
+std::string padded(double value) {
+    std::string text = fixed(value, decimals);
+    return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+} // namespace
+
+std::string pairs_text(const NodeArray& nodes) {
+    std::string text;
+    for (const Vec2& p : nodes.nodes) {
+        text += fixed(p.x(), decimals) + " " + fixed(p.y(), decimals) + "\n";
+    }
+    return text;
+}
+
+std::string blocks_text(const NodeArray& nodes) {
+    std::string text;
+    for (const Eigen::Index coordinate : {0, 1}) {
+        for (int i = 0; i < nodes.rows; ++i) {
+            for (int j = 0; j < nodes.columns; ++j) {
+                text += padded(nodes.at(i, j)[coordinate]) + " ";
+            }
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+NodeArray parse_pairs(std::string_view text, const std::filesystem::path& file, int rows, int columns) {
+    expects(rows >= 2 && columns >= 2, "a grid file has at least 2 x 2 nodes");
+    std::vector<Number> all;
+    for (const std::vector<Number>& line : numbers_of(text, file)) {
+        all.insert(all.end(), line.begin(), line.end());
+    }
+    const std::size_t wanted = 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    const std::string sentence = std::to_string(rows) + " x " + std::to_string(columns) + " nodes need " +
+                                 std::to_string(wanted) + " numbers, here are " + std::to_string(all.size());
+    if (all.size() > wanted) {
+        fail(file, all[wanted].line, all[wanted].column, sentence);
+    }
+    if (all.size() < wanted) {
+        fail(file, all.empty() ? 1 : all.back().line, all.empty() ? 1 : all.back().column, sentence);
+    }
+    Placed found{NodeArray(rows, columns), {}};
+    for (std::size_t k = 0; k < found.nodes.nodes.size(); ++k) {
+        found.nodes.nodes[k] = Vec2(all[2 * k].value, all[2 * k + 1].value);
+        found.places.push_back(all[2 * k]);
+    }
+    require_sound(found, file);
+    return found.nodes;
+}
+
+NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file, FileContents contents) {
+    const std::vector<std::vector<Number>> lines = numbers_of(text, file);
+    if (lines.size() < 4 || lines.size() % 2 != 0) {
+        fail(file,
+             lines.empty() ? 1 : lines.back().front().line,
+             1,
+             "Two blocks need an even number of lines, at least 4; here are " + std::to_string(lines.size()));
+    }
+    const std::size_t columns = lines.front().size();
+    for (const std::vector<Number>& line : lines) {
+        if (line.size() != columns || columns < 2) {
+            const Number& at = line[std::min(columns, line.size() - 1)];
+            fail(file,
+                 at.line,
+                 at.column,
+                 std::to_string(line.size()) + " numbers in this line, " +
+                     std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
+        }
+    }
+    const std::size_t rows = lines.size() / 2;
+    Placed found{NodeArray(static_cast<int>(rows), static_cast<int>(columns)), {}};
+    for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t j = 0; j < columns; ++j) {
+            found.nodes.nodes[i * columns + j] = Vec2(lines[i][j].value, lines[rows + i][j].value);
+            found.places.push_back(lines[i][j]);
+        }
+    }
+    if (contents == FileContents::nodes) {
+        require_sound(found, file);
+    }
+    return found.nodes;
+}
+
+} // namespace millwright::grid

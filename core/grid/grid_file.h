@@ -1,0 +1,34 @@
+// The text files of the thesis's solver. Pairs: "x y" of every node, row by row, no header, so the reader
+// must be told the size. Blocks: all x as one line a row, then all y; numbers 18 wide with 8 decimals, each
+// followed by a blank; residuals are written the same way, R_X then R_Y. Source: (Parasilmongkol 1997, KMITL)
+// appendix B.
+#pragma once
+
+#include "core/grid/node_array.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace millwright::grid {
+
+/// What the numbers of a file are.
+enum class FileContents {
+    nodes,     ///< of a grid: it must not be folded, coordinates lie within 1e9
+    residuals, ///< any finite numbers
+};
+
+/// One pair a line. Throws Defect if a number is not finite.
+[[nodiscard]] std::string pairs_text(const NodeArray& nodes);
+[[nodiscard]] std::string blocks_text(const NodeArray& nodes);
+
+/// Reading `text`, the bytes of `file`. Each throws Error with file, line and column at the first thing that
+/// is no finite number, at a wrong count, at a folded cell. At least 2 x 2 nodes; otherwise Error (Defect for
+/// rows and columns below 2). What blocks_text wrote comes back exact to 8 decimals.
+[[nodiscard]] NodeArray
+parse_pairs(std::string_view text, const std::filesystem::path& file, int rows, int columns);
+[[nodiscard]] NodeArray parse_blocks(std::string_view text,
+                                     const std::filesystem::path& file,
+                                     FileContents contents = FileContents::nodes);
+
+} // namespace millwright::grid

@@ -1,0 +1,306 @@
+#include "core/grid/elliptic_adaptation.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/grid/expression_weight.h"
+#include "tests/support/pole_error_model.h"
+#include "tests/support/test_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stop_token>
+#include <vector>
+
+namespace millwright::grid {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+EllipticAdaptationSettings quick() {
+    EllipticAdaptationSettings settings;
+    settings.max_rounds = 4;
+    settings.max_iterations = 60;
+    return settings;
+}
+
+ErrorSummary finely(const ErrorModel& model, const Grid& grid) {
+    return summary(measure(model, grid, TrackDirection::along_v, fine));
+}
+
+TEST(EllipticAdaptation, CutsTheMeanErrorOfAPole) {
+    const PoleErrorModel model({});
+    for (const Boundary boundary : {Boundary::fixed, Boundary::sliding}) {
+        EllipticAdaptationSettings settings;
+        settings.boundary = boundary;
+        EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
+        const ImproverState state = run(adaptation, Progress());
+        EXPECT_LT(finely(model, state.best).mean, 0.93 * finely(model, Grid::uniform(16, 16)).mean);
+        EXPECT_LE(state.of_best.axis_max, state.start.axis_max);
+        EXPECT_GT(state.best.min_jacobian(), 0.0);
+        EXPECT_GT(state.round, 1);
+        EXPECT_NE(state.status, ImproverStatus::no_gain);
+    }
+}
+
+TEST(EllipticAdaptation, NeverReportsWorseThanTheStart) {
+    const unsigned seed = 1997;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> anywhere(0.0, 1.0);
+    for (int n = 0; n < 8; ++n) {
+        const PoleErrorModel model({.pole = {anywhere(random), anywhere(random)},
+                                    .radius = 60.0 * anywhere(random),
+                                    .background = 100.0 * anywhere(random)});
+        EllipticAdaptationSettings settings = quick();
+        settings.method = n % 2 == 0 ? EllipticMethod::minimiser : EllipticMethod::reference;
+        settings.boundary = n % 4 < 2 ? Boundary::sliding : Boundary::fixed;
+        const Grid start = Grid::uniform(9 + n, 12);
+        EllipticAdaptation adaptation(model, start, settings);
+        double best = infinity;
+        do {
+            EXPECT_LE(adaptation.state().of_best.mean, adaptation.state().start.mean);
+            EXPECT_LE(adaptation.state().of_best.mean, best);
+            best = adaptation.state().of_best.mean;
+        } while (adaptation.advance(Progress()));
+        EXPECT_LE(finely(model, adaptation.state().best).mean, finely(model, start).mean);
+    }
+}
+
+TEST(EllipticAdaptation, StaysWhereItIsWhenTheErrorIsEvenAlready) {
+    const PoleErrorModel model({.radius = 0.0, .background = 20.0});
+    const Grid start = Grid::uniform(10, 10);
+    EllipticAdaptation adaptation(model, start, quick());
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    EXPECT_EQ(state.best, start);
+    EXPECT_EQ(state.of_best.mean, state.start.mean);
+}
+
+TEST(EllipticAdaptation, HasNothingToDoWithoutAnError) {
+    const PoleErrorModel model({.radius = 0.0, .background = 0.0});
+    EllipticAdaptation adaptation(model, Grid::uniform(10, 10), quick());
+    EXPECT_FALSE(adaptation.advance(Progress()));
+    EXPECT_EQ(adaptation.state().status, ImproverStatus::no_gain);
+    EXPECT_EQ(adaptation.state().iteration, 0);
+    EXPECT_FALSE(adaptation.advance(Progress()));
+}
+
+TEST(EllipticAdaptation, DoesNotMoveAFixedBoundaryByOneBit) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.boundary = Boundary::fixed;
+    const Grid start = Grid::uniform(12, 15);
+    EllipticAdaptation adaptation(model, start, settings);
+    const ImproverState state = run(adaptation, Progress());
+    ASSERT_NE(state.best, start);
+    for (const NodeArray& nodes : {state.best.array(), state.current}) {
+        for (int i = 0; i < 12; ++i) {
+            EXPECT_EQ(nodes.at(i, 0), start.node(i, 0));
+            EXPECT_EQ(nodes.at(i, 14), start.node(i, 14));
+        }
+        for (int j = 0; j < 15; ++j) {
+            EXPECT_EQ(nodes.at(0, j), start.node(0, j));
+            EXPECT_EQ(nodes.at(11, j), start.node(11, j));
+        }
+    }
+}
+
+TEST(EllipticAdaptation, LessensTheAdaptationWhenTheReferenceSolverFolds) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.method = EllipticMethod::reference;
+    settings.boundary = Boundary::fixed;
+    EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1()); // folds at LV = 100
+    adaptation.advance(Progress());
+    EXPECT_EQ(adaptation.adaptation(), 10.0);
+    EXPECT_EQ(adaptation.state().iteration, 1);
+    EXPECT_NE(adaptation.state().note.find("folded at LV = 100"), std::string::npos);
+    EXPECT_EQ(adaptation.state().current, Grid::uniform(25, 25).array());
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_NE(state.status, ImproverStatus::folded);
+    EXPECT_EQ(adaptation.adaptation(), 10.0);
+}
+
+TEST(EllipticAdaptation, GivesUpAsFoldedWhenNothingElseHelps) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.method = EllipticMethod::reference;
+    settings.functional.adaptation = 1e6;
+    const Grid start = Grid::uniform(25, 25);
+    EllipticAdaptation adaptation(model, start, settings, weight_w1());
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, ImproverStatus::folded);
+    EXPECT_EQ(state.best, start);
+    EXPECT_EQ(state.iteration, 4);
+    EXPECT_NE(state.note.find("folded"), std::string::npos);
+}
+
+TEST(EllipticAdaptation, ReportsAWeightThatIsNotFinite) {
+    const PoleErrorModel model({});
+    EllipticAdaptation adaptation(model, Grid::uniform(6, 6), quick(), broken_weight(infinity));
+    EXPECT_EQ(run(adaptation, Progress()).status, ImproverStatus::not_finite);
+}
+
+TEST(EllipticAdaptation, FollowsAWeightThatAPersonGave) {
+    const PoleErrorModel model({});
+    const WeightPtr weight = expression_weight("0.1 + exp(-20*((u-0.48)^2 + (v-0.53)^2))", 16, 16);
+    EllipticAdaptationSettings settings;
+    settings.max_iterations = 40; // not enough, so a second round goes on
+    EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings, weight);
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, ImproverStatus::converged);
+    EXPECT_GT(state.round, 1);
+    EXPECT_LE(state.norm, settings.tolerance);
+    EXPECT_LT(state.of_best.mean, state.start.mean);
+}
+
+TEST(EllipticAdaptation, WarnsOfAWeightThatIsNotPositive) {
+    const PoleErrorModel model({});
+    EllipticAdaptation adaptation(model, Grid::uniform(25, 25), quick(), weight_w4());
+    EXPECT_NE(adaptation.state().note.find("not positive at 337 of 625 nodes"), std::string::npos);
+    adaptation.advance(Progress());
+    EXPECT_NE(adaptation.state().note.find("not positive at 337 of 625 nodes"), std::string::npos);
+}
+
+TEST(EllipticAdaptation, DoesAsManyIterationsAStepAsAskedWithTheSameResult) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    std::vector<ImproverState> ends;
+    for (const int step : {1, 7, 10, 1000}) {
+        settings.iterations_per_step = step;
+        EllipticAdaptation adaptation(model, Grid::uniform(12, 12), settings);
+        adaptation.advance(Progress());
+        EXPECT_LE(adaptation.state().iteration, step);
+        EXPECT_EQ(adaptation.state().current.rows, 12);
+        ends.push_back(run(adaptation, Progress()));
+    }
+    for (const ImproverState& end : ends) {
+        EXPECT_EQ(end.best, ends.front().best);
+        EXPECT_EQ(end.iteration, ends.front().iteration);
+    }
+}
+
+TEST(EllipticAdaptation, GivesTheSameGridOnAnyNumberOfThreads) {
+    const PoleErrorModel model({});
+    std::vector<Grid> found;
+    for (const int threads : {1, 2, 7}) {
+        set_thread_count(threads);
+        EllipticAdaptation adaptation(model, Grid::uniform(40, 40), quick());
+        for (int n = 0; n < 8; ++n) {
+            adaptation.advance(Progress());
+        }
+        found.emplace_back(adaptation.state().current);
+    }
+    set_thread_count(0);
+    EXPECT_EQ(found[0], found[1]);
+    EXPECT_EQ(found[0], found[2]);
+}
+
+TEST(EllipticAdaptation, CancelledIsAsBeforeTheStepAndCanGoOn) {
+    const PoleErrorModel model({});
+    EllipticAdaptation cancelled(model, Grid::uniform(12, 12), quick());
+    EllipticAdaptation straight(model, Grid::uniform(12, 12), quick());
+    cancelled.advance(Progress());
+    straight.advance(Progress());
+    const int iteration = cancelled.state().iteration;
+    const NodeArray current = cancelled.state().current;
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(cancelled.advance(Progress(nullptr, stop.get_token())), Cancelled);
+    EXPECT_EQ(cancelled.state().iteration, iteration);
+    EXPECT_EQ(cancelled.state().current, current);
+    EXPECT_EQ(run(cancelled, Progress()).best, run(straight, Progress()).best);
+}
+
+/// Cancels after some moves were asked for.
+class StoppingModel final : public ErrorModel {
+public:
+    StoppingModel(std::stop_source& stop, int moves) : stop_(stop), left_(moves) {}
+    [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling sampling) const override {
+        if (--left_ == 0) {
+            stop_.request_stop();
+        }
+        return inner_.move(a, b, sampling);
+    }
+    [[nodiscard]] std::unique_ptr<LatticeErrors> lattice(std::span<const Vec2> nodes,
+                                                         Sampling sampling) const override {
+        return inner_.lattice(nodes, sampling);
+    }
+    [[nodiscard]] double track_gap(const Grid& grid, TrackDirection direction) const override {
+        return inner_.track_gap(grid, direction);
+    }
+
+private:
+    PoleErrorModel inner_{{}};
+    std::stop_source& stop_;
+    mutable std::atomic<int> left_;
+};
+
+TEST(EllipticAdaptation, CanBeCancelledInTheMiddleOfAMeasurement) {
+    std::stop_source stop;
+    const StoppingModel model(stop, 15 * 14 + 15 * 7); // in the middle of the second measurement
+    EllipticAdaptation adaptation(model, Grid::uniform(15, 15), quick());
+    EXPECT_THROW(adaptation.advance(Progress(nullptr, stop.get_token())), Cancelled);
+    EXPECT_EQ(adaptation.state().iteration, 0);
+    EXPECT_EQ(adaptation.state().current, Grid::uniform(15, 15).array());
+}
+
+TEST(EllipticAdaptation, StartsFromMovesOutOfReach) {
+    class HalfReached final : public ErrorModel {
+    public:
+        [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling sampling) const override {
+            return a.x() > 0.5 ? MoveError{infinity, infinity, 1.0} : inner_.move(a, b, sampling);
+        }
+        [[nodiscard]] std::unique_ptr<LatticeErrors> lattice(std::span<const Vec2> nodes,
+                                                             Sampling sampling) const override {
+            return inner_.lattice(nodes, sampling);
+        }
+        [[nodiscard]] double track_gap(const Grid& grid, TrackDirection direction) const override {
+            return inner_.track_gap(grid, direction);
+        }
+
+    private:
+        PoleErrorModel inner_{{}};
+    };
+    const HalfReached model;
+    EllipticAdaptation adaptation(model, Grid::uniform(8, 8), quick());
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    EXPECT_EQ(state.start.mean, infinity);
+}
+
+TEST(EllipticAdaptation, TellsHowFarItIs) {
+    const PoleErrorModel model({});
+    std::vector<Progress::Report> reports;
+    const Progress progress([&](const Progress::Report& report) { reports.push_back(report); }, {});
+    EllipticAdaptation adaptation(model, Grid::uniform(10, 10), quick());
+    (void)run(adaptation, progress);
+    ASSERT_GT(reports.size(), 3U);
+    EXPECT_GT(reports.back().fraction, reports.front().fraction);
+    EXPECT_NE(reports.front().text.find("Round 1"), std::string::npos);
+}
+
+TEST(EllipticAdaptation, RefusesSettingsWithoutSense) {
+    const PoleErrorModel model({});
+    const auto with = [&](auto change) {
+        EllipticAdaptationSettings settings;
+        change(settings);
+        return EllipticAdaptation(model, Grid::uniform(5, 5), settings);
+    };
+    EXPECT_THROW(with([](auto& s) { s.max_rounds = 0; }), Defect);
+    EXPECT_THROW(with([](auto& s) { s.iterations_per_step = 0; }), Defect);
+    EXPECT_THROW(with([](auto& s) { s.functional.adaptation = -1.0; }), Defect);
+    EXPECT_THROW(with([](auto& s) { s.error_weight.floor = 0.0; }), Defect);
+    EXPECT_THROW(with([](auto& s) { s.memory = 1.0; }), Defect);
+    EllipticAdaptationSettings reference;
+    reference.method = EllipticMethod::reference;
+    EXPECT_THROW(EllipticAdaptation(model, Grid::uniform(2, 5), reference), Defect);
+    EXPECT_NO_THROW(EllipticAdaptation(model, Grid::uniform(2, 5), {}));
+}
+
+} // namespace
+} // namespace millwright::grid

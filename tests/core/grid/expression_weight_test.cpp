@@ -1,0 +1,93 @@
+#include "core/grid/expression_weight.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::grid {
+namespace {
+
+constexpr int nu = 21;
+constexpr int nv = 11;
+
+double value(const std::string& text, const Vec2& p) {
+    double w = 0.0;
+    expression_weight(text, nu, nv)->values({&p, 1}, {&w, 1});
+    return w;
+}
+
+Diagnostic fault_of(const std::string& text) {
+    try {
+        (void)expression_weight(text, nu, nv);
+    } catch (const Error& error) {
+        return error.diagnostic();
+    }
+    return {};
+}
+
+TEST(ExpressionWeight, KnowsParametersSolverCoordinatesAndPi) {
+    const Vec2 p(5.0, 2.0); // u = 0.25, v = 0.2
+    EXPECT_DOUBLE_EQ(value("u", p), 0.25);
+    EXPECT_DOUBLE_EQ(value("v", p), 0.2);
+    EXPECT_DOUBLE_EQ(value("10*x + y", p), 52.0);
+    EXPECT_DOUBLE_EQ(value("1 + sin(2*pi*u)^2 + exp(-v)", p), 2.0 + std::exp(-0.2));
+    EXPECT_DOUBLE_EQ(value("u < 0.5 ? 3 : 1", p), 3.0);
+    EXPECT_DOUBLE_EQ(value("(u == 0.25) + (v >= 0.2) + (v != 1)", p), 3.0);
+}
+
+TEST(ExpressionWeight, HasTheGradientOfItsFormula) {
+    const WeightPtr w = expression_weight("1 + sin(u)*x + y^2", nu, nv);
+    const Vec2 p(7.3, 4.1);
+    Vec2 found = Vec2::Zero();
+    w->gradients({&p, 1}, {&found, 1});
+    EXPECT_NEAR(found.x(), std::sin(7.3 / 20.0) + 7.3 * std::cos(7.3 / 20.0) / 20.0, 1e-8);
+    EXPECT_NEAR(found.y(), 8.2, 1e-8);
+}
+
+TEST(ExpressionWeight, DoesNotAskForValuesBeyondTheSurface) {
+    const WeightPtr w = expression_weight("1 + sqrt(1 - u) + sqrt(v)", nu, nv);
+    const Vec2 corner(nu - 1, 0.0);
+    Vec2 found = Vec2::Zero();
+    EXPECT_NO_THROW(w->gradients({&corner, 1}, {&found, 1}));
+    EXPECT_TRUE(is_finite(found));
+}
+
+TEST(ExpressionWeight, SyntaxErrorsHaveTheirColumn) {
+    EXPECT_EQ(fault_of("1 + foo*u").place.column, 5);
+    EXPECT_EQ(fault_of("1 + * u").place.column, 5);
+    EXPECT_EQ(fault_of("2 $ u").place.column, 3);
+    EXPECT_GT(fault_of("(1 + u").place.column, 0);
+    EXPECT_GT(fault_of("").place.column, 0);
+    EXPECT_GT(fault_of("sin()").place.column, 0);
+    EXPECT_GT(fault_of("u, v").place.column, 0);
+    EXPECT_NE(fault_of("1 + foo*u").message.find("foo"), std::string::npos);
+    EXPECT_EQ(fault_of("1 + foo*u").message.find("position"), std::string::npos);
+}
+
+TEST(ExpressionWeight, DoesNotAssign) {
+    EXPECT_EQ(fault_of("1 + (u = 0.5)").place.column, 8);
+    EXPECT_EQ(fault_of("u += 1").place.column, 4);
+}
+
+TEST(ExpressionWeight, AValueThatIsNotFiniteIsAnErrorThatSaysWhere) {
+    for (const char* text : {"1/(u - 0.5)", "log(v)", "sqrt(u - 0.1)", "exp(1000*u)", "0/0*u"}) {
+        const Diagnostic fault = fault_of(text);
+        EXPECT_EQ(fault.place.column, 1) << text;
+        EXPECT_NE(fault.message.find("no finite value at u = "), std::string::npos) << text;
+    }
+    EXPECT_NE(fault_of("1/(u - 0.5)").message.find("u = 0.5"), std::string::npos);
+}
+
+TEST(ExpressionWeight, OffTheNodesOfTheUniformGridIsLookedAtWhenAsked) {
+    const WeightPtr w = expression_weight("1/(x - 0.5)", nu, nv); // no node has x = 0.5
+    const Vec2 p(0.5, 3.0);
+    double value_there = 0.0;
+    EXPECT_THROW(w->values({&p, 1}, {&value_there, 1}), Error);
+}
+
+} // namespace
+} // namespace millwright::grid

@@ -1,0 +1,136 @@
+#include "core/grid/grid_file.h"
+
+#include "core/base/error.h"
+#include "tests/support/grid_arrays.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <string>
+
+namespace millwright::grid {
+namespace {
+
+/// A grid with numbers of all lengths, spacing `step`.
+NodeArray uneven_grid(int rows, int columns, double step) {
+    std::mt19937 random(1997);
+    std::uniform_real_distribution<double> away(-0.2, 0.2);
+    NodeArray nodes = unit_spaced(rows, columns);
+    for (Vec2& p : nodes.nodes) {
+        const Vec2 shift(away(random) - 3.0, away(random) + 1.0);
+        p = step * (p + shift);
+    }
+    return nodes;
+}
+
+std::string diagnostic_of(const std::string& text, FileContents contents = FileContents::nodes) {
+    try {
+        (void)parse_blocks(text, "grid.dat", contents);
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "read";
+}
+
+std::string pairs_diagnostic_of(const std::string& text, int rows, int columns) {
+    try {
+        (void)parse_pairs(text, "start.dat", rows, columns);
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "read";
+}
+
+TEST(GridFile, WritesBlocksEighteenWideWithEightDecimalsAndABlank) {
+    NodeArray nodes(2, 2);
+    nodes.at(0, 0) = Vec2(0.0, -1.5);
+    nodes.at(0, 1) = Vec2(0.125, 2.0);
+    nodes.at(1, 0) = Vec2(1234567.0, -1.0);
+    nodes.at(1, 1) = Vec2(-0.000000004, 1e8);
+    EXPECT_EQ(blocks_text(nodes),
+              "        0.00000000         0.12500000 \n"
+              "  1234567.00000000         0.00000000 \n"
+              "       -1.50000000         2.00000000 \n"
+              "       -1.00000000 100000000.00000000 \n");
+}
+
+TEST(GridFile, WritesOnePairALine) {
+    EXPECT_EQ(pairs_text(unit_spaced(2, 2)),
+              "0.00000000 0.00000000\n0.00000000 1.00000000\n1.00000000 0.00000000\n1.00000000 1.00000000\n");
+}
+
+TEST(GridFile, BlocksComeBackExactToEightDecimals) {
+    for (const double step : {1e-3, 1.0, 1e6}) {
+        const NodeArray nodes = uneven_grid(7, 12, step);
+        const NodeArray found = parse_blocks(blocks_text(nodes), "grid.dat");
+        ASSERT_EQ(found.rows, 7);
+        ASSERT_EQ(found.columns, 12);
+        for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+            EXPECT_LE((found.nodes[k] - nodes.nodes[k]).cwiseAbs().maxCoeff(),
+                      0.6e-8); // half a unit and the rounding of the number itself
+        }
+        EXPECT_EQ(blocks_text(found), blocks_text(nodes));
+    }
+}
+
+TEST(GridFile, PairsComeBackExactToEightDecimals) {
+    const NodeArray nodes = uneven_grid(5, 3, 0.1);
+    const NodeArray found = parse_pairs(pairs_text(nodes), "start.dat", 5, 3);
+    EXPECT_EQ(pairs_text(found), pairs_text(nodes));
+}
+
+TEST(GridFile, ResidualsMayBeWhatNoGridIs) {
+    NodeArray residuals(2, 2);
+    residuals.at(0, 1) = Vec2(-3e10, 4.0);
+    EXPECT_EQ(parse_blocks(blocks_text(residuals), "orx.dat", FileContents::residuals), residuals);
+    EXPECT_NE(diagnostic_of(blocks_text(residuals)), "read");
+}
+
+TEST(GridFile, ReadsPairsInAnyLayoutAndOtherEndsOfLines) {
+    EXPECT_EQ(parse_pairs("0 0 0 1\r\n\r\n\t1 0\r\n+1.0e0\n1", "start.dat", 2, 2), unit_spaced(2, 2));
+}
+
+TEST(GridFile, BadBlocksAreNamedWithTheirPlace) {
+    EXPECT_EQ(diagnostic_of(""),
+              "grid.dat:1:1: Two blocks need an even number of lines, at least 4; here are 0");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1\n"),
+              "grid.dat:3:1: Two blocks need an even number of lines, at least 4; here are 3");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1 2\n0 1\n"), "grid.dat:3:5: 3 numbers in this line, 2 are needed");
+    EXPECT_EQ(diagnostic_of("0 0\n1\n0 1\n0 1\n"), "grid.dat:2:1: 1 numbers in this line, 2 are needed");
+    EXPECT_EQ(diagnostic_of("0\n1\n0\n1\n"), "grid.dat:1:1: 1 numbers in this line, 2 are needed");
+    EXPECT_EQ(diagnostic_of("0 0\n1  one\n0 1\n0 1\n"), "grid.dat:2:4: \"one\" is no number");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1,5\n0 1\n0 1\n"), "grid.dat:2:3: \"1,5\" is no number");
+    EXPECT_EQ(diagnostic_of("0 0\n1 nan\n0 1\n0 1\n"), "grid.dat:2:3: \"nan\" is not finite");
+    EXPECT_EQ(diagnostic_of("0 0\n1 -inf\n0 1\n0 1\n"), "grid.dat:2:3: \"-inf\" is not finite");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1e999\n0 1\n0 1\n"),
+              "grid.dat:2:3: \"1e999\" is too large or too small for a number");
+    EXPECT_EQ(diagnostic_of("0 0\n1 2e9\n0 1\n0 1\n"),
+              "grid.dat:2:3: A coordinate of this node is beyond 1e9");
+}
+
+TEST(GridFile, AFoldedGridIsNamedByItsFirstCell) {
+    NodeArray nodes = unit_spaced(4, 4);
+    nodes.at(2, 2) = Vec2(0.5, 0.5);
+    EXPECT_EQ(diagnostic_of(blocks_text(nodes)), "grid.dat:2:28: The cell from node (1, 1) is folded");
+    EXPECT_EQ(pairs_diagnostic_of(pairs_text(nodes), 4, 4),
+              "start.dat:6:1: The cell from node (1, 1) is folded");
+}
+
+TEST(GridFile, AWrongCountOfPairsIsNamedWithItsPlace) {
+    EXPECT_EQ(pairs_diagnostic_of("0 0\n0 1\n1 0\n", 2, 2),
+              "start.dat:3:3: 2 x 2 nodes need 8 numbers, here are 6");
+    EXPECT_EQ(pairs_diagnostic_of("0 0\n0 1\n1 0\n1 1 7\n", 2, 2),
+              "start.dat:4:5: 2 x 2 nodes need 8 numbers, here are 9");
+    EXPECT_EQ(pairs_diagnostic_of("", 2, 2), "start.dat:1:1: 2 x 2 nodes need 8 numbers, here are 0");
+}
+
+TEST(GridFile, AskingForNoCellsOrWritingNoNumbersIsADefect) {
+    EXPECT_THROW((void)parse_pairs("0 0", "start.dat", 1, 1), Defect);
+    NodeArray nodes = unit_spaced(2, 2);
+    nodes.at(0, 0).x() = std::numeric_limits<double>::infinity();
+    EXPECT_THROW((void)blocks_text(nodes), Defect);
+}
+
+} // namespace
+} // namespace millwright::grid
