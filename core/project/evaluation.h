@@ -7,7 +7,7 @@
 #include "core/toolpath/kinematic_error.h"
 #include "core/toolpath/sequencing.h"
 
-#include <memory>
+#include <optional>
 #include <string>
 
 namespace millwright::project {
@@ -19,6 +19,9 @@ struct GridOutcome {
     int rounds = 0;
     int iterations = 0;
     double norm = 0.0;
+    /// Of the moves inside tracks: distance to the surface curve between the nodes, as the improver measured
+    /// it at its start and for `grid`. Nothing for the uniform grid.
+    std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
     std::string note = {}; ///< one sentence; empty for the uniform grid
 };
 

@@ -83,7 +83,8 @@ gcode::ProgramSettings program_settings(const ProgramInput& input) {
     return settings;
 }
 
-void add_program(Plan& plan, const Project& project, const Evaluation& chosen, const Progress& progress) {
+void add_program(Plan& plan, const Project& project, const Progress& progress) {
+    const Evaluation& chosen = *plan.evaluation(project.grid.method);
     const gcode::ProgramSettings settings = program_settings(project.program);
     const kinematics::MachineModel& machine = plan.workpiece->machine;
     progress.report(0.0, "Writing the program");
@@ -99,7 +100,27 @@ void add_program(Plan& plan, const Project& project, const Evaluation& chosen, c
     plan.program_notes = posted.notes;
     plan.listing = std::move(listing);
     plan.trajectory = std::move(trajectory);
+    plan.estimated_time(project.grid.method) = plan.trajectory->duration();
     progress.report(1.0);
+}
+
+void add_estimated_times(Plan& plan, const Project& project, const Progress& progress) {
+    for (const GridMethod method : {GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks}) {
+        const auto& evaluation = plan.evaluation(method);
+        if (!evaluation || plan.estimated_time(method)) {
+            continue;
+        }
+        try {
+            const kinematics::MachineModel& machine = plan.workpiece->machine;
+            const gcode::PostResult posted = gcode::post(
+                machine, evaluation->toolpath, evaluation->axes, program_settings(project.program), {});
+            progress.check();
+            plan.estimated_time(method) =
+                motion::plan(posted.program, machine, motion::PlannerSettings{}, progress).duration();
+        } catch (
+            const Error&) { // this grid has no program on this machine, which concerns only the chosen one
+        }
+    }
 }
 
 Plan make_plan(const Project& project, const Folders& folders, const Progress& progress, Scope scope) {
@@ -122,7 +143,8 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     };
     improve(GridMethod::elliptic, progress.part(0.1, 0.45));
     improve(GridMethod::tracks, progress.part(0.45, 0.9));
-    add_program(plan, project, *plan.evaluation(project.grid.method), progress.part(0.9, 1.0));
+    add_program(plan, project, progress.part(0.9, 0.95));
+    add_estimated_times(plan, project, progress.part(0.95, 1.0));
     return plan;
 }
 

@@ -11,8 +11,10 @@
 #include "core/project/project.h"
 #include "core/toolpath/singular_points.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace millwright::project {
@@ -29,10 +31,18 @@ struct Plan {
     gcode::PostNotes program_notes;
     std::shared_ptr<const gcode::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
+    /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
+    std::array<std::optional<double>, 3> estimated_times;
 
     /// The evaluation that `method` stands for; null if not there.
     [[nodiscard]] const std::shared_ptr<const Evaluation>& evaluation(GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const Evaluation>& evaluation(GridMethod method);
+    [[nodiscard]] const std::optional<double>& estimated_time(GridMethod method) const {
+        return estimated_times[static_cast<std::size_t>(method)];
+    }
+    [[nodiscard]] std::optional<double>& estimated_time(GridMethod method) {
+        return estimated_times[static_cast<std::size_t>(method)];
+    }
 };
 
 /// Where the project's machine is looked for.
@@ -50,9 +60,13 @@ struct Folders {
 
 [[nodiscard]] gcode::ProgramSettings program_settings(const ProgramInput& input);
 
-/// Program, listing and trajectory of one evaluation, into `plan`. Throws Error or Cancelled, then `plan` is
-/// as it was.
-void add_program(Plan& plan, const Project& project, const Evaluation& chosen, const Progress& progress);
+/// Program, listing, trajectory and time of the project's chosen grid, into `plan`. Throws Error or
+/// Cancelled, then `plan` is as it was.
+void add_program(Plan& plan, const Project& project, const Progress& progress);
+
+/// Of the grids that were not chosen the estimated times, for comparison, into `plan`: those that are missing
+/// and can be made into a program. Throws Cancelled.
+void add_estimated_times(Plan& plan, const Project& project, const Progress& progress);
 
 /// How much of a plan is wanted.
 enum class Scope {

@@ -92,6 +92,7 @@ void PlanStages::begin(const Project& project, const Folders& folders) {
         plan_.program_notes = last.program_notes;
         plan_.listing = last.listing;
         plan_.trajectory = last.trajectory;
+        plan_.estimated_time(project.grid.method) = last.estimated_time(project.grid.method);
     }
 }
 
@@ -147,7 +148,7 @@ void PlanStages::add_program_of_chosen(const Progress& progress) {
     if (!chosen || (plan_.program && program_of_ == chosen)) {
         return;
     }
-    add_program(plan_, source_->project, *chosen, progress);
+    add_program(plan_, source_->project, progress);
     program_of_ = chosen;
 }
 
@@ -186,6 +187,7 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
     for (const GridMethod method : improved_methods) {
         improve(method, Effort::full, progress.part(method == GridMethod::elliptic ? 0.6 : 0.8, 1.0));
     }
+    add_estimated_times(plan_, source_->project, progress);
     publish(plan_, std::nullopt, true);
 }
 

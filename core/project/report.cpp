@@ -61,10 +61,15 @@ Json distances(const grid::ErrorSummary& figures) {
     return json;
 }
 
-Json errors(const Evaluation& evaluation) {
+Json errors(const Plan& plan, GridMethod method) {
+    const Evaluation& evaluation = *plan.evaluation(method);
+    const std::optional<double>& time = plan.estimated_time(method);
+    const auto& by_curve =
+        method == GridMethod::uniform ? plan.optimised->outcome.start_by_curve : evaluation.outcome.by_curve;
     Json json;
     json["closest"] = distances(evaluation.closest);
     json["param"] = distances(evaluation.param);
+    json["curve"] = by_curve ? distances(*by_curve) : Json();
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
     json["track_gap_mm"] = rounded(evaluation.track_gap);
@@ -73,6 +78,7 @@ Json errors(const Evaluation& evaluation) {
     json["min_jacobian"] = rounded(evaluation.outcome.grid.min_jacobian());
     json["points"] = std::ssize(evaluation.toolpath.points);
     json["path_length_mm"] = rounded(evaluation.path_length);
+    json["estimated_time_s"] = time ? Json(rounded(*time)) : Json();
     json["rotary_travel_deg"] = rounded(to_degrees(evaluation.axes.rotary_travel));
     json["status"] = status_id(evaluation.outcome.status);
     json["rounds"] = evaluation.outcome.rounds;
@@ -168,9 +174,9 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["surface"] = surface(project, plan);
     json["machine"] = machine(project, plan);
     json["grid"] = grid_json(project, chosen);
-    json["error"]["uniform"] = errors(*plan.uniform);
-    json["error"]["adapted"] = errors(*plan.elliptic);
-    json["error"]["optimised"] = errors(*plan.optimised);
+    json["error"]["uniform"] = errors(plan, GridMethod::uniform);
+    json["error"]["adapted"] = errors(plan, GridMethod::elliptic);
+    json["error"]["optimised"] = errors(plan, GridMethod::tracks);
     json["singular_points"] = singular_points(plan);
     json["points"] = std::ssize(chosen.toolpath.points);
     json["path_length_mm"] = rounded(chosen.path_length);

@@ -1,0 +1,98 @@
+// What a person waits for while dragging a control point of a 20 x 20 project: surface, path and error at
+// once, the optimised grid soon after.
+#include "core/project/pipeline.h"
+#include "core/project/project_file.h"
+
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+
+namespace millwright::project {
+namespace {
+
+const Folders folders{"assets/projects", "assets"};
+
+Project sample(int index) {
+    constexpr std::array names{"dome", "two-bell", "sine"};
+    return read_project(std::string("assets/projects/") + names.at(static_cast<std::size_t>(index)) +
+                        ".json");
+}
+
+/// Moves a control point a little further each time.
+void edit(Project& project) {
+    project.surface.patches[0].point(1, 1).z() += 0.01;
+}
+
+void surface_path_and_error(benchmark::State& state) {
+    Project project = sample(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        edit(project);
+        const Workpiece workpiece = workpiece_of(project, folders);
+        benchmark::DoNotOptimize(
+            evaluate(workpiece, uniform_outcome(project.grid), live_samples, Progress()));
+    }
+}
+
+void optimised_grid(benchmark::State& state, Effort effort) {
+    Project project = sample(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        edit(project);
+        const Workpiece workpiece = workpiece_of(project, folders);
+        const int samples = effort == Effort::live ? live_samples : report_samples;
+        const Evaluation uniform = evaluate(workpiece, uniform_outcome(project.grid), samples, Progress());
+        benchmark::DoNotOptimize(
+            improved_evaluation(GridMethod::tracks, project.grid, workpiece, uniform, effort, Progress()));
+    }
+}
+
+/// From the request to a publication that `fits`, through the pipeline's thread.
+template <class Fits> void through_the_pipeline(benchmark::State& state, Fits fits) {
+    std::atomic<int> woken{0};
+    Pipeline pipeline(folders, [&] {
+        ++woken;
+        woken.notify_all();
+    });
+    Project project = sample(static_cast<int>(state.range(0)));
+    pipeline.request(project);
+    pipeline.wait_idle();
+    for (auto _ : state) {
+        edit(project);
+        pipeline.request(project);
+        while (true) {
+            const int before = woken;
+            const auto plan = pipeline.latest();
+            if (plan->project == project && fits(*plan)) {
+                break;
+            }
+            woken.wait(before);
+        }
+    }
+}
+
+void first_publication(benchmark::State& state) {
+    through_the_pipeline(state, [](const PublishedPlan&) { return true; });
+}
+
+void quick_program(benchmark::State& state) {
+    through_the_pipeline(state, [](const PublishedPlan& plan) { return plan.plan.program != nullptr; });
+}
+
+void exact_plan(benchmark::State& state) {
+    through_the_pipeline(state, [](const PublishedPlan& plan) { return plan.exact; });
+}
+
+BENCHMARK(surface_path_and_error)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(optimised_grid, live, Effort::live)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(optimised_grid, full, Effort::full)
+    ->DenseRange(0, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(first_publication)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(quick_program)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(exact_plan)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+} // namespace
+} // namespace millwright::project

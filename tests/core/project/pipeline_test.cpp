@@ -1,0 +1,234 @@
+#include "core/project/pipeline.h"
+
+#include "core/base/error.h"
+#include "core/project/project_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace millwright::project {
+namespace {
+
+using testing::HasSubstr;
+
+const Folders folders{"assets/projects", "assets"};
+
+Project sample(const std::string& name, int nodes) {
+    Project project = read_project("assets/projects/" + name + ".json");
+    project.grid.nu = nodes;
+    project.grid.nv = nodes;
+    project.grid.tracks.lattice = 40; // enough for a test
+    project.grid.tracks.polish_sweeps = 3;
+    return project;
+}
+
+/// A pipeline whose owner sleeps until it is woken, as the window does.
+class PipelineTest : public testing::Test {
+protected:
+    std::atomic<int> woken{0};
+    Pipeline pipeline{folders, [this] { ++woken; }};
+
+    /// Waits for a publication that `fits`, without any other clock than the test's time limit.
+    template <class Fits> std::shared_ptr<const PublishedPlan> wait_for(Fits fits) const {
+        while (true) {
+            const auto plan = pipeline.latest();
+            if (plan && fits(*plan)) {
+                return plan;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+};
+
+TEST_F(PipelineTest, EndsWithTheSameAsThePlanOfTheCommandLine) {
+    const Project project = sample("dome", 7);
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    const Plan plan = make_plan(project, folders, Progress());
+    ASSERT_TRUE(published->exact);
+    EXPECT_FALSE(published->failure);
+    EXPECT_EQ(published->project, project);
+    EXPECT_EQ(published->plan.listing->text, plan.listing->text);
+    EXPECT_EQ(published->plan.elliptic->closest.mean, plan.elliptic->closest.mean);
+    EXPECT_EQ(published->plan.singular_points.size(), plan.singular_points.size());
+    EXPECT_GT(woken, 0);
+    EXPECT_FALSE(pipeline.activity().busy);
+}
+
+TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
+    Project project = sample("dome", 7);
+    pipeline.request(project);
+    pipeline.wait_idle();
+    project.surface.patches[0].point(1, 1).z() += 5.0;
+    pipeline.request(project);
+    const auto first = wait_for([&](const PublishedPlan& plan) { return plan.project == project; });
+    EXPECT_NE(first->plan.surface, nullptr);
+    EXPECT_NE(first->plan.evaluation(GridMethod::tracks), nullptr) << "the grid of before follows the drag";
+    pipeline.wait_idle();
+    EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
+    Project project = sample("dome", 6);
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto before = pipeline.latest();
+    project.program.feed_mm_per_min = 900.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto feed = pipeline.latest();
+    EXPECT_EQ(feed->plan.optimised, before->plan.optimised);
+    EXPECT_EQ(feed->plan.uniform, before->plan.uniform);
+    EXPECT_NE(feed->plan.program, before->plan.program);
+    project.grid.elliptic.adaptation = 50.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto weight = pipeline.latest();
+    EXPECT_EQ(weight->plan.optimised, before->plan.optimised);
+    EXPECT_NE(weight->plan.elliptic, before->plan.elliptic);
+    EXPECT_EQ(weight->plan.program, feed->plan.program);
+}
+
+TEST_F(PipelineTest, TheLastOfManyRequestsWins) {
+    Project project = sample("sine", 6);
+    for (int n = 0; n < 20; ++n) {
+        project.surface.patches[0].point(2, 2).z() += 0.5;
+        pipeline.request(project);
+    }
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->project, project);
+    EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST_F(PipelineTest, TheSameProjectIsNotDerivedTwice) {
+    const Project project = sample("dome", 5);
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto revision = pipeline.latest()->revision;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->revision, revision);
+}
+
+TEST_F(PipelineTest, ACancelledRequestCanBeMadeAgain) {
+    const Project project = sample("two-bell", 60);
+    pipeline.request(project);
+    (void)wait_for([](const PublishedPlan&) { return true; });
+    pipeline.cancel();
+    pipeline.wait_idle();
+    EXPECT_FALSE(pipeline.latest()->exact);
+    pipeline.request(sample("two-bell", 5));
+    pipeline.wait_idle();
+    EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {
+    Project project = sample("dome", 5);
+    project.machine.workpiece_offset = Vec3(0, 0, 4000);
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    ASSERT_TRUE(published->failure);
+    EXPECT_THAT(published->failure->message, HasSubstr("cannot be reached"));
+    EXPECT_NE(published->plan.surface, nullptr);
+    EXPECT_EQ(published->plan.program, nullptr);
+    EXPECT_FALSE(published->exact);
+    project.machine.workpiece_offset.reset();
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST_F(PipelineTest, AFaultyFieldStillShowsTheSurface) {
+    Project project = sample("dome", 5);
+    project.grid.nu = 1;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    ASSERT_TRUE(pipeline.latest()->failure);
+    EXPECT_THAT(pipeline.latest()->failure->message, HasSubstr("grid/nu"));
+    EXPECT_NE(pipeline.latest()->plan.surface, nullptr);
+}
+
+TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
+    pipeline.request(sample("dome", 8));
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.adaptation(), nullptr);
+    pipeline.start_adaptation(GridMethod::tracks);
+    EXPECT_EQ(pipeline.adaptation()->state, nullptr);
+    EXPECT_FALSE(pipeline.adaptation()->playing);
+    pipeline.step_adaptation();
+    pipeline.step_adaptation();
+    pipeline.wait_idle();
+    const auto stepped = pipeline.adaptation();
+    ASSERT_NE(stepped->state, nullptr);
+    EXPECT_FALSE(stepped->playing);
+    EXPECT_EQ(stepped->state->status, grid::ImproverStatus::running);
+    pipeline.play_adaptation();
+    EXPECT_TRUE(pipeline.adaptation()->playing);
+    pipeline.wait_idle();
+    const auto played = pipeline.adaptation();
+    EXPECT_FALSE(played->playing);
+    EXPECT_NE(played->state->status, grid::ImproverStatus::running);
+    EXPECT_EQ(played->state->best, pipeline.latest()->plan.optimised->outcome.grid) << "the plan's own grid";
+    EXPECT_GT(played->revision, stepped->revision);
+    pipeline.reset_adaptation();
+    EXPECT_EQ(pipeline.adaptation()->state, nullptr);
+}
+
+TEST_F(PipelineTest, APausedAdaptationGoesOnWhereItStood) {
+    pipeline.request(sample("dome", 10));
+    pipeline.wait_idle();
+    pipeline.start_adaptation(GridMethod::tracks);
+    pipeline.play_adaptation();
+    pipeline.pause_adaptation();
+    pipeline.wait_idle();
+    EXPECT_FALSE(pipeline.adaptation()->playing);
+    pipeline.play_adaptation();
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.adaptation()->state->best, pipeline.latest()->plan.optimised->outcome.grid);
+}
+
+TEST_F(PipelineTest, AnAdaptationEndsWhenItsGridIsNoLongerAskedFor) {
+    Project project = sample("dome", 8);
+    pipeline.request(project);
+    pipeline.start_adaptation(GridMethod::tracks);
+    pipeline.play_adaptation();
+    project.program.feed_mm_per_min = 100.0;
+    pipeline.request(project);
+    EXPECT_NE(pipeline.adaptation(), nullptr);
+    project.surface.patches[0].point(1, 1).x() += 1.0;
+    pipeline.request(project);
+    EXPECT_EQ(pipeline.adaptation(), nullptr);
+    pipeline.step_adaptation();
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.adaptation(), nullptr);
+}
+
+TEST_F(PipelineTest, WhatKeepsAnAdaptationFromStartingIsTold) {
+    Project project = sample("dome", 8);
+    project.machine.file = "none";
+    pipeline.request(project);
+    pipeline.start_adaptation(GridMethod::tracks);
+    pipeline.step_adaptation();
+    pipeline.wait_idle();
+    ASSERT_TRUE(pipeline.adaptation()->failure);
+    EXPECT_THAT(pipeline.adaptation()->failure->message, HasSubstr("unknown machine"));
+}
+
+TEST(PipelineEnd, AWorkingPipelineCanBeDestroyed) {
+    for (int n = 0; n < 3; ++n) {
+        Pipeline pipeline(folders, [] {});
+        pipeline.request(sample("two-bell", 40));
+        pipeline.start_adaptation(GridMethod::tracks);
+        pipeline.play_adaptation();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20 * n));
+    }
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,161 @@
+#include "core/project/plan.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/project/project_file.h"
+#include "core/project/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <stop_token>
+
+namespace millwright::project {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Folders folders{"assets/projects", "assets"};
+
+Project sample(const std::string& name, int nodes) {
+    Project project = read_project("assets/projects/" + name + ".json");
+    project.grid.nu = nodes;
+    project.grid.nv = nodes;
+    project.grid.tracks.lattice = 40; // enough for a test
+    project.grid.tracks.polish_sweeps = 3;
+    return project;
+}
+
+std::string failure_of(const Project& project) {
+    try {
+        (void)make_plan(project, folders, Progress());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no failure";
+}
+
+TEST(Plan, NoGridIsWorseThanTheUniformOne) {
+    for (const char* name : {"dome", "two-bell", "sine"}) {
+        const Plan plan = make_plan(sample(name, 10), folders, Progress());
+        for (const auto& better : {plan.elliptic, plan.optimised}) {
+            EXPECT_LE(better->closest.mean, plan.uniform->closest.mean) << name;
+            EXPECT_LE(better->closest.axis_max, plan.uniform->closest.axis_max + 1e-12) << name;
+            EXPECT_EQ(better->toolpath.points.size(), plan.uniform->toolpath.points.size()) << name;
+            EXPECT_GT(better->outcome.grid.min_jacobian(), 0.0) << name;
+        }
+    }
+}
+
+TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
+    Project project = sample("dome", 6);
+    const Plan by_tracks = make_plan(project, folders, Progress());
+    EXPECT_THAT(by_tracks.listing->text, HasSubstr("6 x 6, Track optimiser"));
+    project.grid.method = GridMethod::uniform;
+    const Plan by_uniform = make_plan(project, folders, Progress());
+    EXPECT_NE(by_tracks.listing->text, by_uniform.listing->text);
+    EXPECT_EQ(by_uniform.evaluation(GridMethod::uniform), by_uniform.uniform);
+    int points = 0;
+    for (const int block : gcode::blocks_of_points(*by_uniform.program, 36)) {
+        points += block >= 0 ? 1 : 0;
+    }
+    EXPECT_EQ(points, 36);
+    EXPECT_GT(by_uniform.trajectory->duration(), 0.0);
+}
+
+TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {
+    const Project project = sample("dome", 6);
+    const Plan whole = make_plan(project, folders, Progress());
+    const Plan part = make_plan(project, folders, Progress(), Scope::program);
+    EXPECT_EQ(part.elliptic, nullptr);
+    EXPECT_EQ(part.listing->text, whole.listing->text);
+}
+
+TEST(Plan, IsTheSameBytesOnAnyNumberOfThreads) {
+    const Project project = sample("two-bell", 8);
+    set_thread_count(1);
+    const Plan alone = make_plan(project, folders, Progress());
+    set_thread_count(3);
+    const Plan together = make_plan(project, folders, Progress());
+    set_thread_count(0);
+    EXPECT_EQ(alone.listing->text, together.listing->text);
+    EXPECT_EQ(report_text(project, alone), report_text(project, together));
+}
+
+TEST(Plan, BadInputIsNamed) {
+    Project project = sample("dome", 6);
+    project.machine.file = "no-such-machine";
+    EXPECT_THAT(failure_of(project), HasSubstr("unknown machine 'no-such-machine'"));
+    project = sample("dome", 6);
+    project.grid.nu = -1;
+    EXPECT_THAT(failure_of(project), StartsWith("grid/nu: -1 is not between"));
+    project = sample("dome", 6);
+    for (Vec3& point : project.surface.patches[0].points) {
+        point = Vec3(1, 2, 3);
+    }
+    EXPECT_THAT(failure_of(project), HasSubstr("the surface has no normal at u = 0, v = 0"));
+    project = sample("dome", 6);
+    project.machine.workpiece_offset = Vec3(0, 0, 4000);
+    EXPECT_THAT(failure_of(project), HasSubstr("cannot be reached"));
+}
+
+TEST(Plan, StopsWhenCancelledAnywhere) {
+    const Project project = sample("dome", 6);
+    for (const double stop_at : {0.0, 0.2, 0.6, 0.9}) {
+        std::stop_source stop;
+        const auto listen = [&](const Progress::Report& report) {
+            if (report.fraction >= stop_at) {
+                stop.request_stop();
+            }
+        };
+        EXPECT_THROW((void)make_plan(project, folders, Progress(listen, stop.get_token())), Cancelled)
+            << stop_at;
+    }
+}
+
+TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
+    const Project project = sample("dome", 8);
+    const Plan plan = make_plan(project, folders, Progress());
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    for (const char* which : {"uniform", "adapted", "optimised"}) {
+        const auto& error = report.at("error").at(which);
+        for (const char* distance : {"closest", "param"}) {
+            for (const char* figure : {"max", "mean", "lmean", "rms", "p95"}) {
+                EXPECT_TRUE(error.at(distance).at(figure).is_number()) << which << distance << figure;
+            }
+            EXPECT_LE(error.at(distance).at("mean"), error.at(distance).at("max"));
+        }
+        EXPECT_LE(error.at("axis_deviation_deg").at("mean"), error.at("axis_deviation_deg").at("max"));
+        EXPECT_GT(error.at("track_gap_mm"), 0.0);
+        EXPECT_EQ(error.at("points"), 64);
+        EXPECT_GT(error.at("path_length_mm"), 0.0);
+        EXPECT_GT(error.at("estimated_time_s"), 0.0);
+        EXPECT_LE(error.at("closest").at("mean"), report.at("error").at("uniform").at("closest").at("mean"));
+    }
+    EXPECT_NEAR(report.at("error").at("uniform").at("closest").at("max"), plan.uniform->closest.max, 1e-6);
+    EXPECT_EQ(report.at("error").at("uniform").at("min_jacobian"), 1.0);
+    const auto& grid = report.at("grid");
+    EXPECT_EQ(grid.at("nu"), 8);
+    EXPECT_EQ(grid.at("nv"), 8);
+    for (const char* field : {"iterations", "norm", "min_jacobian"}) {
+        EXPECT_TRUE(grid.at(field).is_number()) << field;
+    }
+    EXPECT_EQ(report.at("surface").at("preset"), "dome");
+    EXPECT_EQ(report.at("machine").at("axes"), "XYZAB");
+    EXPECT_EQ(report.at("points"), 64);
+    EXPECT_NEAR(report.at("path_length_mm"), plan.optimised->path_length, 1e-6);
+    EXPECT_NEAR(report.at("estimated_time_s"), plan.trajectory->duration(), 1e-6);
+    EXPECT_EQ(report.at("estimated_time_s"), report.at("error").at("optimised").at("estimated_time_s"));
+    EXPECT_EQ(report.at("singular_points").size(), plan.singular_points.size());
+    EXPECT_EQ(report.at("program").at("blocks"), plan.program->block_count());
+}
+
+TEST(Report, OfAPlanThatIsNotCompleteIsRefused) {
+    const Project project = sample("dome", 4);
+    EXPECT_THROW((void)report_text(project, Plan{}), Defect);
+}
+
+} // namespace
+} // namespace millwright::project
