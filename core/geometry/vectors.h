@@ -30,4 +30,12 @@ using Box3 = Eigen::AlignedBox3d;
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// A rotation that takes z to the unit vector `direction`; where x and y go is left open.
+[[nodiscard]] inline Mat3 frame_along(const Vec3& direction) {
+    const Vec3 x = direction.unitOrthogonal();
+    Mat3 rotation;
+    rotation << x, direction.cross(x), direction;
+    return rotation;
+}
+
 } // namespace millwright

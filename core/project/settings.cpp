@@ -139,7 +139,7 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
      2,
      field<&ProgramInput::link_clearance_mm>},
     {"approach_clearance_mm",
-     "Approach clearance",
+     "Approach height",
      "mm",
      "Height above the first and the last pose at which the tool comes and goes",
      0.01,

@@ -24,7 +24,7 @@ enum class LowerTab { plots, listing, compare, jobs, log };
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
 struct PaneSizes {
     float outline = 220.0F;
-    float inspector = 320.0F;
+    float inspector = 350.0F;
     float lower = 190.0F;
     bool outline_shown = true;
     bool inspector_shown = true;

@@ -88,7 +88,7 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     ui.value(
         "tip",
         "Tip on the part",
-        fmt::format("{}  {}  {}", fixed(pose.tip.x(), 2), fixed(pose.tip.y(), 2), fixed(pose.tip.z(), 2)),
+        fmt::format("{}  {}  {}", fixed(pose.tip.x(), 1), fixed(pose.tip.y(), 1), fixed(pose.tip.z(), 1)),
         "mm");
     ui.value(
         "axis",

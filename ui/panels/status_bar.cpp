@@ -25,19 +25,20 @@ std::string mouse_text(const std::optional<Vec3>& p) {
 } // namespace
 
 void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
-    const auto row = ui.row(4);
     if (now.activity.busy) {
         if (ui.progress("work", now.activity.text, now.activity.fraction)) {
             ask.run("work.cancel");
         }
-    } else {
-        ui.note(now.failure().empty() ? "Ready" : "No program: see the outline");
+        return;
     }
-    ui.note(machine_state(now));
-    ui.note(mouse_text(under_mouse));
-    ui.note(now.document.file.empty()
-                ? now.project.name
-                : now.document.file.filename().string() + (now.changed() ? "  (changed)" : ""));
+    const std::string file =
+        now.document.file.empty() ? now.project.name : now.document.file.filename().string();
+    ui.note(fmt::format("{}     {}     {}     {}{}",
+                        now.failure().empty() ? "Ready" : "No program: see the outline",
+                        machine_state(now),
+                        mouse_text(under_mouse),
+                        file,
+                        now.changed() ? " (changed)" : ""));
 }
 
 } // namespace millwright::panels

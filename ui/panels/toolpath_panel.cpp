@@ -48,7 +48,7 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
         return;
     }
     const auto [options, index] = options_of(project::grid_methods(), now.session.shown);
-    if (const auto chosen = ui.segmented("shown", "", index, options)) {
+    if (const auto chosen = ui.choice("shown", "Grid shown", index, options)) {
         const GridMethod method = project::grid_methods()[static_cast<std::size_t>(*chosen)].value;
         ask.show([method](actions::Session& session) { session.shown = method; });
     }
@@ -69,8 +69,8 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
     ui.value("lmean", "Mean by length", length_text(error.lmean), "mm");
     ui.value("p95", "95 % below", length_text(error.p95), "mm");
     ui.value("axis", "Axis deviation", angle_text(error.axis_max), "deg");
-    ui.value("gap", "Largest track gap", length_text(shown->track_gap), "mm");
-    ui.value("cross", "Cross moves, largest", length_text(shown->cross_closest.max), "mm");
+    ui.value("gap", "Track gap", length_text(shown->track_gap), "mm");
+    ui.value("cross", "Cross moves", length_text(shown->cross_closest.max), "mm");
     const widgets::FieldInfo limit{
         "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};
     if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {

@@ -1,8 +1,6 @@
 #include "ui/panels/view_panel.h"
 
-#include "ui/widgets/icons.h"
-
-#include <array>
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -11,24 +9,6 @@ namespace millwright::panels {
 namespace {
 
 using actions::Workspace;
-using viewport::Layers;
-
-/// A layer that a person may switch in the view's corner.
-struct LayerSwitch {
-    std::string_view id, tip, icon;
-    bool Layers::*shown;
-};
-
-constexpr std::array<LayerSwitch, 8> switches{{
-    {"surface", "Surface", widgets::icons::surface, &Layers::surface},
-    {"net", "Control net", widgets::icons::design, &Layers::control_net},
-    {"grid", "Grid", widgets::icons::grid, &Layers::grid},
-    {"path", "Tool path", widgets::icons::toolpath, &Layers::toolpath},
-    {"error", "Error along the path", widgets::icons::error_map, &Layers::error_path},
-    {"error_surface", "Error on the surface", widgets::icons::layers, &Layers::error_surface},
-    {"singular", "Singular points", widgets::icons::info, &Layers::singular_points},
-    {"machine", "Machine", widgets::icons::machine, &Layers::machine},
-}};
 
 void move_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
     const std::string title = move.points.size() == 1
@@ -55,10 +35,11 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
     if (!program || !trajectory || now.job.running) {
         return;
     }
-    const std::vector<int> blocks = gcode::blocks_of_points(*program, wanted.move + 2);
-    const int block = blocks.back();
-    if (block >= 0) {
-        ask.show([time = trajectory->time_at(block, wanted.fraction)](actions::Session& session) {
+    const auto ends_there = [&](const gcode::Block& block) { return block.path_point == wanted.move + 1; };
+    const auto block = std::find_if(program->blocks.begin(), program->blocks.end(), ends_there);
+    if (block != program->blocks.end()) {
+        const auto n = static_cast<int>(block - program->blocks.begin());
+        ask.show([time = trajectory->time_at(n, wanted.fraction)](actions::Session& session) {
             session.playback.playing = false;
             session.playback.time = time;
         });
@@ -108,39 +89,8 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
     view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
-    const float bar = ui.px(38.0F);
-    const widgets::Rect picture{place.x, place.y + bar, place.w, place.h - bar};
-    for (const viewport::ViewEvent& event : view_.draw(ui, picture, scene_of(now))) {
+    for (const viewport::ViewEvent& event : view_.draw(ui, place, scene_of(now))) {
         obey(event, now, ask);
-    }
-    draw_layers(ui, now, ask, {place.x, place.y, place.w, bar});
-}
-
-void ViewPanel::draw_layers(Ui& ui,
-                            const Workbench& now,
-                            ActionQueue& ask,
-                            const widgets::Rect& place) const {
-    const auto pane = ui.pane("layers", place);
-    bool first = true;
-    for (const LayerSwitch& layer : switches) {
-        if (!first) {
-            ui.beside();
-        }
-        first = false;
-        const bool on = now.session.layers_now().*(layer.shown);
-        if (ui.icon_button(layer.id, layer.icon, layer.tip, {}, on)) {
-            ask.show([shown = layer.shown](actions::Session& session) {
-                session.layers_now().*shown = !(session.layers_now().*shown);
-            });
-        }
-    }
-    ui.beside();
-    if (ui.icon_button("fit", widgets::icons::fit_view, "Fit the view (F)")) {
-        ask.run("view.fit");
-    }
-    ui.beside();
-    if (ui.icon_button("four", widgets::icons::table, "Four views (Ctrl+4)", {}, now.session.four_views)) {
-        ask.run("view.four");
     }
 }
 

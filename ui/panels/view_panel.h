@@ -18,8 +18,6 @@ public:
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
-    void draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) const;
-
     viewport::Viewport view_;
 };
 

@@ -22,8 +22,8 @@ struct Window::Layout {
 
 namespace {
 
-constexpr float menu_height = 42.0F;
-constexpr float status_height = 30.0F;
+constexpr float menu_height = 58.0F;
+constexpr float status_height = 44.0F;
 constexpr float timeline_height = 92.0F;
 constexpr float seam = 2.0F;
 constexpr float smallest_view = 240.0F;
@@ -44,7 +44,7 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float left = sizes.outline_shown ? ui.px(sizes.outline) : 0.0F;
     const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
     const float lower = sizes.lower_shown ? ui.px(sizes.lower) : 0.0F;
-    const float emergency = ui.px(150.0F);
+    const float emergency = ui.px(184.0F);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
     const float view_left = left > 0.0F ? left + s : 0.0F;
@@ -203,8 +203,7 @@ void Window::obey_shortcuts(const Workbench& now) {
             continue;
         }
         const actions::Shortcut keys = actions::shortcut(info.shortcut);
-        const bool plain = !keys.ctrl && !keys.alt;
-        const bool typing = io.WantTextInput && plain && keys.key < render::Key::f1;
+        const bool typing = io.WantTextInput && keys.key < render::Key::f1; // Ctrl+A is the text's, too
         const bool modifiers = io.KeyCtrl == keys.ctrl && io.KeyShift == keys.shift && io.KeyAlt == keys.alt;
         if (!typing && modifiers && render::key_pressed(keys.key) && action->permission(now).allowed) {
             ask_.run(std::string(info.id));

@@ -4,6 +4,7 @@
 
 #include "ui/viewport/scene.h"
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -33,5 +34,13 @@ struct GoToMove {
 };
 
 using ViewEvent = std::variant<MoveControlPoints, SelectControlPoints, GoToMove>;
+
+/// What the mouse points at, in workpiece coordinates.
+struct UnderMouse {
+    std::optional<Vec3> on_surface; ///< mm
+    std::optional<Vec2> uv;         ///< parameters there
+    std::optional<ControlPointId> point;
+    std::optional<int> move;
+};
 
 } // namespace millwright::viewport

@@ -13,7 +13,7 @@ Frame at_zero(const kinematics::MachineBody& body) {
     Frame pose = Frame::Identity();
     pose.translation() = body.center;
     if (body.shape == kinematics::MachineBody::Shape::cylinder) {
-        pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body.direction).toRotationMatrix();
+        pose.linear() = frame_along(body.direction);
     }
     return pose;
 }

@@ -50,6 +50,8 @@ double round_up(double value) {
     return 10.0 * power;
 }
 
+constexpr double usual_to_mean =
+    2.0; // few moves near poles are far worse and would leave one colour to the rest
 constexpr double finest_scale_mm = 1e-6; // a path without errors still has a legend
 
 } // namespace
@@ -114,7 +116,7 @@ Frame scene_from_workpiece(const Scene& scene) {
 }
 
 render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit) {
-    const double usual = scene.shown ? scene.shown->closest.p95 : 1.0;
+    const double usual = scene.shown ? usual_to_mean * scene.shown->closest.mean : 1.0;
     const double top = scene.error.high.value_or(round_up(std::max(usual, finest_scale_mm)));
     return {.map = scene.error.map,
             .low = 0.0,

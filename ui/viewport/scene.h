@@ -101,8 +101,8 @@ struct Scene {
 /// Workpiece to machine coordinates with axes_now() where the machine is shown, else the identity.
 [[nodiscard]] Frame scene_from_workpiece(const Scene& scene);
 
-/// The colours of the errors of `shown`: from 0 to a round number that 95 % of the moves do not exceed,
-/// unless the scene says otherwise. `over_limit` comes from the theme.
+/// The colours of the errors of `shown`: from 0 to a round number not below twice their mean, unless the
+/// scene says otherwise. `over_limit` comes from the theme.
 [[nodiscard]] render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit);
 
 } // namespace millwright::viewport

@@ -3,6 +3,8 @@
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/layers.h"
 
+#include <glm/geometric.hpp>
+
 namespace millwright::viewport {
 
 namespace {
@@ -20,6 +22,8 @@ Canvas canvas_for(const render::Painter& painter,
             .highlight = {}};
 }
 
+constexpr double origin_reach =
+    2.5;                       // of the content's radius: an origin further away is not fitted into the view
 constexpr double around = 3.0; // of the content's radius: the floor and a tool standing on the part
 
 } // namespace
@@ -29,12 +33,33 @@ SceneView::SceneView() : layers_(make_layers()) {}
 SceneView::~SceneView() = default;
 
 void SceneView::update(const Scene& scene) {
+    outline_.clear();
     content_ = {};
     for (const std::unique_ptr<Layer>& layer : layers_) {
         layer->update(scene);
-        content_ = united(content_, layer->bounds(scene));
+        const std::vector<glm::dvec3> own = layer->outline(scene);
+        outline_.insert(outline_.end(), own.begin(), own.end());
     }
+    for (const glm::dvec3& point : outline_) {
+        content_ = united(content_, point);
+    }
+    add_origin(scene);
     scene_ = scene;
+}
+
+/// The axes at the origin are as long as the content asks for, so they come last.
+void SceneView::add_origin(const Scene& scene) {
+    const double size = radius(content_);
+    const glm::dvec3 origin = render::to_glm(Vec3(scene_from_workpiece(scene).translation()));
+    if (!scene.layers.origin || is_empty(content_) ||
+        glm::length(origin - center(content_)) > origin_reach * size) {
+        return;
+    }
+    const double length = origin_axis_length(content_);
+    for (const Vec3& end :
+         {Vec3(Vec3::Zero()), Vec3(length, 0.0, 0.0), Vec3(0.0, length, 0.0), Vec3(0.0, 0.0, length)}) {
+        outline_.push_back(render::to_glm(scene_from_workpiece(scene) * end));
+    }
 }
 
 void SceneView::draw(const render::View& view,

@@ -29,6 +29,7 @@ struct Label {
     glm::dvec3 position{};
     std::string text;
     glm::vec3 color{1.0F};
+    bool mark = false; ///< a letter at the very place, without a ground; else words above it
 };
 
 class SceneView {
@@ -44,6 +45,8 @@ public:
 
     /// What a camera has to see, in scene coordinates: of the scene last updated.
     [[nodiscard]] const render::Bounds& content() const { return content_; }
+    /// The same as points that lie on the content's outline, for a close fit.
+    [[nodiscard]] const std::vector<glm::dvec3>& outline() const { return outline_; }
 
     /// Background and layers of the scene last updated, into the bound framebuffer.
     void draw(const render::View& view, const render::ViewColors& colors, const Highlight& highlight) const;
@@ -54,9 +57,12 @@ public:
     [[nodiscard]] render::Bounds depth_range() const;
 
 private:
+    void add_origin(const Scene& scene);
+
     render::Painter painter_;
     std::vector<std::unique_ptr<Layer>> layers_;
     Scene scene_;
+    std::vector<glm::dvec3> outline_;
     render::Bounds content_;
 };
 

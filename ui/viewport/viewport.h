@@ -11,24 +11,14 @@
 
 #include "ui/render/camera.h"
 #include "ui/viewport/events.h"
-#include "ui/viewport/scene.h"
 #include "ui/widgets/ui.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace millwright::viewport {
 
 enum class Arrangement { one, four };
-
-/// What the mouse points at, in workpiece coordinates.
-struct UnderMouse {
-    std::optional<Vec3> on_surface; ///< mm
-    std::optional<Vec2> uv;         ///< parameters there
-    std::optional<ControlPointId> point;
-    std::optional<int> move;
-};
 
 /// Made once a context, after it and gone before it; a session of ImGui has to be there when drawing.
 class Viewport {

@@ -6,12 +6,29 @@
 
 namespace millwright::viewport {
 
-render::Bounds transformed(const Box3& box, const Frame& motion) {
-    return box.isEmpty() ? render::Bounds{} : render::to_glm(box.transformed(motion));
+std::vector<glm::dvec3> moved(std::span<const Vec3> points, const Frame& motion) {
+    std::vector<glm::dvec3> scene;
+    for (const Vec3& point : points) {
+        scene.push_back(render::to_glm(motion * point));
+    }
+    return scene;
+}
+
+std::vector<glm::dvec3> moved_corners(const Box3& box, const Frame& motion) {
+    std::vector<glm::dvec3> scene;
+    for (const glm::dvec3& corner : corners(render::to_glm(box))) {
+        scene.push_back(render::to_glm(motion * render::to_core(corner)));
+    }
+    return scene;
 }
 
 double radius(const render::Bounds& box) {
     return is_empty(box) ? 0.0 : 0.5 * glm::length(box.max - box.min);
+}
+
+double origin_axis_length(const render::Bounds& content) {
+    constexpr double share = 0.22; // of the content's radius
+    return share * radius(content);
 }
 
 double round_length(double length) {

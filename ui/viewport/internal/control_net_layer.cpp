@@ -39,7 +39,7 @@ public:
         selected_ = scene.selected;
         std::vector<render::LineVertex> lines;
         std::vector<render::PointVertex> points;
-        box_ = Box3();
+        outline_.clear();
         for (int p = 0; surface_ && p < surface_->patch_count(); ++p) {
             const geometry::ControlNet& net = surface_->patches()[static_cast<std::size_t>(p)].net();
             append_net(net, lines);
@@ -62,8 +62,9 @@ public:
         }
     }
 
-    [[nodiscard]] render::Bounds bounds(const Scene& scene) const override {
-        return scene.layers.control_net ? transformed(box_, scene_from_workpiece(scene)) : render::Bounds{};
+    [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
+        return scene.layers.control_net ? moved(outline_, scene_from_workpiece(scene))
+                                        : std::vector<glm::dvec3>{};
     }
 
 private:
@@ -76,7 +77,7 @@ private:
                 const bool selected = std::ranges::binary_search(selected_, id);
                 points.push_back(
                     {.position = render::to_float(net.point(i, j)), .selected = selected ? 1.0F : 0.0F});
-                box_.extend(net.point(i, j));
+                outline_.push_back(net.point(i, j));
             }
         }
     }
@@ -131,7 +132,7 @@ private:
     std::vector<ControlPointId> selected_;
     render::LineBuffer lines_;
     render::PointBuffer points_;
-    Box3 box_;
+    std::vector<Vec3> outline_;
 };
 
 } // namespace

@@ -87,6 +87,21 @@ int PathLines::segments_until(int move, double fraction) const {
     return first_[at] + static_cast<int>(std::floor(inside));
 }
 
+void draw_move(const Canvas& canvas,
+               const PathLines& lines,
+               std::optional<int> move,
+               render::LineStyle style,
+               const render::View& view) {
+    if (!move) {
+        return;
+    }
+    style.first = lines.segments_until(*move, 0.0);
+    style.count = lines.segments_until(*move + 1, 0.0) - style.first;
+    style.coloring.opacity = 1.0F;
+    style.width_px *= 2.0F;
+    draw_seamed(canvas, lines.buffer(), style, view);
+}
+
 int segments_done(const PathLines& lines, const std::optional<Moment>& now) {
     return now ? lines.segments_until(now->move, now->fraction) : lines.segment_count();
 }

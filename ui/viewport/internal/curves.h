@@ -3,7 +3,7 @@
 
 #include "core/geometry/bezier_patch.h"
 #include "ui/render/line_drawer.h"
-#include "ui/viewport/scene.h"
+#include "ui/viewport/internal/layer.h"
 
 #include <functional>
 #include <span>
@@ -52,6 +52,13 @@ private:
     render::LineBuffer buffer_;
     std::vector<int> first_; ///< segment with which each move begins, and the count of all
 };
+
+/// One move alone, thick, over everything that lies at the same place.
+void draw_move(const Canvas& canvas,
+               const PathLines& lines,
+               std::optional<int> move,
+               render::LineStyle style,
+               const render::View& view);
 
 /// The segments of `lines` that are done at `now`; all of them without.
 [[nodiscard]] int segments_done(const PathLines& lines, const std::optional<Moment>& now);

@@ -64,6 +64,7 @@ public:
         const render::View view = nearer(canvas, lift);
         render::LineStyle style = {.coloring = by_error, .model = canvas.s_T_w, .width_px = 3.0F};
         draw_moves(scene, canvas, tracks_, style, view);
+        draw_move(canvas, tracks_, canvas.highlight.move, style, view);
         style.coloring = {.color = with_opacity(canvas.colors.rapid, 0.6F)};
         style.width_px = 1.0F;
         draw_moves(scene, canvas, crossings_, style, view);

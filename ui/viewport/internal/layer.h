@@ -40,8 +40,8 @@ public:
     virtual void update(const Scene& scene) = 0;
     virtual void draw(const Scene& scene, const Canvas& canvas) const = 0;
 
-    /// What a view that shows everything has to hold, in scene coordinates.
-    [[nodiscard]] virtual render::Bounds bounds(const Scene&) const { return {}; }
+    /// Points that a view of everything has to hold, in scene coordinates.
+    [[nodiscard]] virtual std::vector<glm::dvec3> outline(const Scene&) const { return {}; }
     [[nodiscard]] virtual std::vector<Label> labels(const Scene&, const Canvas&) const { return {}; }
 };
 

@@ -45,13 +45,15 @@ public:
         }
     }
 
-    [[nodiscard]] render::Bounds bounds(const Scene& scene) const override {
-        render::Bounds all;
+    [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
+        std::vector<glm::dvec3> all;
         if (scene.layers.machine && scene.workpiece) {
             const kinematics::MachineModel& machine = scene.workpiece->machine;
             const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
             for (std::size_t k = 0; k < poses.size(); ++k) {
-                all = united(all, transformed(body_box(machine.description().bodies[k]), poses[k]));
+                const Box3 box = body_box(machine.description().bodies[k]);
+                const std::vector<glm::dvec3> corners = moved_corners(box, poses[k]);
+                all.insert(all.end(), corners.begin(), corners.end());
             }
         }
         return all;

@@ -13,8 +13,6 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr double length_share = 0.22; // of the content's radius
-
 /// Along z, from 0 to 1.
 Solid arrow() {
     constexpr std::array<glm::vec2, 6> profile = {
@@ -45,13 +43,13 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        const double length = length_share * radius(canvas.content);
+        const double length = origin_axis_length(canvas.content);
         if (!scene.layers.origin || !(length > 0.0)) {
             return;
         }
         for (const Axis& axis : axes()) {
             Frame turned = Frame::Identity();
-            turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis.direction).matrix();
+            turned.linear() = frame_along(axis.direction);
             const glm::mat4 placed = canvas.s_T_w * glm::mat4(render::to_glm(turned));
             arrow_->draw(
                 canvas, glm::scale(placed, glm::vec3(static_cast<float>(length))), canvas.colors.*axis.color);
@@ -60,11 +58,11 @@ public:
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
         std::vector<Label> labels;
-        const double length = 1.12 * length_share * radius(canvas.content);
+        const double length = 1.12 * origin_axis_length(canvas.content);
         if (scene.layers.origin && length > 0.0) {
             for (const Axis& axis : axes()) {
                 const Vec3 end = scene_from_workpiece(scene) * Vec3(length * axis.direction);
-                labels.push_back({render::to_glm(end), axis.name, canvas.colors.*axis.color});
+                labels.push_back({render::to_glm(end), axis.name, canvas.colors.*axis.color, true});
             }
         }
         return labels;

@@ -31,7 +31,7 @@ Solid tool_solid() {
 
 Frame pose_frame(const geometry::ToolPose& pose) {
     Frame frame = Frame::Identity();
-    frame.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), pose.axis).toRotationMatrix();
+    frame.linear() = frame_along(pose.axis);
     frame.translation() = pose.tip;
     return frame;
 }

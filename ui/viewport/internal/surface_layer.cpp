@@ -11,11 +11,13 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr int iso_lines = 10; // intervals between lines of constant u and v
+constexpr std::size_t outline_stride = 7; // of the mesh's points: the view need not be fitted to all of them
+constexpr int iso_lines = 10;             // intervals between lines of constant u and v
 
-/// Cells of the mesh along a direction of that degree.
+/// Cells of the mesh along a direction of that degree: a multiple of the intervals between lines, so that the
+/// lines lie on edges of the mesh.
 int cells(int degree) {
-    return std::clamp(16 * degree, 48, 128);
+    return std::clamp(2 * iso_lines * degree, 4 * iso_lines, 12 * iso_lines);
 }
 
 render::MeshVertex vertex(const geometry::Mesh& mesh, std::size_t k, bool flipped) {
@@ -56,8 +58,9 @@ public:
         }
     }
 
-    [[nodiscard]] render::Bounds bounds(const Scene& scene) const override {
-        return scene.layers.surface ? transformed(box_, scene_from_workpiece(scene)) : render::Bounds{};
+    [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
+        return scene.layers.surface ? moved(outline_, scene_from_workpiece(scene))
+                                    : std::vector<glm::dvec3>{};
     }
 
 private:
@@ -66,7 +69,7 @@ private:
         std::vector<std::uint32_t> triangles;
         std::vector<render::LineVertex> border;
         std::vector<render::LineVertex> iso;
-        box_ = Box3();
+        outline_.clear();
         if (surface_) {
             for (const geometry::BezierPatch& patch : surface_->patches()) {
                 append_mesh(patch, vertices, triangles);
@@ -86,7 +89,9 @@ private:
         const auto base = static_cast<std::uint32_t>(vertices.size());
         for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(vertex(mesh, k, flipped_));
-            box_.extend(mesh.positions[k]);
+            if (k % outline_stride == 0) {
+                outline_.push_back(mesh.positions[k]);
+            }
         }
         for (const auto& [a, b, c] : mesh.triangles) {
             triangles.push_back(base + static_cast<std::uint32_t>(a));
@@ -111,7 +116,7 @@ private:
     render::MeshBuffer mesh_;
     render::LineBuffer border_;
     render::LineBuffer iso_;
-    Box3 box_;
+    std::vector<Vec3> outline_;
 };
 
 } // namespace

@@ -10,7 +10,8 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float to_come = 0.5F;      // opacity
+constexpr float to_come = 0.5F; // opacity
+constexpr std::ptrdiff_t most_arrows = 10;
 constexpr double arrow_share = 0.45; // of the move's length
 constexpr double hair_share = 0.05;  // of the part's diagonal
 
@@ -54,12 +55,16 @@ void append_arrow(std::vector<render::LineVertex>& lines,
     append(lines, std::array{Vec3(back + arrow_share * across), tip, Vec3(back - arrow_share * across)});
 }
 
+/// At most `most_arrows`, on tracks at equal steps.
 std::vector<render::LineVertex> arrows(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
+    const auto tracks = 1 + std::ranges::count(path.points, MoveKind::cross, &PathPoint::reached_by);
+    const auto each = (tracks + most_arrows - 1) / most_arrows;
     std::vector<render::LineVertex> lines;
     int first = 0;
+    std::ptrdiff_t track = 0;
     for (int move = 0; move <= move_count(path); ++move) {
         const bool ends = move == move_count(path) || end_of(path, move).reached_by == MoveKind::cross;
-        if (ends && move > first) {
+        if (ends && move > first && track++ % each == 0) {
             const auto middle = static_cast<std::size_t>((first + move) / 2);
             append_arrow(lines, patch, path.points[middle], path.points[middle + 1]);
         }
@@ -130,7 +135,9 @@ public:
         if (!scene.layers.toolpath) {
             return;
         }
-        draw_moves(scene, canvas, buffers_.tracks, line_style(canvas, colors.path, width, 1.0F));
+        const render::LineStyle style = line_style(canvas, colors.path, width, 1.0F);
+        draw_moves(scene, canvas, buffers_.tracks, style);
+        draw_move(canvas, buffers_.tracks, canvas.highlight.move, style, canvas.view);
         draw_moves(scene, canvas, buffers_.crossings, line_style(canvas, colors.rapid, 0.6F * width, 0.9F));
         if (scene.layers.machine) {
             return;

@@ -1,0 +1,32 @@
+#include "app/command.h"
+
+#include "app/progress_printer.h"
+#include "core/base/error.h"
+#include "core/project/assets.h"
+#include "core/project/project_file.h"
+
+#include <utility>
+
+namespace millwright::app {
+
+namespace fs = std::filesystem;
+
+OpenedProject open_project(const fs::path& file) {
+    return {file, project::read_project(file), {file.parent_path(), project::assets_folder()}};
+}
+
+project::Plan planned(const OpenedProject& opened, project::Scope scope, const std::stop_token& stop) {
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
+    try {
+        return project::make_plan(opened.project, opened.folders, progress, scope);
+    } catch (const Error& error) {
+        Diagnostic found = error.diagnostic();
+        if (found.place.file.empty()) {
+            found.place.file = opened.file;
+        }
+        throw Error(std::move(found));
+    }
+}
+
+} // namespace millwright::app

@@ -1,0 +1,30 @@
+// What the commands of the command line have in common: main finds out which one is meant, then runs it.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/project/plan.h"
+#include "core/project/project.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace millwright::app {
+
+/// Runs to the exit code. Throws Error or Cancelled.
+using Command = std::function<int()>;
+
+/// A project read from its file, with where its machine is looked for.
+struct OpenedProject {
+    std::filesystem::path file;
+    project::Project project;
+    project::Folders folders;
+};
+
+/// Throws Error for anything wrong in the file.
+[[nodiscard]] OpenedProject open_project(const std::filesystem::path& file);
+
+/// make_plan under a progress bar that Ctrl+C cancels. An Error that names no file gets the project's.
+[[nodiscard]] project::Plan
+planned(const OpenedProject& opened, project::Scope scope, const std::stop_token& stop);
+
+} // namespace millwright::app

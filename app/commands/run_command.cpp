@@ -1,0 +1,120 @@
+#include "app/commands/run_command.h"
+
+#include "app/interrupt.h"
+#include "app/progress_printer.h"
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/text.h"
+#include "core/machine/clock.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <ctime>
+#include <memory>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    std::string project;
+    std::string driver = "virtual";
+    double speed = 1.0;
+    std::string log = "jobs";
+};
+
+std::string fault_of_speed(const std::string& text) {
+    using machine::VirtualSpeed;
+    double speed = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), speed);
+    const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+    const bool inside = speed >= VirtualSpeed::slowest && speed <= VirtualSpeed::fastest;
+    return whole && (inside || exactly_equal(speed, VirtualSpeed::unlimited))
+               ? std::string()
+               : fmt::format("'{}' is neither 0 nor between {} and {}",
+                             text,
+                             VirtualSpeed::slowest,
+                             VirtualSpeed::fastest);
+}
+
+std::string now_for_people() {
+    return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
+machine::Job job_of(const OpenedProject& opened, const project::Plan& plan) {
+    machine::Job job;
+    job.name = opened.file.stem().string();
+    job.project = opened.file.string();
+    job.started_at = now_for_people();
+    job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
+    job.program = plan.program;
+    job.listing = plan.listing;
+    return job;
+}
+
+machine::JobOutcome run_job(const machine::Job& job, const Options& options, const Progress& progress) {
+    machine::SteadyClock clock;
+    machine::VirtualMachine driver(job.program->start, {options.speed}, clock);
+    driver.connect();
+    machine::Dispatcher dispatcher(driver, clock, options.log);
+    const machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+        const double done =
+            report.planned_time > 0.0 ? report.driver.planned_time / report.planned_time : 1.0;
+        progress.report(done, fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks));
+    });
+    driver.close();
+    return outcome;
+}
+
+int run(const Options& options) {
+    const Interrupt interrupt;
+    const OpenedProject opened = open_project(options.project);
+    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
+    const machine::Job job = job_of(opened, plan);
+    machine::JobOutcome outcome;
+    {
+        ProgressPrinter printer;
+        const Progress progress([&](const Progress::Report& report) { printer.show(report); },
+                                interrupt.token());
+        outcome = run_job(job, options, progress);
+    }
+    fmt::print("{}\n{} of {} blocks executed in {}; log: {}\n",
+               outcome.sentence,
+               outcome.executed_blocks,
+               outcome.blocks,
+               clock_time(outcome.elapsed),
+               outcome.log_file.string());
+    if (outcome.end == machine::JobEnd::cancelled) {
+        throw Cancelled();
+    }
+    return outcome.end == machine::JobEnd::done ? 0 : 1;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("run", "Run the program of a project on a machine");
+    command.add_option("PROJECT", options->project, "Project file")->required();
+    command.add_option("--driver", options->driver, "Machine to run on")
+        ->required()
+        ->check(CLI::IsMember({"virtual"}));
+    command
+        .add_option(
+            "--speed", options->speed, "Times real time, of the virtual machine; 0: as fast as it goes")
+        ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
+        ->capture_default_str();
+    command.add_option("--log", options->log, "Folder of the job logs")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace millwright::app

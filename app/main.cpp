@@ -1,0 +1,68 @@
+// The program: finds out which command is meant, runs it, and tells how it ended.
+// Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
+#include "app/commands/plan_command.h"
+#include "app/commands/render_command.h"
+#include "app/commands/run_command.h"
+#include "app/commands/workbench_command.h"
+#include "core/base/error.h"
+#include "core/project/version.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+namespace millwright::app {
+
+namespace {
+
+constexpr int failed = 1;
+constexpr int wrong_usage = 2;
+
+int run(const Command& command) {
+    try {
+        return command();
+    } catch (const Error& error) {
+        fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
+    } catch (const Cancelled&) {
+        fmt::print(stderr, "millwright: cancelled\n");
+    } catch (const std::exception& failure) {
+        fmt::print(stderr, "millwright: internal error: {}\n", failure.what());
+    }
+    return failed;
+}
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Designs surfaces, shows where a 5-axis machine would cut them wrong, and makes programs that do "
+        "not.\nWithout a command: opens the workbench.",
+        "millwright");
+    app.set_version_flag("--version", "millwright " + std::string(project::version()));
+    app.require_subcommand(0, 1);
+    Command chosen;
+    add_workbench_command(app, chosen);
+    add_plan_command(app, chosen);
+    add_render_command(app, chosen);
+    add_run_command(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& parsed) {
+        if (parsed.get_exit_code() == 0) { // --help or --version
+            return app.exit(parsed);
+        }
+        fmt::print(stderr, "millwright: {}\nRun \"millwright --help\" for more.\n", parsed.what());
+        return wrong_usage;
+    }
+    return run(chosen);
+}
+
+} // namespace
+
+} // namespace millwright::app
+
+int main(int argc, char** argv) {
+    return millwright::app::main(argc, argv);
+}

@@ -1,0 +1,50 @@
+#include "app/outputs.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+
+#include <system_error>
+
+namespace millwright::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path beside(const fs::path& folder, const OutputFile& file) {
+    return folder / ("." + file.name + ".new");
+}
+
+void remove_drafts(const fs::path& folder, const std::vector<OutputFile>& files) {
+    for (const OutputFile& file : files) {
+        std::error_code ignored;
+        fs::remove(beside(folder, file), ignored);
+    }
+}
+
+} // namespace
+
+void write_outputs(const fs::path& folder, const std::vector<OutputFile>& files) {
+    make_folder(folder);
+    try {
+        for (const OutputFile& file : files) {
+            if (fs::is_directory(folder / file.name)) {
+                throw Error("cannot write: Is a directory", folder / file.name);
+            }
+            write_file(beside(folder, file), file.bytes);
+        }
+    } catch (const Error&) {
+        remove_drafts(folder, files);
+        throw;
+    }
+    for (const OutputFile& file : files) {
+        std::error_code failure;
+        fs::rename(beside(folder, file), folder / file.name, failure);
+        if (failure) {
+            remove_drafts(folder, files);
+            throw Error("cannot write: " + failure.message(), folder / file.name);
+        }
+    }
+}
+
+} // namespace millwright::app

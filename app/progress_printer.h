@@ -1,0 +1,36 @@
+// Progress on standard error: a bar with the remaining time on a terminal, else a line now and then.
+#pragma once
+
+#include "core/base/progress.h"
+
+#include <chrono>
+#include <string>
+
+namespace millwright::app {
+
+class ProgressPrinter {
+public:
+    ProgressPrinter();
+    ProgressPrinter(const ProgressPrinter&) = delete;
+    ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+    ~ProgressPrinter();
+
+    void show(const Progress::Report& report);
+    /// Takes the bar away, so that other lines can follow.
+    void finish();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void draw_bar(const Progress::Report& report, double elapsed);
+    void print_line(const Progress::Report& report);
+
+    bool on_terminal_;
+    bool drawn_ = false;
+    Clock::time_point begin_;
+    Clock::time_point last_;
+    std::string text_;
+    int tenths_ = -1; ///< of the work, when the last line was printed
+};
+
+} // namespace millwright::app

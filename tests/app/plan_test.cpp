@@ -1,0 +1,87 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(PlanCommand, LeavesProgramReportAndPicture) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended ended = run({"plan", project, "--out", scratch / "new/out"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(content_of(scratch / "new/out/program.ngc"), HasSubstr("G93"));
+    EXPECT_THAT(content_of(scratch / "new/out/preview.png"), StartsWith("\x89PNG"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "new/out/report.json"));
+    EXPECT_EQ(report.at("grid").at("nu"), 6);
+    EXPECT_THAT(ended.out, HasSubstr("tracks"));
+    for (const auto& entry : fs::directory_iterator(scratch / "new/out")) {
+        EXPECT_THAT(entry.path().filename().string(), Not(StartsWith("."))) << "a draft was left behind";
+    }
+}
+
+TEST(PlanCommand, BetterGridsAreNotWorse) {
+    const ScratchFolder scratch;
+    for (const char* name : {"dome", "two-bell", "sine"}) {
+        const Ended ended =
+            run({"plan", small_project(scratch.path(), name), "--out", (scratch / name).string()});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const auto error = nlohmann::json::parse(content_of(scratch / name / "report.json")).at("error");
+        for (const char* better : {"adapted", "optimised"}) {
+            EXPECT_LE(error.at(better).at("closest").at("mean"), error.at("uniform").at("closest").at("mean"))
+                << name << better;
+            EXPECT_LE(error.at(better).at("axis_deviation_deg").at("max"),
+                      error.at("uniform").at("axis_deviation_deg").at("max"))
+                << name << better;
+        }
+    }
+}
+
+TEST(PlanCommand, TwoRunsGiveTheSameBytes) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "two-bell");
+    ASSERT_EQ(run({"plan", project, "--out", scratch / "a"}).exit_code, 0);
+    ASSERT_EQ(run({"plan", project, "--out", scratch / "b"}).exit_code, 0);
+    for (const char* name : {"program.ngc", "report.json", "preview.png"}) {
+        EXPECT_EQ(content_of(scratch / "a" / name), content_of(scratch / "b" / name)) << name;
+    }
+}
+
+TEST(PlanCommand, TellsItsProgressInPlainLinesWhereThereIsNoTerminal) {
+    const ScratchFolder scratch;
+    const Ended ended = run({"plan", small_project(scratch.path(), "dome"), "--out", scratch / "out"});
+    EXPECT_THAT(ended.err, HasSubstr(" %  Optimising the tracks\n"));
+    EXPECT_THAT(ended.err, Not(HasSubstr("\r")));
+}
+
+TEST(PlanCommand, IsCancelledByCtrlCAndLeavesWhatWasThere) {
+    const ScratchFolder scratch;
+    fs::create_directories(scratch / "out");
+    write_content(scratch / "out/program.ngc", "old");
+    std::string text = content_of("assets/projects/dome.json");
+    for (const char* count : {"\"nu\": ", "\"nv\": "}) {
+        text.replace(text.find(count), 8, std::string(count) + "100");
+    }
+    write_content(scratch / "large.json", text);
+    Program program({"plan", scratch / "large.json", "--out", scratch / "out"});
+    program.wait_for_error_text("%");
+    program.send(SIGINT);
+    const Ended ended = program.end();
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("millwright: cancelled\n"));
+    EXPECT_EQ(content_of(scratch / "out/program.ngc"), "old");
+    EXPECT_FALSE(fs::exists(scratch / "out/report.json"));
+}
+
+} // namespace
+} // namespace millwright::test

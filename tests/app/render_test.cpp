@@ -1,0 +1,52 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A number of the PNG's header, which begins at byte 16 with width and height, most significant byte first.
+unsigned header_number(const std::string& png, std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t n = at; n < at + 4; ++n) {
+        value = 256 * value + static_cast<unsigned char>(png.at(n));
+    }
+    return value;
+}
+
+TEST(RenderCommand, DrawsEveryViewWithoutADisplay) {
+    const ScratchFolder scratch;
+    const auto project = small_project(scratch.path(), "dome");
+    std::set<std::string> pictures;
+    for (const std::string view : {"design", "grid", "toolpath", "error", "machine"}) {
+        const auto file = scratch / (view + ".png");
+        const Ended ended = run({"render", project, "--view", view, "--size", "320x200", "--out", file});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const std::string png = content_of(file);
+        EXPECT_EQ(header_number(png, 16), 320u) << view;
+        EXPECT_EQ(header_number(png, 20), 200u) << view;
+        EXPECT_TRUE(pictures.insert(png).second) << view << " looks like another view";
+    }
+}
+
+TEST(RenderCommand, FailsWithoutTouchingWhatIsThere) {
+    const ScratchFolder scratch;
+    write_content(scratch / "old.png", "old");
+    const Ended broken = run({"render", "no.json", "--view", "grid", "--out", scratch / "old.png"});
+    EXPECT_EQ(broken.exit_code, 1);
+    EXPECT_EQ(content_of(scratch / "old.png"), "old");
+    const auto project = small_project(scratch.path(), "dome");
+    const Ended unwritable =
+        run({"render", project, "--view", "grid", "--size", "64x64", "--out", scratch / "dome.json/x.png"});
+    EXPECT_EQ(unwritable.exit_code, 1);
+    EXPECT_THAT(unwritable.err, HasSubstr("dome.json/x.png: cannot write"));
+}
+
+} // namespace
+} // namespace millwright::test

@@ -1,0 +1,68 @@
+#include "tests/app/program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string dome = "assets/projects/dome.json";
+
+void expect_wrong_usage(const std::vector<std::string>& arguments, const std::string& says) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_THAT(ended.err, StartsWith("millwright: ")) << testing::PrintToString(arguments);
+    EXPECT_THAT(ended.err, HasSubstr(says)) << testing::PrintToString(arguments);
+    EXPECT_EQ(ended.out, "") << testing::PrintToString(arguments);
+}
+
+TEST(Usage, HelpNamesEveryCommandAndOption) {
+    const Ended ended = run({"--help"});
+    EXPECT_EQ(ended.exit_code, 0);
+    for (const char* command : {"plan", "render", "run", "--version", "PROJECT"}) {
+        EXPECT_THAT(ended.out, HasSubstr(command));
+    }
+    EXPECT_THAT(run({"render", "--help"}).out, HasSubstr("design,grid,toolpath,error,machine"));
+    EXPECT_THAT(run({"run", "--help"}).out, HasSubstr("--speed"));
+}
+
+TEST(Usage, TheVersionIsPrinted) {
+    const Ended ended = run({"--version"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.out, testing::MatchesRegex("millwright [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Usage, WhatIsMissingIsNamed) {
+    expect_wrong_usage({"plan"}, "PROJECT is required");
+    expect_wrong_usage({"plan", dome}, "--out is required");
+    expect_wrong_usage({"render", dome, "--out", "x.png"}, "--view is required");
+    expect_wrong_usage({"run", dome}, "--driver is required");
+}
+
+TEST(Usage, WhatIsUnknownIsNamed) {
+    expect_wrong_usage({"plan", dome, "--out", "x", "--fast"}, "--fast");
+    expect_wrong_usage({"plan", dome, "other.json", "--out", "x"}, "other.json");
+    expect_wrong_usage({"render", dome, "--view", "back", "--out", "x.png"}, "back");
+    expect_wrong_usage({"run", dome, "--driver", "real"}, "real");
+    expect_wrong_usage({dome, "more"}, "more");
+    expect_wrong_usage({"plan", dome, "--out", "x", "run", dome, "--driver", "virtual"}, "");
+}
+
+TEST(Usage, ASizeIsWidthTimesHeight) {
+    for (const char* size :
+         {"", "1280", "1280x", "x800", "1280x800x", "0x0", "-5x5", "99999x800", "1280 x 800", "axb"}) {
+        expect_wrong_usage({"render", dome, "--view", "error", "--size", size, "--out", "x.png"}, "--size");
+    }
+}
+
+TEST(Usage, ASpeedIsInItsRange) {
+    for (const char* speed : {"", "-1", "0.001", "1001", "nan", "fast", "10x"}) {
+        expect_wrong_usage({"run", dome, "--driver", "virtual", "--speed", speed}, "--speed");
+    }
+}
+
+} // namespace
+} // namespace millwright::test

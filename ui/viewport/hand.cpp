@@ -1,0 +1,209 @@
+#include "ui/viewport/hand.h"
+
+#include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/navigation.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace millwright::viewport {
+
+namespace {
+
+using widgets::MouseButton;
+using Stage = MoveControlPoints::Stage;
+
+// Pixels at scale 1.
+constexpr double handle_reach_px = 9.0;
+constexpr double move_reach_px = 6.0;
+constexpr double still_px = 4.0; // a click may move this far
+
+constexpr double hidden_share = 0.05; // of the surface's size: further behind it, a move cannot be pointed at
+
+glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
+    return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
+}
+
+bool editable(const Scene& scene) {
+    return scene.layers.control_net && scene.surface;
+}
+
+Vec3 position_of(const geometry::Surface& surface, const ControlPointId& id) {
+    return surface.patch(id.patch).net().point(id.i, id.j);
+}
+
+/// Sorted, each once, those of the surface only.
+std::vector<ControlPointId> tidied(std::vector<ControlPointId> points) {
+    std::ranges::sort(points);
+    const auto repeated = std::ranges::unique(points);
+    points.erase(repeated.begin(), repeated.end());
+    return points;
+}
+
+std::vector<ControlPointId> toggled(std::vector<ControlPointId> selected, const ControlPointId& point) {
+    const auto found = std::ranges::find(selected, point);
+    if (found == selected.end()) {
+        selected.push_back(point);
+    } else {
+        selected.erase(found);
+    }
+    return tidied(std::move(selected));
+}
+
+bool contains(const std::vector<ControlPointId>& points, const ControlPointId& point) {
+    return std::ranges::find(points, point) != points.end();
+}
+
+} // namespace
+
+void Hand::leave() {
+    highlight_ = {};
+    under_mouse_ = {};
+}
+
+std::vector<ViewEvent> Hand::follow(const HandInput& input) {
+    std::vector<ViewEvent> events;
+    wants_fit_ = false;
+    if (navigates(input.pointer)) {
+        leave();
+        return events;
+    }
+    if (!drag_ && !box_) {
+        point_at(input);
+    }
+    if (input.pointer.pressed == MouseButton::left) {
+        press(input);
+    }
+    if (pressed_ && input.take_back) {
+        take_back(events);
+    }
+    if (pressed_ && input.pointer.held == MouseButton::left) {
+        hold(input, events);
+    }
+    if (pressed_ && input.pointer.released == MouseButton::left) {
+        release(input, events);
+    }
+    return events;
+}
+
+void Hand::point_at(const HandInput& input) {
+    leave();
+    move_fraction_.reset();
+    if (!input.pointer.hovered) {
+        return;
+    }
+    const Scene& scene = input.scene;
+    const Frame s_T_w = scene_from_workpiece(scene);
+    const glm::dvec2 pixel = pixel_of(input.pointer);
+    const double scale = input.view.content_scale;
+    const auto hit = input.picker.hit(render::ray(input.view, pixel), s_T_w);
+    if (hit) {
+        under_mouse_.on_surface = hit->position;
+        under_mouse_.uv = hit->uv;
+    }
+    if (editable(scene)) {
+        highlight_.point =
+            pick_control_point(*scene.surface, s_T_w, input.view, pixel, handle_reach_px * scale);
+    }
+    if (!highlight_.point) {
+        const double size = scene.surface ? scene.surface->control_box().diagonal().norm() : 0.0;
+        const auto sight = hit ? std::optional(hit->distance) : std::nullopt;
+        const auto move =
+            pick_move(scene, input.view, pixel, move_reach_px * scale, sight, hidden_share * size);
+        if (move) {
+            highlight_.move = move->move;
+            move_fraction_ = move->fraction;
+        }
+    }
+    under_mouse_.point = highlight_.point;
+    under_mouse_.move = highlight_.move;
+}
+
+void Hand::press(const HandInput& input) {
+    pressed_ = Pressed{.pixel = pixel_of(input.pointer), .point = highlight_.point};
+    wants_fit_ = input.pointer.double_clicked && !highlight_.point && !highlight_.move;
+}
+
+void Hand::hold(const HandInput& input, std::vector<ViewEvent>& events) {
+    const glm::dvec2 pixel = pixel_of(input.pointer);
+    const bool moved = glm::length(pixel - pressed_->pixel) > still_px * input.view.content_scale;
+    if (!drag_ && !box_ && moved && editable(input.scene)) {
+        if (pressed_->point) {
+            begin_drag(input, events);
+        } else {
+            box_ = Box{.corner = pressed_->pixel, .opposite = pixel};
+        }
+    }
+    if (box_) {
+        box_->opposite = pixel;
+    }
+    if (drag_) {
+        const Vec3 before = drag_->moved();
+        drag_->move_to(input.view, pixel, input.keys);
+        if (drag_->moved() != before) {
+            events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = Stage::going_on});
+        }
+    }
+}
+
+void Hand::begin_drag(const HandInput& input, std::vector<ViewEvent>& events) {
+    const Scene& scene = input.scene;
+    std::vector<ControlPointId> ids = scene.selected;
+    if (!contains(ids, *pressed_->point)) {
+        ids = {*pressed_->point};
+        events.emplace_back(SelectControlPoints{.points = ids});
+    }
+    std::vector<MovedControlPoint> points;
+    std::size_t grabbed = 0;
+    for (const ControlPointId& id : ids) {
+        grabbed = id == *pressed_->point ? points.size() : grabbed;
+        points.push_back({.id = id, .position = position_of(*scene.surface, id)});
+    }
+    drag_.emplace(std::move(points), grabbed, scene_from_workpiece(scene), pressed_->pixel);
+}
+
+void Hand::take_back(std::vector<ViewEvent>& events) {
+    if (drag_) {
+        events.emplace_back(MoveControlPoints{.points = drag_->start(), .stage = Stage::cancelled});
+    }
+    drag_.reset();
+    box_.reset();
+    pressed_.reset();
+}
+
+void Hand::release(const HandInput& input, std::vector<ViewEvent>& events) {
+    if (drag_) {
+        events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = Stage::finished});
+    } else if (box_) {
+        std::vector<ControlPointId> found = control_points_in(*input.scene.surface,
+                                                              scene_from_workpiece(input.scene),
+                                                              input.view,
+                                                              box_->corner,
+                                                              box_->opposite);
+        if (input.pointer.ctrl) {
+            found.insert(found.end(), input.scene.selected.begin(), input.scene.selected.end());
+        }
+        events.emplace_back(SelectControlPoints{.points = tidied(std::move(found))});
+    } else {
+        click(input, events);
+    }
+    drag_.reset();
+    box_.reset();
+    pressed_.reset();
+}
+
+void Hand::click(const HandInput& input, std::vector<ViewEvent>& events) const {
+    const std::vector<ControlPointId>& selected = input.scene.selected;
+    if (pressed_->point) {
+        const ControlPointId point = *pressed_->point;
+        events.emplace_back(SelectControlPoints{
+            .points = input.pointer.ctrl ? toggled(selected, point) : std::vector<ControlPointId>{point}});
+    } else if (highlight_.move) {
+        events.emplace_back(GoToMove{.move = *highlight_.move, .fraction = move_fraction_.value_or(0.0)});
+    } else if (!selected.empty() && !input.pointer.ctrl) {
+        events.emplace_back(SelectControlPoints{});
+    }
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,69 @@
+// What the left button does in one picture of the view: pointing, selecting, dragging, going to a move.
+#pragma once
+
+#include "ui/viewport/picking.h"
+#include "ui/viewport/point_drag.h"
+#include "ui/viewport/scene_view.h"
+#include "ui/widgets/canvas.h"
+
+#include <optional>
+#include <vector>
+
+namespace millwright::viewport {
+
+/// One frame of one picture.
+struct HandInput {
+    const Scene& scene;
+    const render::View& view;
+    const SurfacePicker& picker;
+    widgets::Pointer pointer;
+    DragKeys keys;
+    bool take_back = false; ///< Esc went down
+};
+
+class Hand {
+public:
+    /// A rectangle between two pixels of the picture.
+    struct Box {
+        glm::dvec2 corner{};
+        glm::dvec2 opposite{};
+    };
+
+    [[nodiscard]] std::vector<ViewEvent> follow(const HandInput& input);
+
+    [[nodiscard]] const Highlight& highlight() const { return highlight_; }
+    [[nodiscard]] const UnderMouse& under_mouse() const { return under_mouse_; }
+    [[nodiscard]] const std::optional<PointDrag>& drag() const { return drag_; }
+    /// The box of a selection in the making.
+    [[nodiscard]] const std::optional<Box>& box() const { return box_; }
+    /// A double click on nothing in this frame.
+    [[nodiscard]] bool wants_fit() const { return wants_fit_; }
+    /// The button is down, or the mouse was last seen in the picture.
+    [[nodiscard]] bool busy() const { return pressed_.has_value(); }
+    /// The mouse left the picture.
+    void leave();
+
+private:
+    struct Pressed {
+        glm::dvec2 pixel{};
+        std::optional<ControlPointId> point;
+    };
+
+    void point_at(const HandInput& input);
+    void press(const HandInput& input);
+    void hold(const HandInput& input, std::vector<ViewEvent>& events);
+    void release(const HandInput& input, std::vector<ViewEvent>& events);
+    void click(const HandInput& input, std::vector<ViewEvent>& events) const;
+    void begin_drag(const HandInput& input, std::vector<ViewEvent>& events);
+    void take_back(std::vector<ViewEvent>& events);
+
+    Highlight highlight_;
+    UnderMouse under_mouse_;
+    std::optional<double> move_fraction_;
+    std::optional<Pressed> pressed_;
+    std::optional<PointDrag> drag_;
+    std::optional<Box> box_;
+    bool wants_fit_ = false;
+};
+
+} // namespace millwright::viewport

@@ -1,0 +1,18 @@
+// The axes of the scene in the upper right corner of a picture: shows where one looks from, and turns the
+// view to a side by a click on an end.
+#pragma once
+
+#include "ui/render/camera.h"
+#include "ui/viewport/internal/overlay.h"
+
+#include <optional>
+
+namespace millwright::viewport {
+
+/// The side whose end was clicked.
+[[nodiscard]] std::optional<render::StandardView> axis_gizmo(widgets::Ui& ui, const Pane& pane);
+
+/// What it takes of the picture, width and height, at scale 1.
+inline constexpr float gizmo_size = 92.0F;
+
+} // namespace millwright::viewport

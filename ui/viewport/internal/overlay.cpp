@@ -1,0 +1,214 @@
+#include "ui/viewport/internal/overlay.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "ui/render/convert.h"
+#include "ui/viewport/internal/boxes.h"
+#include "ui/widgets/canvas.h"
+#include "ui/widgets/legend.h"
+
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace millwright::viewport {
+
+namespace {
+
+using widgets::Point;
+using widgets::Rect;
+
+// Pixels at scale 1.
+constexpr float margin = 14.0F;
+constexpr float label_above = 23.0F;
+constexpr float legend_width = 92.0F;
+constexpr float legend_height = 250.0F;
+constexpr float least_legend_height = 110.0F;
+constexpr float legend_top = 16.0F; // left free above it, for a caption
+constexpr float above_scale_bar = 44.0F;
+constexpr double behind_share = 0.02; // of the content's radius: how far behind the surface counts as hidden
+constexpr double bar_px = 150.0;      // the scale bar is at most this long
+
+Point in_window(const Pane& pane, const glm::dvec2& pixel) {
+    return {pane.rect.x + static_cast<float>(pixel.x), pane.rect.y + static_cast<float>(pixel.y)};
+}
+
+ImVec2 vec(Point p) {
+    return {p.x, p.y};
+}
+
+void draw_line(Point a, Point b, widgets::Colour colour, float width) {
+    ImGui::GetWindowDrawList()->AddLine(vec(a), vec(b), colour, width);
+}
+
+void draw_centred(widgets::Ui& ui, Point at, const std::string& text, widgets::Colour colour) {
+    const ImFont* font = ui.look().fonts.small;
+    const float wide = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str()).x;
+    ImGui::GetWindowDrawList()->AddText(
+        font,
+        font->FontSize,
+        {std::round(at.x - 0.5F * wide), std::round(at.y - 0.5F * font->FontSize)},
+        colour,
+        text.c_str());
+}
+
+/// "20 mm", "0.5 mm", "2 m".
+std::string length_text(double length) {
+    if (length >= 1000.0) {
+        return shortest(length / 1000.0) + " m";
+    }
+    return shortest(length) + " mm";
+}
+
+widgets::Colour text_colour(const Pane& pane) {
+    return to_colour(pane.colors.neutral[7]);
+}
+
+std::string coordinates(const Vec3& p) {
+    return fixed(p.x(), 3) + "   " + fixed(p.y(), 3) + "   " + fixed(p.z(), 3);
+}
+
+std::string drag_text(const PointDrag& drag) {
+    const MovedControlPoint& point = drag.grabbed();
+    const std::string name = "P(" + std::to_string(point.id.i) + "," + std::to_string(point.id.j) + ")   ";
+    return name + coordinates(point.position + drag.moved()) + "   moved " + fixed(drag.moved().norm(), 3) +
+           " mm";
+}
+
+std::string move_text(const Scene& scene, int move) {
+    const toolpath::MoveDeviation& deviation = scene.shown->field.moves[static_cast<std::size_t>(move)];
+    return "move " + std::to_string(move + 1) + "   error " + fixed(deviation.closest, 4) + " mm   axis " +
+           fixed(to_degrees(deviation.axis), 2) + "\u00B0";
+}
+
+} // namespace
+
+widgets::Colour to_colour(const glm::vec3& color, double opacity) {
+    const auto channel = [](float c) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(c, 0.0F, 1.0F) * 255.0F));
+    };
+    return widgets::rgb(channel(color.r) << 16U | channel(color.g) << 8U | channel(color.b), opacity);
+}
+
+render::Theme theme_of(const widgets::Ui& ui) {
+    return ui.look().theme == widgets::Theme::dark ? render::Theme::dark : render::Theme::light;
+}
+
+std::vector<Label>
+visible_labels(const SceneView& view, const Scene& scene, const SurfacePicker& picker, const Pane& pane) {
+    std::vector<Label> labels = view.labels(pane.view, pane.colors);
+    const Frame s_T_w = scene_from_workpiece(scene);
+    const double tolerance = behind_share * radius(view.content());
+    std::erase_if(labels, [&](const Label& label) {
+        const auto seen = render::project(pane.view, label.position);
+        if (!seen) {
+            return true;
+        }
+        const render::Ray sight = render::ray(pane.view, seen->pixel);
+        const auto hit = picker.hit(sight, s_T_w);
+        const double away = glm::dot(label.position - sight.origin, sight.direction);
+        return scene.layers.surface && hit && away > hit->distance + tolerance;
+    });
+    return labels;
+}
+
+void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels) {
+    for (const Label& label : labels) {
+        const auto seen = render::project(pane.view, label.position);
+        if (!seen) {
+            continue;
+        }
+        Point at = in_window(pane, seen->pixel);
+        if (label.mark) {
+            draw_centred(ui, at, label.text, to_colour(label.color));
+            continue;
+        }
+        at.y -= ui.px(label_above);
+        if (pane.rect.contains(at)) {
+            widgets::label_at(ui, at, label.text, to_colour(label.color));
+        }
+    }
+}
+
+void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) {
+    const double pixel = render::pixel_length(pane.view, point);
+    const double length = round_length(bar_px * pane.view.content_scale * pixel);
+    const auto width = static_cast<float>(length / pixel);
+    const Point left = {pane.rect.x + ui.px(margin), pane.rect.bottom() - ui.px(margin)};
+    const Point right = {left.x + width, left.y};
+    const float tick = ui.px(5.0F);
+    const widgets::Colour colour = text_colour(pane);
+    for (const auto& [a, b] : {std::pair{left, right},
+                               std::pair{Point{left.x, left.y - tick}, left},
+                               std::pair{Point{right.x, right.y - tick}, right}}) {
+        draw_line(a, b, colour, ui.px(1.5F));
+    }
+    draw_centred(ui, {0.5F * (left.x + right.x), left.y - ui.px(11.0F)}, length_text(length), colour);
+}
+
+void draw_legend(widgets::Ui& ui, const Pane& pane, const Scene& scene) {
+    if (!scene.shown || !(scene.layers.error_path || scene.layers.error_surface)) {
+        return;
+    }
+    const render::ColorScale scale = error_colors(scene, pane.colors.over_limit);
+    const float room = pane.rect.h - ui.px(above_scale_bar + margin + legend_top);
+    const float height = std::min(ui.px(legend_height), room);
+    if (height < ui.px(least_legend_height)) {
+        return;
+    }
+    const Rect place = {pane.rect.x + ui.px(margin),
+                        pane.rect.bottom() - height - ui.px(above_scale_bar),
+                        ui.px(legend_width),
+                        height};
+    widgets::LegendView view = {
+        .title = "Error",
+        .unit = "mm",
+        .low = scale.low,
+        .high = scale.high,
+        .map = [map = scale.map](double t) { return to_colour(render::sample(map, t)); },
+        .tip = "The largest distance of the tool's true way from the surface, move by move."};
+    if (scale.limit) {
+        view.over = to_colour(scale.over_limit);
+    }
+    widgets::legend(ui, "legend", place, view);
+}
+
+void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text) {
+    const ImFont* font = ui.look().fonts.small;
+    ImGui::GetWindowDrawList()->AddText(font,
+                                        font->FontSize,
+                                        {pane.rect.x + ui.px(margin), pane.rect.y + ui.px(10.0F)},
+                                        to_colour(pane.colors.neutral[6]),
+                                        text.data(),
+                                        text.data() + text.size());
+}
+
+void draw_box(const Pane& pane, const Hand::Box& box) {
+    const ImVec2 a = vec(in_window(pane, box.corner));
+    const ImVec2 b = vec(in_window(pane, box.opposite));
+    const ImVec2 low = {std::min(a.x, b.x), std::min(a.y, b.y)};
+    const ImVec2 high = {std::max(a.x, b.x), std::max(a.y, b.y)};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(low, high, to_colour(pane.colors.accent, 0.15));
+    list.AddRect(low, high, to_colour(pane.colors.accent, 0.9));
+}
+
+void draw_hint(widgets::Ui& ui, const Pane& pane, const Scene& scene, const Hand& hand) {
+    if (hand.drag()) {
+        const PointDrag& drag = *hand.drag();
+        const Vec3 place = scene_from_workpiece(scene) * Vec3(drag.grabbed().position + drag.moved());
+        const Label label = {render::to_glm(place), drag_text(drag), pane.colors.selected};
+        draw_labels(ui, pane, std::span(&label, 1));
+    } else if (hand.highlight().move && scene.shown) {
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        widgets::label_at(ui,
+                          {mouse.x, mouse.y - ui.px(label_above + 6.0F)},
+                          move_text(scene, *hand.highlight().move),
+                          text_colour(pane));
+    }
+}
+
+} // namespace millwright::viewport

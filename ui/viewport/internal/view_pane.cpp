@@ -1,0 +1,195 @@
+#include "ui/viewport/internal/view_pane.h"
+
+#include "ui/render/convert.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/machine_sight.h"
+#include "ui/viewport/navigation.h"
+#include "ui/widgets/canvas.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::viewport {
+
+namespace {
+
+using render::Key;
+using render::StandardView;
+
+constexpr float handle_size = 14.0F; // of a recorded handle, pixels at scale 1
+constexpr std::array<std::pair<Key, StandardView>, 7> side_keys = {{{Key::digit_0, StandardView::iso},
+                                                                    {Key::digit_1, StandardView::front},
+                                                                    {Key::digit_2, StandardView::top},
+                                                                    {Key::digit_3, StandardView::right},
+                                                                    {Key::digit_4, StandardView::back},
+                                                                    {Key::digit_5, StandardView::bottom},
+                                                                    {Key::digit_6, StandardView::left}}};
+
+render::PixelSize size_of(const widgets::Rect& rect) {
+    return {.width = std::max(static_cast<int>(std::lround(rect.w)), 1),
+            .height = std::max(static_cast<int>(std::lround(rect.h)), 1)};
+}
+
+DragKeys held_keys(const widgets::Pointer& pointer) {
+    DragKeys keys = {.axis = std::nullopt, .fine = pointer.shift, .snap = pointer.ctrl};
+    constexpr std::array<Key, 3> axes = {Key::x, Key::y, Key::z};
+    for (int k = 0; k < 3; ++k) {
+        if (render::key_down(axes[static_cast<std::size_t>(k)])) {
+            keys.axis = k;
+        }
+    }
+    return keys;
+}
+
+render::Projection other(render::Projection projection) {
+    return projection == render::Projection::perspective ? render::Projection::orthographic
+                                                         : render::Projection::perspective;
+}
+
+std::string handle_id(const ControlPointId& id) {
+    const auto patch = static_cast<int>(id.patch);
+    const std::string first = patch == 0 ? "" : std::to_string(patch) + ",";
+    return "control_point(" + first + std::to_string(id.i) + "," + std::to_string(id.j) + ")";
+}
+
+} // namespace
+
+ViewPane::ViewPane(std::string id, std::string caption, StandardView side, render::Projection projection)
+    : id_(std::move(id)), caption_(std::move(caption)) {
+    for (Sight& sight : cameras_) {
+        sight.camera = render::Camera().seen_from(side).with(projection);
+    }
+}
+
+void ViewPane::set_camera(const render::Camera& camera) {
+    cameras_[at_] = {.camera = camera, .fitted = true};
+}
+
+std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect& place) {
+    const render::PixelSize size = size_of(place);
+    at_ = frame.scene.layers.machine ? 1 : 0;
+    if (target_.size() != size) {
+        target_.begin(size);
+        target_.end();
+        drawn_.reset();
+    }
+    const widgets::Canvas canvas =
+        widgets::canvas(frame.ui, id_, {place.x, place.y, place.w, place.h}, target_.texture());
+    const widgets::Pointer& pointer = canvas.pointer;
+    in_use_ = pointer.hovered || pointer.held || pointer.released;
+    take_keys(pointer);
+    fit_if_needed(frame, size);
+    cameras_[at_].camera = navigated(camera(), pointer, size);
+
+    const Pane pane = {.rect = place, .view = view_of(frame, size), .colors = frame.colors};
+    const bool esc = in_use_ && render::key_pressed(Key::escape);
+    std::vector<ViewEvent> events = hand_.follow({.scene = frame.scene,
+                                                  .view = pane.view,
+                                                  .picker = frame.picker,
+                                                  .pointer = pointer,
+                                                  .keys = held_keys(pointer),
+                                                  .take_back = esc});
+    draw_picture(frame, pane.view);
+    draw_over(frame, pane);
+    if (hand_.wants_fit()) {
+        fit();
+        frame.ui.change_in(0.0);
+    }
+    return events;
+}
+
+void ViewPane::fit_if_needed(const Frame3D& frame, const render::PixelSize& size) {
+    Sight& sight = cameras_[at_];
+    if (sight.fitted || is_empty(frame.view.content())) {
+        return;
+    }
+    if (frame.scene.layers.machine && sight.camera.pose().projection == render::Projection::perspective) {
+        sight.camera = part_in_sight(frame.scene, sight.camera);
+    }
+    sight.camera = sight.camera.fitted(frame.view.outline(), render::aspect(size));
+    sight.fitted = true;
+}
+
+void ViewPane::take_keys(const widgets::Pointer& pointer) {
+    if (!pointer.hovered || pointer.held || ImGui::GetIO().WantTextInput || pointer.ctrl || pointer.alt) {
+        return;
+    }
+    if (render::key_pressed(Key::f) || render::key_pressed(Key::home)) {
+        fit();
+    }
+    for (const auto& [key, side] : side_keys) {
+        if (render::key_pressed(key)) {
+            cameras_[at_].camera = camera().seen_from(side);
+            fit();
+        }
+    }
+    if (render::key_pressed(Key::p)) {
+        set_camera(camera().with(other(camera().pose().projection)));
+    }
+}
+
+render::View ViewPane::view_of(const Frame3D& frame, const render::PixelSize& size) const {
+    return camera().view(size, frame.view.depth_range(), static_cast<double>(frame.ui.look().scale));
+}
+
+void ViewPane::draw_picture(const Frame3D& frame, const render::View& view) {
+    Drawn now = {.scene = frame.scene,
+                 .camera = camera().pose(),
+                 .size = view.size,
+                 .theme = frame.colors.theme,
+                 .highlight = hand_.highlight()};
+    if (drawn_ && *drawn_ == now) {
+        return;
+    }
+    target_.begin(view.size);
+    frame.view.draw(view, frame.colors, now.highlight);
+    target_.end();
+    drawn_ = std::move(now);
+}
+
+void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
+    const std::vector<Label> labels = visible_labels(frame.view, frame.scene, frame.picker, pane);
+    draw_labels(frame.ui, pane, labels);
+    draw_hint(frame.ui, pane, frame.scene, hand_);
+    if (hand_.box()) {
+        draw_box(pane, *hand_.box());
+    }
+    draw_caption(frame.ui, pane, caption_);
+    record_handles(frame, pane);
+    if (!frame.details) {
+        return;
+    }
+    draw_scale_bar(frame.ui, pane, camera().pose().target);
+    draw_legend(frame.ui, pane, frame.scene);
+    if (const auto side = axis_gizmo(frame.ui, pane)) {
+        cameras_[at_].camera = camera().seen_from(*side);
+        fit();
+        frame.ui.change_in(0.0);
+    }
+}
+
+void ViewPane::record_handles(const Frame3D& frame, const Pane& pane) const {
+    if (!frame.scene.layers.control_net || !frame.scene.surface) {
+        return;
+    }
+    const Frame s_T_w = scene_from_workpiece(frame.scene);
+    const float size = frame.ui.px(handle_size);
+    for (int p = 0; p < frame.scene.surface->patch_count(); ++p) {
+        const geometry::ControlNet& net = frame.scene.surface->patch(geometry::PatchId{p}).net();
+        for (int k = 0; k < net.rows * net.columns; ++k) {
+            const ControlPointId id = {geometry::PatchId{p}, k / net.columns, k % net.columns};
+            const auto seen = render::project(pane.view, render::to_glm(s_T_w * net.point(id.i, id.j)));
+            if (seen) {
+                const float x = pane.rect.x + static_cast<float>(seen->pixel.x) - 0.5F * size;
+                const float y = pane.rect.y + static_cast<float>(seen->pixel.y) - 0.5F * size;
+                frame.ui.record(handle_id(id), {x, y, size, size});
+            }
+        }
+    }
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,77 @@
+// One picture of the view: its cameras, what it was last drawn from, and what is laid over it.
+#pragma once
+
+#include "ui/render/camera.h"
+#include "ui/render/view_target.h"
+#include "ui/viewport/hand.h"
+#include "ui/viewport/internal/overlay.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::viewport {
+
+/// What all pictures share in a frame.
+struct Frame3D {
+    widgets::Ui& ui;
+    const Scene& scene;
+    const SceneView& view;
+    const SurfacePicker& picker;
+    render::ViewColors colors;
+    bool details = true; ///< with legend, axes and scale bar
+};
+
+/// Of the scene's two frames, workpiece and machine, each picture keeps a camera of its own.
+class ViewPane {
+public:
+    ViewPane(std::string id, std::string caption, render::StandardView side, render::Projection projection);
+
+    /// Draws into `place` and lets the mouse work. Records its handles if it is `active`.
+    [[nodiscard]] std::vector<ViewEvent> draw(const Frame3D& frame, const widgets::Rect& place);
+
+    [[nodiscard]] const std::string& id() const { return id_; }
+    [[nodiscard]] const render::Camera& camera() const { return cameras_[at_].camera; }
+    void set_camera(const render::Camera& camera);
+    /// Takes in everything at the next draw().
+    void fit() { cameras_[at_].fitted = false; }
+
+    [[nodiscard]] const Hand& hand() const { return hand_; }
+    /// The mouse is in it or works in it.
+    [[nodiscard]] bool in_use() const { return in_use_; }
+
+private:
+    struct Sight {
+        render::Camera camera;
+        bool fitted = false;
+    };
+    /// All that the picture depends on.
+    struct Drawn {
+        Scene scene;
+        render::CameraPose camera;
+        render::PixelSize size;
+        render::Theme theme = render::Theme::dark;
+        Highlight highlight;
+
+        friend bool operator==(const Drawn&, const Drawn&) = default;
+    };
+
+    void fit_if_needed(const Frame3D& frame, const render::PixelSize& size);
+    void take_keys(const widgets::Pointer& pointer);
+    [[nodiscard]] render::View view_of(const Frame3D& frame, const render::PixelSize& size) const;
+    void draw_picture(const Frame3D& frame, const render::View& view);
+    void draw_over(const Frame3D& frame, const Pane& pane);
+    void record_handles(const Frame3D& frame, const Pane& pane) const;
+
+    std::string id_;
+    std::string caption_;
+    std::array<Sight, 2> cameras_;
+    std::size_t at_ = 0; ///< 0 workpiece, 1 machine
+    render::ViewTarget target_;
+    std::optional<Drawn> drawn_;
+    Hand hand_;
+    bool in_use_ = false;
+};
+
+} // namespace millwright::viewport

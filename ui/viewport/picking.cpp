@@ -1,0 +1,233 @@
+#include "ui/viewport/picking.h"
+
+#include "ui/render/convert.h"
+#include "ui/viewport/internal/curves.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace millwright::viewport {
+
+namespace {
+
+constexpr int cells_per_side = 48;
+constexpr int path_steps = 8;
+constexpr double loop_px = 160.0; // an actual path may lie this far from its move's chord and still be found
+
+template <typename Use> void for_each_point(const geometry::Surface& surface, const Use& use) {
+    for (int p = 0; p < surface.patch_count(); ++p) {
+        const geometry::ControlNet& net = surface.patches()[static_cast<std::size_t>(p)].net();
+        for (int i = 0; i < net.rows; ++i) {
+            for (int j = 0; j < net.columns; ++j) {
+                use(ControlPointId{geometry::PatchId{p}, i, j}, net.point(i, j));
+            }
+        }
+    }
+}
+
+/// Moeller and Trumbore 1997: (distance, weight of b, weight of c).
+std::optional<Vec3>
+meet_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const Vec3 p = direction.cross(ac);
+    const double volume = ab.dot(p);
+    const Vec3 t = origin - a;
+    const Vec3 q = t.cross(ab);
+    const Vec3 met = Vec3(ac.dot(q), t.dot(p), direction.dot(q)) / volume;
+    const bool inside = met.y() >= 0.0 && met.z() >= 0.0 && met.y() + met.z() <= 1.0;
+    return std::abs(volume) > 0.0 && met.x() >= 0.0 && inside ? std::optional(met) : std::nullopt;
+}
+
+struct OnSegment {
+    double distance = 0.0; ///< px
+    double t = 0.0;
+};
+
+OnSegment nearest_on(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& pixel) {
+    const glm::dvec2 ab = b - a;
+    const double squared = glm::dot(ab, ab);
+    const double t = squared > 0.0 ? std::clamp(glm::dot(pixel - a, ab) / squared, 0.0, 1.0) : 0.0;
+    return {.distance = glm::length(a + t * ab - pixel), .t = t};
+}
+
+/// Looks for the path's place nearest to one pixel.
+class PathSearch {
+public:
+    PathSearch(const Scene& scene,
+               const render::View& view,
+               const glm::dvec2& pixel,
+               double within_px,
+               double farthest_mm)
+        : scene_(scene), view_(view), s_T_w_(scene_from_workpiece(scene)), pixel_(pixel), nearest_(within_px),
+          farthest_(farthest_mm), eye_(render::ray(view, pixel)) {}
+
+    void look_at(int move) {
+        const auto& points = scene_.shown->toolpath.points;
+        const auto from = static_cast<std::size_t>(move);
+        if (points[from + 1].reached_by == toolpath::MoveKind::cross || far_away(move)) {
+            return;
+        }
+        if (scene_.layers.error_path) {
+            look_along(move, actual_tips(*scene_.workpiece, *scene_.shown, move, path_steps));
+        } else {
+            look_along(
+                move,
+                on_surface(
+                    scene_.workpiece->patch, points[from].origin.uv, points[from + 1].origin.uv, path_steps));
+        }
+    }
+
+    [[nodiscard]] const std::optional<PathHit>& found() const { return found_; }
+
+private:
+    [[nodiscard]] std::optional<glm::dvec2> on_screen(const Vec3& p_w) const {
+        const auto seen = render::project(view_, render::to_glm(s_T_w_ * p_w));
+        return seen ? std::optional(seen->pixel) : std::nullopt;
+    }
+
+    [[nodiscard]] bool far_away(int move) const {
+        const auto& points = scene_.shown->toolpath.points;
+        const auto from = static_cast<std::size_t>(move);
+        const auto a = on_screen(points[from].pose.tip);
+        const auto b = on_screen(points[from + 1].pose.tip);
+        return !a || !b || nearest_on(*a, *b, pixel_).distance > loop_px + 0.5 * glm::length(*b - *a);
+    }
+
+    void look_along(int move, const std::vector<Vec3>& points) {
+        const auto steps = static_cast<double>(points.size() - 1);
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const auto a = on_screen(points[k]);
+            const auto b = on_screen(points[k + 1]);
+            if (!a || !b) {
+                continue;
+            }
+            const OnSegment here = nearest_on(*a, *b, pixel_);
+            const Vec3 place = (1.0 - here.t) * points[k] + here.t * points[k + 1];
+            if (here.distance <= nearest_ && sight_of(place) <= farthest_) {
+                nearest_ = here.distance;
+                found_ = PathHit{.move = move, .fraction = (static_cast<double>(k) + here.t) / steps};
+            }
+        }
+    }
+
+    /// Along the line of sight, mm.
+    [[nodiscard]] double sight_of(const Vec3& p_w) const {
+        return glm::dot(render::to_glm(s_T_w_ * p_w) - eye_.origin, eye_.direction);
+    }
+
+    const Scene& scene_;
+    const render::View& view_;
+    Frame s_T_w_;
+    glm::dvec2 pixel_;
+    double nearest_;
+    double farthest_;
+    render::Ray eye_;
+    std::optional<PathHit> found_;
+};
+
+} // namespace
+
+std::optional<ControlPointId> pick_control_point(const geometry::Surface& surface,
+                                                 const Frame& s_T_w,
+                                                 const render::View& view,
+                                                 const glm::dvec2& pixel,
+                                                 double within_px) {
+    constexpr double same_place_px = 0.5;
+    std::optional<ControlPointId> found;
+    double best = within_px;
+    double best_depth = std::numeric_limits<double>::infinity();
+    for_each_point(surface, [&](const ControlPointId& id, const Vec3& point) {
+        const auto seen = render::project(view, render::to_glm(s_T_w * point));
+        if (!seen) {
+            return;
+        }
+        const double distance = glm::length(seen->pixel - pixel);
+        const bool better =
+            distance < best - same_place_px || (distance <= best + same_place_px && seen->depth < best_depth);
+        if (distance <= within_px && better) {
+            found = id;
+            best = distance;
+            best_depth = seen->depth;
+        }
+    });
+    return found;
+}
+
+std::vector<ControlPointId> control_points_in(const geometry::Surface& surface,
+                                              const Frame& s_T_w,
+                                              const render::View& view,
+                                              const glm::dvec2& corner,
+                                              const glm::dvec2& opposite) {
+    const glm::dvec2 low = glm::min(corner, opposite);
+    const glm::dvec2 high = glm::max(corner, opposite);
+    std::vector<ControlPointId> found;
+    for_each_point(surface, [&](const ControlPointId& id, const Vec3& point) {
+        const auto seen = render::project(view, render::to_glm(s_T_w * point));
+        if (seen && glm::all(glm::lessThanEqual(low, seen->pixel)) &&
+            glm::all(glm::lessThanEqual(seen->pixel, high))) {
+            found.push_back(id);
+        }
+    });
+    return found;
+}
+
+void SurfacePicker::follow(const std::shared_ptr<const geometry::Surface>& surface) {
+    if (surface == surface_) {
+        return;
+    }
+    surface_ = surface;
+    meshes_.clear();
+    if (surface) {
+        for (const geometry::BezierPatch& patch : surface->patches()) {
+            meshes_.push_back(geometry::tessellate(patch, cells_per_side, cells_per_side));
+        }
+    }
+}
+
+std::optional<SurfaceHit> SurfacePicker::hit(const render::Ray& ray, const Frame& s_T_w) const {
+    const Frame w_T_s = s_T_w.inverse();
+    const Vec3 origin = w_T_s * render::to_core(ray.origin);
+    const Vec3 direction = w_T_s.linear() * render::to_core(ray.direction);
+    std::optional<SurfaceHit> nearest;
+    for (std::size_t p = 0; p < meshes_.size(); ++p) {
+        const geometry::Mesh& mesh = meshes_[p];
+        const auto at = [](const auto& of, int k) { return of[static_cast<std::size_t>(k)]; };
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const auto met = meet_triangle(
+                origin, direction, at(mesh.positions, a), at(mesh.positions, b), at(mesh.positions, c));
+            if (met && (!nearest || met->x() < nearest->distance)) {
+                const Vec2 uv = (1.0 - met->y() - met->z()) * at(mesh.parameters, a) +
+                                met->y() * at(mesh.parameters, b) + met->z() * at(mesh.parameters, c);
+                nearest = SurfaceHit{.position = surface_->patches()[p].position(uv.x(), uv.y()),
+                                     .patch = geometry::PatchId{static_cast<int>(p)},
+                                     .uv = uv,
+                                     .distance = met->x()};
+            }
+        }
+    }
+    return nearest;
+}
+
+std::optional<PathHit> pick_move(const Scene& scene,
+                                 const render::View& view,
+                                 const glm::dvec2& pixel,
+                                 double within_px,
+                                 std::optional<double> sight_mm,
+                                 double hidden_mm) {
+    if (!scene.shown || !scene.workpiece || !(scene.layers.toolpath || scene.layers.error_path)) {
+        return std::nullopt;
+    }
+    const double farthest = sight_mm ? *sight_mm + hidden_mm : std::numeric_limits<double>::infinity();
+    PathSearch search(scene, view, pixel, within_px, farthest);
+    const int moves = static_cast<int>(scene.shown->toolpath.points.size()) - 1;
+    for (int move = 0; move < moves; ++move) {
+        search.look_at(move);
+    }
+    return search.found();
+}
+
+} // namespace millwright::viewport

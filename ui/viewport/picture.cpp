@@ -1,0 +1,181 @@
+#include "ui/viewport/picture.h"
+
+#include "core/base/error.h"
+#include "ui/render/camera.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/render/imgui_session.h"
+#include "ui/render/offscreen_context.h"
+#include "ui/render/view_target.h"
+#include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/internal/overlay.h"
+#include "ui/viewport/internal/sheet.h"
+#include "ui/viewport/machine_sight.h"
+#include "ui/viewport/picture_facts.h"
+#include "ui/viewport/scene_view.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace millwright::viewport {
+
+namespace {
+
+using project::GridMethod;
+using render::PixelSize;
+
+constexpr double machine_moment = 0.4; // of the path: where a machine is shown
+
+/// One 3D picture on the sheet.
+struct Part {
+    Scene scene;
+    std::string caption;
+};
+
+Moment moment_at(const project::Evaluation& shown, double share) {
+    const auto& positions = shown.axes.positions;
+    const auto at = static_cast<std::size_t>(share * static_cast<double>(positions.size() - 1));
+    return {.axes = positions[at], .move = static_cast<int>(at), .fraction = 0.0};
+}
+
+std::vector<Part> parts_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+    Part part = {.scene = scene_of(project, plan, kind), .caption = {}};
+    if (kind == ViewKind::machine && part.scene.shown && !part.scene.shown->axes.positions.empty()) {
+        part.scene.now = moment_at(*part.scene.shown, machine_moment);
+    }
+    const bool compared = kind == ViewKind::grid || kind == ViewKind::error;
+    if (!compared || !part.scene.start || part.scene.start == part.scene.shown) {
+        return {part};
+    }
+    // Before and after, both in the colours of what was before.
+    part.caption = title(project.grid.method);
+    Part before = {.scene = part.scene, .caption = std::string(title(GridMethod::uniform))};
+    before.scene.shown = part.scene.start;
+    part.scene.error.high = before.scene.error.high = error_colors(before.scene, {}).high;
+    return {before, part};
+}
+
+/// ImGui, its fonts and the widgets on a context without display.
+class Desk {
+public:
+    Desk(const PixelSize& size, double scale, render::Theme theme)
+        : context_(size, scale), session_(context_), ui_(look(static_cast<float>(scale), theme)) {}
+
+    template <typename Draw> [[nodiscard]] render::Picture picture(const Draw& draw) {
+        session_.begin_frame();
+        ui_.begin_frame();
+        const PixelSize size = context_.framebuffer_size();
+        {
+            const auto pane = ui_.bare_pane(
+                "picture", {0.0F, 0.0F, static_cast<float>(size.width), static_cast<float>(size.height)});
+            draw(ui_);
+        }
+        ui_.end_frame();
+        session_.end_frame();
+        return context_.read_back();
+    }
+
+private:
+    static widgets::Look look(float scale, render::Theme theme) {
+        const widgets::Theme own =
+            theme == render::Theme::dark ? widgets::Theme::dark : widgets::Theme::light;
+        widgets::apply(own, scale, ImGui::GetStyle());
+        return {
+            .theme = own, .scale = scale, .fonts = widgets::load_fonts(*ImGui::GetIO().Fonts, scale).fonts};
+    }
+
+    render::OffscreenContext context_;
+    render::ImGuiSession session_;
+    widgets::Ui ui_;
+};
+
+/// A part on the sheet with what it is drawn by.
+class DrawnPart {
+public:
+    DrawnPart(Part part, const widgets::Rect& place, const widgets::Rect& free, double scale)
+        : part_(std::move(part)), place_(place) {
+        scene_.update(part_.scene);
+        picker_.follow(part_.scene.surface);
+        const render::Camera iso = render::Camera().seen_from(render::StandardView::iso);
+        const render::Camera turned = part_.scene.layers.machine ? part_in_sight(part_.scene, iso) : iso;
+        camera_ = turned.fitted(scene_.outline(), render::aspect(pixel_size(free)));
+        view_ = framed(camera_, place, free, scene_.depth_range(), scale);
+    }
+
+    void draw(widgets::Ui& ui, const render::ViewColors& colors) {
+        target_.begin(view_.size);
+        scene_.draw(view_, colors, {});
+        target_.end();
+        ImGui::SetCursorScreenPos({place_.x, place_.y});
+        render::show(target_, {place_.w, place_.h});
+        const Pane pane = {.rect = place_, .view = view_, .colors = colors};
+        draw_labels(ui, pane, visible_labels(scene_, part_.scene, picker_, pane));
+    }
+
+    [[nodiscard]] Pane pane(const widgets::Rect& free, const render::ViewColors& colors) const {
+        return {.rect = free, .view = view_, .colors = colors};
+    }
+    [[nodiscard]] const Part& part() const { return part_; }
+    [[nodiscard]] const render::Camera& camera() const { return camera_; }
+
+private:
+    Part part_;
+    widgets::Rect place_;
+    SceneView scene_;
+    SurfacePicker picker_;
+    render::ViewTarget target_;
+    render::Camera camera_;
+    render::View view_;
+};
+
+} // namespace
+
+Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+    const auto chosen = std::array{
+        plan.uniform, plan.elliptic, plan.optimised}[static_cast<std::size_t>(project.grid.method)];
+    return {.layers = layers_of(kind),
+            .surface = plan.surface,
+            .workpiece = plan.workpiece,
+            .singular_points = plan.singular_points,
+            .shown = chosen ? chosen : plan.uniform,
+            .start = plan.uniform,
+            .watched = nullptr,
+            .now = std::nullopt,
+            .selected = {},
+            .error = {}};
+}
+
+render::Picture render_view(const project::Project& project,
+                            const project::Plan& plan,
+                            ViewKind kind,
+                            const PixelSize& size,
+                            render::Theme theme) {
+    expects(size.width > 0 && size.height > 0, "a picture has an area");
+    const PictureFacts facts = picture_facts(project, plan, kind);
+    const std::vector<Part> parts = parts_of(project, plan, kind);
+    const bool has_legend = parts.front().scene.layers.error_path && parts.front().scene.shown;
+    const Sheet sheet = sheet_for(size, static_cast<int>(parts.size()), facts, has_legend);
+    const render::ViewColors colors = render::view_colors(theme);
+    Desk desk(size, sheet.scale, theme);
+    std::vector<std::unique_ptr<DrawnPart>> drawn;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        drawn.push_back(std::make_unique<DrawnPart>(
+            parts[k], sheet.parts[k].place, sheet.parts[k].free, sheet.line_scale));
+    }
+    return desk.picture([&](widgets::Ui& ui) {
+        for (std::size_t k = 0; k < drawn.size(); ++k) {
+            const auto scope = ui.scope("part" + std::to_string(k));
+            drawn[k]->draw(ui, colors);
+            draw_part_caption(ui, sheet, k, parts[k].caption);
+        }
+        draw_sheet(ui, sheet, facts);
+        if (sheet.details) {
+            const Pane first = drawn.front()->pane(sheet.signs, colors);
+            draw_scale_bar(ui, first, drawn.front()->camera().pose().target);
+            draw_legend(ui, drawn.back()->pane(sheet.signs, colors), parts.back().scene);
+            (void)axis_gizmo(ui, drawn.back()->pane(sheet.signs, colors));
+        }
+    });
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,100 @@
+#include "ui/viewport/picture_facts.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+
+#include <array>
+#include <cmath>
+
+namespace millwright::viewport {
+
+namespace {
+
+using project::GridMethod;
+
+std::string times(int a, int b) {
+    return std::to_string(a) + " \u00D7 " + std::to_string(b);
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+/// Lengths to a micrometre, what is larger than a metre to a tenth of a millimetre.
+std::string length_text(double length, int decimals) {
+    return std::isfinite(length) ? fixed(length, std::abs(length) < 1000.0 ? decimals : 1) : "out of reach";
+}
+
+std::shared_ptr<const project::Evaluation> evaluation_of(const project::Plan& plan, GridMethod method) {
+    return std::array{plan.uniform, plan.elliptic, plan.optimised}[static_cast<std::size_t>(method)];
+}
+
+std::vector<std::string> error_row(std::string_view name, const project::Evaluation& evaluation) {
+    const grid::ErrorSummary& errors = evaluation.closest;
+    return {std::string(name),
+            length_text(errors.max, 3),
+            length_text(errors.mean, 4),
+            length_text(errors.lmean, 4),
+            length_text(errors.p95, 4),
+            length_text(to_degrees(errors.axis_max), 2),
+            length_text(evaluation.track_gap, 2)};
+}
+
+void add_errors(PictureFacts& facts, const project::Project& project, const project::Plan& plan) {
+    facts.columns = {"error", "max mm", "mean mm", "by length mm", "95 % mm", "axis \u00B0", "track gap mm"};
+    if (plan.uniform) {
+        facts.rows.push_back(error_row(title(GridMethod::uniform), *plan.uniform));
+    }
+    const auto chosen = evaluation_of(plan, project.grid.method);
+    if (chosen && project.grid.method != GridMethod::uniform) {
+        facts.rows.push_back(error_row(title(project.grid.method), *chosen));
+    }
+}
+
+void add_design(PictureFacts& facts, const project::Plan& plan) {
+    if (!plan.surface) {
+        return;
+    }
+    const geometry::BezierPatch& patch = plan.surface->patch(geometry::PatchId{0});
+    const Vec3 size = plan.surface->control_box().sizes();
+    facts.columns = {"design", "net size mm", "degree", "control points", "patches"};
+    facts.rows.push_back({patch.rational() ? "rational" : "polynomial",
+                          length_text(size.x(), 1) + " \u00D7 " + length_text(size.y(), 1) + " \u00D7 " +
+                              length_text(size.z(), 1),
+                          times(patch.degree_u(), patch.degree_v()),
+                          times(patch.net().rows, patch.net().columns),
+                          std::to_string(plan.surface->patch_count())});
+}
+
+std::string subtitle(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+    std::string text(title(kind));
+    if (plan.workpiece) {
+        text += "  \u00B7  " + plan.workpiece->machine.name();
+    }
+    if (kind != ViewKind::design) {
+        text += "  \u00B7  " + times(project.grid.nu, project.grid.nv) + " nodes";
+        text += "  \u00B7  " + counted(plan.singular_points.size(), "singular point");
+    }
+    return text;
+}
+
+} // namespace
+
+std::string_view title(GridMethod method) {
+    constexpr std::array<std::string_view, 3> titles = {"uniform", "adapted", "optimised"};
+    return titles[static_cast<std::size_t>(method)];
+}
+
+PictureFacts picture_facts(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+    PictureFacts facts;
+    facts.title = project.name;
+    facts.subtitle = subtitle(project, plan, kind);
+    if (kind == ViewKind::design) {
+        add_design(facts, plan);
+    } else {
+        add_errors(facts, project, plan);
+    }
+    return facts;
+}
+
+} // namespace millwright::viewport
