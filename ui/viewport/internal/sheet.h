@@ -16,9 +16,9 @@ struct Sheet {
         widgets::Rect place;
         widgets::Rect free;
     };
-    double scale = 1.0;  ///< of words and lines, for large pictures
+    double scale = 1.0;      ///< of words and lines, for large pictures
     double line_scale = 1.0; ///< of lines and points in the 3D pictures
-    bool details = true; ///< false: too small for words
+    bool details = true;     ///< false: too small for words
     std::vector<Part> parts;
     widgets::Rect signs; ///< scale bar, legend and axes lie along its border
     widgets::Rect title;
