@@ -115,6 +115,7 @@ double Trajectory::end_of(int block) const {
 }
 
 double Trajectory::time_at(int block, double fraction) const {
+    expects(block >= 0 && block < block_count(), "a block belongs to the program");
     const Segment& segment = path_->segments[static_cast<std::size_t>(block)];
     const double whole = segment.length > 0.0 ? segment.length : segment.standing_time;
     return start_of(block) + internal::time_of(piece(block), segment, fraction * whole);
@@ -146,6 +147,7 @@ double Trajectory::time_at_part_length(double length) const {
 }
 
 Trajectory::BlockLimit Trajectory::limit_of(int block) const {
+    expects(block >= 0 && block < block_count(), "a block belongs to the program");
     const Segment& segment = path_->segments[static_cast<std::size_t>(block)];
     if (!(segment.length > 0.0)) {
         return {};
