@@ -198,6 +198,14 @@ JsonValue JsonValue::parse(std::string_view text, const std::filesystem::path& f
 }
 
 JsonValue JsonValue::read(const std::filesystem::path& file) {
+    constexpr std::uintmax_t most_bytes = 16 << 20; // as values they take eighty times as much
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+    if (!unknown && bytes > most_bytes) {
+        throw Error(fmt::format("the file has {} MB, which is too large", bytes >> 20),
+                    file,
+                    fmt::format("at most {} MB are read", most_bytes >> 20));
+    }
     return parse(read_file(file), file);
 }
 

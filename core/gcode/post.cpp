@@ -97,13 +97,14 @@ public:
         descend_from_safety(0, above, MoveRole::approach);
     }
 
-    void tracks() {
+    void tracks(const Progress& progress) {
         const auto tracks = 1 + std::count_if(toolpath_.points.begin(),
                                               toolpath_.points.end(),
                                               [](const auto& p) { return p.reached_by == MoveKind::cross; });
         int track = 1;
         comment(fmt::format("track {} of {}", track, tracks));
         for (int n = 1; n < std::ssize(toolpath_.points); ++n) {
+            progress.check();
             if (toolpath_.points[static_cast<std::size_t>(n)].reached_by == MoveKind::track) {
                 cut(n);
                 continue;
@@ -259,7 +260,8 @@ PostResult post(const MachineModel& machine,
                 const Toolpath& toolpath,
                 const AxisPath& axes,
                 const ProgramSettings& settings,
-                const std::vector<HeaderLine>& header) {
+                const std::vector<HeaderLine>& header,
+                const Progress& progress) {
     expects(!toolpath.points.empty(), "a program is made of a tool path with points");
     expects(toolpath.points.size() == axes.positions.size(), "axis positions belong to their tool path");
     check(settings);
@@ -269,7 +271,7 @@ PostResult post(const MachineModel& machine,
     }
     poster.switch_on();
     poster.approach();
-    poster.tracks();
+    poster.tracks(progress);
     poster.retract();
     poster.switch_off();
     return poster.take();

@@ -3,6 +3,7 @@
 // (Parasilmongkol 1997, KMITL, ch. 3): clearances are those of the tip. Feeds: docs/reference/gcode.md.
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/gcode/program.h"
 #include "core/gcode/program_settings.h"
 #include "core/gcode/retract.h"
@@ -41,11 +42,12 @@ struct PostResult {
 /// the nearest path point; each is followed through the forward kinematics. Every target is rounded to the
 /// decimals that are written. Throws Error for settings out of range, an axis outside its limits (with block,
 /// axis, value and range), or an approach that would cut through the part. Throws Defect if `axes` does not
-/// belong to `toolpath` or the tool path is empty.
+/// belong to `toolpath` or the tool path is empty. Throws Cancelled through `progress` within one move.
 [[nodiscard]] PostResult post(const kinematics::MachineModel& machine,
                               const toolpath::Toolpath& toolpath,
                               const toolpath::AxisPath& axes,
                               const ProgramSettings& settings,
-                              const std::vector<HeaderLine>& header);
+                              const std::vector<HeaderLine>& header,
+                              const Progress& progress = Progress());
 
 } // namespace millwright::gcode

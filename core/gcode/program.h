@@ -11,11 +11,12 @@ namespace millwright::gcode {
 
 enum class BlockKind {
     comment,
-    spindle_on, ///< clockwise, at `Block::spindle_rpm`
+    spindle_on, ///< at `Block::spindle_rpm`, clockwise if that is positive
     spindle_off,
     coolant_on,
     coolant_off,
     dwell, ///< stands for `Block::duration`
+    pause, ///< stands until a person goes on: program stop, tool change; `Block::text` says which
     rapid, ///< straight in axis space, as fast as the axes can
     feed,  ///< straight in axis space, in `Block::duration`
     end
@@ -47,7 +48,8 @@ struct Block {
     double feed = 0.0;                ///< feed: mean speed of the tool tip on the part, mm/s
     double spindle_rpm = 0.0;
     int path_point = -1; ///< the point of the tool path where the block ends, or -1
-    std::string text;    ///< of a comment
+    int source_line = 0; ///< of the G-code file that it was read from, from 1; 0: none
+    std::string text;    ///< of a comment or a pause
 
     [[nodiscard]] bool moves() const { return kind == BlockKind::rapid || kind == BlockKind::feed; }
 };

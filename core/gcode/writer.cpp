@@ -79,7 +79,8 @@ private:
             }
             return;
         case BlockKind::spindle_on:
-            return code_line("S" + shortest(block.spindle_rpm) + " M3");
+            return code_line("S" + shortest(std::abs(block.spindle_rpm)) +
+                             (block.spindle_rpm < 0.0 ? " M4" : " M3"));
         case BlockKind::spindle_off:
             return code_line("M5");
         case BlockKind::coolant_on:
@@ -88,6 +89,11 @@ private:
             return code_line("M9");
         case BlockKind::dwell:
             return code_line("G4 P" + fixed(block.duration, 4));
+        case BlockKind::pause:
+            for (const std::string& part : internal::comment_lines(block.text)) {
+                line(part);
+            }
+            return code_line("M0");
         case BlockKind::rapid:
         case BlockKind::feed:
             return code_line(move_text(block));

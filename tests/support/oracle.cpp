@@ -52,7 +52,8 @@ void OracleTest::SetUp() {
 }
 
 ProgramRun OracleTest::run(const std::vector<std::string>& arguments) const {
-    std::string command = quoted_for_shell(found_.string());
+    std::string command =
+        "HOME=" + quoted_for_shell(home_.path().string()) + " " + quoted_for_shell(found_.string());
     for (const auto& argument : arguments) {
         command += " " + quoted_for_shell(argument);
     }

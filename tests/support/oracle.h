@@ -2,6 +2,8 @@
 // MILLWRIGHT_REQUIRE_ORACLES is set, as in .ci/run, it fails instead.
 #pragma once
 
+#include "tests/support/scratch_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -21,7 +23,8 @@ protected:
     OracleTest(std::string program, std::string package);
     void SetUp() override;
 
-    /// Runs the program to its end without any input. Throws std::runtime_error if it cannot be started or
+    /// Runs the program to its end without any input, in a home folder of its own: rs274 keeps its tool table
+    /// there, and several run at a time. Throws std::runtime_error if it cannot be started or
     /// dies of a signal.
     [[nodiscard]] ProgramRun run(const std::vector<std::string>& arguments) const;
 
@@ -29,6 +32,7 @@ private:
     std::string program_;
     std::string package_;
     std::filesystem::path found_;
+    test::ScratchFolder home_;
 };
 
 } // namespace millwright

@@ -5,6 +5,7 @@
 #include "core/gcode/writer.h"
 #include "core/kinematics/forward.h"
 #include "tests/support/programs.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -188,6 +189,16 @@ TEST(Post, FeedsTheTipAtTheCuttingFeedOrAsFastAsTheSlowestAxisCan) {
     EXPECT_EQ(result.notes.slowed_moves, slowed);
 }
 
+TEST(Post, CanBeCancelledBetweenMoves) {
+    const auto machine = test::machine("rotary-tilt-listing");
+    const Toolpath path = test::zigzag_over("dome", 3, 3);
+    std::stop_source user;
+    user.request_stop();
+    EXPECT_THROW(
+        (void)post(machine, path, test::axes_for(machine, path), {}, {}, Progress({}, user.get_token())),
+        Cancelled);
+}
+
 TEST(Post, NamesBlockAxisValueAndRangeWhereAnAxisWouldLeaveItsLimits) {
     const auto machine = test::machine("rotary-tilt-listing");
     const Toolpath path = test::zigzag_over("dome", 3, 3);
@@ -227,6 +238,7 @@ TEST(Post, RefusesASafePositionBelowTheApproach) {
 }
 
 TEST(Post, RefusesSettingsOutOfRange) {
+    const test::WithoutTraps numbers_that_are_none;
     for (const auto spoil : {+[](ProgramSettings& s) { s.cutting_feed = 0.0; },
                              +[](ProgramSettings& s) { s.plunge_feed = std::nan(""); },
                              +[](ProgramSettings& s) { s.link_clearance = -1.0; },

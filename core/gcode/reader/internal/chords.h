@@ -1,0 +1,20 @@
+// Arcs and splines as chords, in the frame of the program.
+#pragma once
+
+#include "core/gcode/reader/canon.h"
+
+#include <functional>
+
+namespace millwright::gcode::internal {
+
+using ChordSink = std::function<void(const AxisValues& end)>;
+
+/// The ends of the chords of an arc that begins at `start`, each nowhere farther than `tolerance` from it (in
+/// the unit of the arc) and at most 45 degrees long; the last is exactly the target. The other axes go
+/// linearly with the angle; so does the radius where start and end have not the same.
+void arc_chords(const AxisValues& start, const Move& arc, double tolerance, const ChordSink& sink);
+
+/// The same of a spline, whose first control point is `start`. Halved until the chords are near enough.
+void curve_chords(const AxisValues& start, const Curve& curve, double tolerance, const ChordSink& sink);
+
+} // namespace millwright::gcode::internal

@@ -1,0 +1,13 @@
+// What must and must not stand together in one line, and which motion the line makes.
+#pragma once
+
+#include "core/gcode/reader/internal/block.h"
+#include "core/gcode/reader/modal_state.h"
+
+namespace millwright::gcode::internal {
+
+/// Finds the line's motion (Block::motion) and checks its words against its codes, as LinuxCNC does before it
+/// executes anything. Throws Refusal.
+void apply_word_rules(Block& block, const ModalState& state);
+
+} // namespace millwright::gcode::internal

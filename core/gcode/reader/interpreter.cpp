@@ -1,0 +1,314 @@
+#include "core/gcode/reader/interpreter.h"
+
+#include "core/gcode/reader/internal/control_flow.h"
+#include "core/gcode/reader/internal/execute.h"
+#include "core/gcode/reader/internal/expression.h"
+#include "core/gcode/reader/internal/grbl_rules.h"
+#include "core/gcode/reader/internal/held_moves.h"
+#include "core/gcode/reader/internal/number.h"
+#include "core/gcode/reader/internal/offsets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::gcode {
+
+using internal::ControlFlow;
+using internal::Cursor;
+using internal::LineSource;
+using internal::ParsedLine;
+using internal::Refusal;
+using internal::Run;
+using internal::SourceFiles;
+
+namespace {
+
+/// LinuxCNC's line buffer (LINELEN), without the end of the line.
+constexpr std::size_t longest_line = 254;
+
+std::vector<std::filesystem::path> folders_for(const std::filesystem::path& file,
+                                               const ReaderSettings& settings) {
+    std::vector<std::filesystem::path> folders{file.parent_path().empty() ? "." : file.parent_path()};
+    folders.insert(folders.end(), settings.subroutine_folders.begin(), settings.subroutine_folders.end());
+    return folders;
+}
+
+bool is_percent(std::string_view line) {
+    Cursor cursor(line);
+    return cursor.take('%') && cursor.at_end();
+}
+
+} // namespace
+
+struct Interpreter::Parts {
+    Parts(std::unique_ptr<LineSource> source,
+          std::vector<std::filesystem::path> folders,
+          ReaderSettings with,
+          CanonSink& sink)
+        : settings(std::move(with)), run(settings, sink), files(std::move(source), std::move(folders)),
+          flow(run, files) {}
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+    ~Parts() = default;
+
+    enum class End { none, percent, program };
+
+    [[nodiscard]] bool is_grbl() const { return settings.dialect == Dialect::grbl; }
+    void start();
+    bool step();
+    void end_of_text();
+    void reset();
+    void execute(std::string_view text);
+    void execute_words(Cursor& cursor);
+    bool execute_flow(Cursor& cursor);
+    void repeat_from_the_top();
+    void look_for_percent();
+    void check_repetition() const;
+    void report(const Refusal& refusal);
+
+    ReaderSettings settings;
+    Run run;
+    SourceFiles files;
+    ControlFlow flow;
+    ParsedLine line;
+    std::vector<Diagnostic> errors;
+    bool started = false;
+    bool stopped = false;
+    bool seen_text = false;   ///< a line that is not blank
+    bool in_percents = false; ///< the program began with %
+};
+
+void Interpreter::Parts::start() {
+    started = true;
+    ModalState& s = run.state;
+    if (is_grbl()) {
+        s.motion = 0;
+    }
+    for (const auto& [number, value] : settings.parameters) {
+        expects(internal::Variables::is_number(number), "a parameter that is set at the start exists");
+        run.variables.set(number, value);
+    }
+    using internal::parameter_g5x;
+    s.g5x_offset = run.to_program(run.variables.axes_from(parameter_g5x(1)));
+    s.rotation_deg = run.variables.stored(parameter_g5x(1) + 9);
+    if (run.variables.stored(internal::parameter_g92_active) > 0.0) {
+        s.g92_offset = run.to_program(run.variables.axes_from(internal::parameter_g92));
+    }
+    s.position = internal::relative_to_system(run.to_program(settings.start), s);
+    run.out.send(CommandKind::use_length_units, static_cast<int>(s.unit));
+    run.out.send(internal::command_of(CommandKind::set_g5x_offset, s.g5x_offset, s.coordinate_system));
+    run.out.send(internal::command_of(CommandKind::set_g92_offset, s.g92_offset));
+    run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
+    run.out.send(CommandKind::set_feed_reference);
+    run.out.send(CommandKind::on_reset);
+}
+
+bool Interpreter::Parts::step() {
+    if (!started) {
+        start();
+    }
+    if (stopped) {
+        return false;
+    }
+    run.line_begin = files.here();
+    std::string_view text;
+    if (!files.next(text)) {
+        end_of_text();
+        return false;
+    }
+    run.out.begin({files.place(), text});
+    run.variables.program.line = files.place().line;
+    try {
+        check_repetition();
+        execute(text);
+    } catch (const Refusal& refusal) {
+        report(refusal);
+    }
+    if (run.ended && in_percents) {
+        look_for_percent();
+    }
+    stopped = stopped || run.ended || static_cast<int>(errors.size()) >= settings.most_errors;
+    if (stopped) {
+        reset();
+    }
+    return !stopped;
+}
+
+/// Behind M2 the text is read on to its closing %.
+void Interpreter::Parts::look_for_percent() {
+    std::string_view text;
+    while (files.next(text)) {
+        if (is_percent(text)) {
+            return;
+        }
+    }
+    run.out.send(
+        internal::command_of(CommandKind::comment, "interpreter: percent sign missing from end of file"));
+}
+
+void Interpreter::Parts::check_repetition() const {
+    if (files.repeated_lines() > settings.most_repeated_lines) {
+        internal::refuse(1, "lines are executed again and again: the program does not seem to end");
+    }
+}
+
+void Interpreter::Parts::end_of_text() {
+    stopped = true;
+    run.out.begin({files.place(), {}});
+    try {
+        if (flow.in_subroutine()) {
+            internal::refuse(1,
+                             fmt::format("the text ends inside of a subroutine that line {} called",
+                                         flow.called_from().line));
+        }
+        if (in_percents) {
+            internal::refuse(1, "the program begins with % and does not end with one", "M2 or % is missing");
+        }
+        if (!is_grbl()) {
+            internal::refuse(1, "the program does not end: M2, M30 or % is missing");
+        }
+    } catch (const Refusal& refusal) {
+        report(refusal);
+    }
+    reset();
+}
+
+/// LinuxCNC does so when it closes the file, and once more when the interpreter ends.
+void Interpreter::Parts::reset() {
+    run.out.send(CommandKind::on_reset);
+    run.out.send(CommandKind::on_reset);
+}
+
+void Interpreter::Parts::execute(std::string_view text) {
+    if (files.cut() || (!is_grbl() && text.size() > longest_line)) {
+        internal::refuse(1, fmt::format("a line has at most {} characters", longest_line));
+    }
+    Cursor cursor(text);
+    if (cursor.at_end()) {
+        return;
+    }
+    if (!is_grbl() && cursor.peek() == '%' && is_percent(text)) {
+        if (!seen_text) {
+            in_percents = seen_text = true;
+            return;
+        }
+        if (in_percents) {
+            internal::finish_waiting(run);
+            run.out.send(CommandKind::finish);
+            stopped = true;
+            return;
+        }
+    }
+    seen_text = true;
+    if (cursor.take('/') && settings.block_delete) {
+        return;
+    }
+    if (is_grbl()) {
+        internal::check_grbl_text(text);
+    }
+    if (cursor.take('N')) {
+        static_cast<void>(internal::read_unsigned(cursor));
+    }
+    if (!execute_flow(cursor)) {
+        execute_words(cursor);
+    }
+}
+
+/// O-words, M98 and M99 of subprograms; false for any other line.
+bool Interpreter::Parts::execute_flow(Cursor& cursor) {
+    const char c = cursor.peek();
+    if (c == 'O') {
+        // What is wrong in here makes all the rest of the program uncertain.
+        try {
+            flow.execute(cursor);
+        } catch (const Refusal&) {
+            stopped = true;
+            throw;
+        }
+        return true;
+    }
+    if (c != 'M') {
+        return false;
+    }
+    Cursor ahead = cursor;
+    ahead.advance();
+    if (!internal::is_digit(ahead.peek())) {
+        return false;
+    }
+    const double code = internal::read_number(ahead);
+    if (code > 97.9 && code < 98.1) {
+        line.clear();
+        internal::parse_words(ahead, run.variables, line);
+        flow.call_fanuc(line.block);
+        return true;
+    }
+    return code > 98.9 && code < 99.1 && flow.return_fanuc();
+}
+
+void Interpreter::Parts::execute_words(Cursor& cursor) {
+    line.clear();
+    internal::parse_words(cursor, run.variables, line);
+    internal::execute_line(run, line);
+    if (run.from_the_top) {
+        repeat_from_the_top();
+    }
+}
+
+/// M99 in the main program: LinuxCNC begins again for ever; a reader stops after one pass.
+void Interpreter::Parts::repeat_from_the_top() {
+    run.from_the_top = false;
+    run.ended = true;
+}
+
+void Interpreter::Parts::report(const Refusal& refusal) {
+    Diagnostic found;
+    found.place = {files.name(), files.place().line, refusal.column, -1};
+    found.message = refusal.rule;
+    found.hint = refusal.hint;
+    errors.push_back(std::move(found));
+}
+
+Interpreter::Interpreter(const std::filesystem::path& file, ReaderSettings settings, CanonSink& sink)
+    : parts_(std::make_unique<Parts>(
+          std::make_unique<LineSource>(file), folders_for(file, settings), std::move(settings), sink)) {}
+
+Interpreter::Interpreter(std::string_view text,
+                         std::filesystem::path name,
+                         ReaderSettings settings,
+                         CanonSink& sink)
+    : parts_(std::make_unique<Parts>(std::make_unique<LineSource>(text, std::move(name)),
+                                     settings.subroutine_folders,
+                                     std::move(settings),
+                                     sink)) {}
+
+Interpreter::Interpreter(Interpreter&&) noexcept = default;
+Interpreter& Interpreter::operator=(Interpreter&&) noexcept = default;
+Interpreter::~Interpreter() = default;
+
+bool Interpreter::step() {
+    return parts_->step();
+}
+
+void Interpreter::run() {
+    while (parts_->step()) {
+    }
+}
+
+const ModalState& Interpreter::state() const {
+    return parts_->run.state;
+}
+
+SourcePlace Interpreter::place() const {
+    return parts_->files.place();
+}
+
+int Interpreter::line_count() const {
+    return parts_->files.program_lines();
+}
+
+const std::vector<Diagnostic>& Interpreter::errors() const {
+    return parts_->errors;
+}
+
+} // namespace millwright::gcode

@@ -1,0 +1,51 @@
+// From canonical commands to the program of one machine: offsets and rotation applied, arcs and splines as
+// chords, feeds as durations. What planning, simulation and time estimates of any G-code file start from.
+//
+// Feeds are those of RS-274/NGC: along X Y Z where one of these moves, else along U V W, else degrees of
+// A B C. Positions are machine positions in mm and rad. Each block keeps the line that it comes from.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/gcode/program.h"
+#include "core/gcode/reader/canon.h"
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace millwright::gcode {
+
+struct MachineProgramSettings {
+    double chord_tolerance = 0.002; ///< mm: of arcs and splines
+    std::size_t most_faults = 100;
+};
+
+struct MachineProgram {
+    Program program;
+    std::vector<Diagnostic> faults; ///< what this machine cannot do; such moves are left out
+    double length = 0.0;            ///< of the ways of X Y Z, rapids too, mm
+};
+
+class MachineProgramBuilder final : public CanonSink {
+public:
+    /// For diagnostics the program is called `file`. The axes start at zero, or at their nearest limit.
+    MachineProgramBuilder(const kinematics::MachineModel& machine,
+                          std::filesystem::path file,
+                          const MachineProgramSettings& settings = {});
+    MachineProgramBuilder(const MachineProgramBuilder&) = delete;
+    MachineProgramBuilder& operator=(const MachineProgramBuilder&) = delete;
+    ~MachineProgramBuilder() override;
+
+    void move(const Move& move, const SourceLine& now) override;
+    void curve(const Curve& curve, const SourceLine& now) override;
+    void command(const Command& command, const SourceLine& now) override;
+
+    /// What has come so far; nothing comes after it.
+    [[nodiscard]] MachineProgram take();
+
+private:
+    class Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace millwright::gcode

@@ -1,0 +1,33 @@
+// What surrounds a program: dialect, machine, and how much it may do.
+#pragma once
+
+#include "core/gcode/reader/dialect.h"
+#include "core/gcode/reader/modal_state.h"
+#include "core/gcode/reader/tool_table.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace millwright::gcode {
+
+struct ReaderSettings {
+    Dialect dialect = Dialect::linuxcnc;
+    LengthUnit machine_unit = LengthUnit::mm; ///< of tool table and of parameters that hold lengths
+    bool block_delete = false;                ///< lines that begin with / are left out
+    ToolTable tools;
+    bool any_tool = false; ///< a tool that the table lacks is taken for one without length and diameter
+    std::vector<std::pair<int, double>> parameters; ///< numbered ones that are not 0 at the start
+    /// Folders where subroutines are looked for after the program's own.
+    std::vector<std::filesystem::path> subroutine_folders;
+    int most_errors = 1; ///< reading stops behind so many
+    /// Lines that may be executed again (loops, subroutines) before the program is taken for an endless one.
+    std::int64_t most_repeated_lines = 10'000'000;
+    /// A canned cycle with a tiny step or a huge count would never end.
+    int most_moves_of_a_line = 1'000'000;
+    /// Where the axes are at the start, in machine coordinates, machine unit and degrees.
+    AxisValues start;
+};
+
+} // namespace millwright::gcode

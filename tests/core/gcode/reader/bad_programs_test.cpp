@@ -1,0 +1,58 @@
+// Each program in tests/golden/gcode-bad has to be refused with the very place and words that its first
+// comment states: "; LINE:COLUMN: message". A new file is a new case.
+#include "core/base/files.h"
+#include "core/gcode/reader/interpreter.h"
+#include "tests/support/without_traps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+std::vector<std::filesystem::path> bad_programs() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator("tests/golden/gcode-bad")) {
+        files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+class Nothing final : public CanonSink {
+public:
+    void move(const Move&, const SourceLine&) override {}
+    void curve(const Curve&, const SourceLine&) override {}
+    void command(const Command&, const SourceLine&) override {}
+};
+
+std::string stated_error(const std::string& text) {
+    const std::size_t begin = text.find("; ") + 2;
+    return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST(BadPrograms, AreRefusedWithPlaceAndRule) {
+    const test::WithoutTraps numbers_that_are_none; // some of them calculate beyond all numbers
+    ReaderSettings settings;
+    settings.most_repeated_lines = 10'000;
+    const auto files = bad_programs();
+    EXPECT_GE(files.size(), 150U);
+    for (const auto& file : files) {
+        const std::string text = read_file(file);
+        Nothing sink;
+        Interpreter program(text, file, settings, sink);
+        program.run();
+        ASSERT_EQ(program.errors().size(), 1U) << file;
+        const Diagnostic& found = program.errors().front();
+        std::string says = std::to_string(found.place.line) + ":" + std::to_string(found.place.column) +
+                           ": " + found.message;
+        says += found.hint.empty() ? "" : " (" + found.hint + ")";
+        EXPECT_EQ(says, stated_error(text)) << file;
+    }
+}
+
+} // namespace
+} // namespace millwright::gcode

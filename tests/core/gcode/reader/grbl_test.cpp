@@ -1,0 +1,64 @@
+#include "tests/core/gcode/reader/read_program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::gcode {
+namespace {
+
+using testing::HasSubstr;
+
+ReaderSettings grbl() {
+    ReaderSettings settings;
+    settings.dialect = Dialect::grbl;
+    return settings;
+}
+
+test::ReadProgram read_grbl(const std::string& text) {
+    return test::read_all(text, grbl());
+}
+
+std::string refusal(const std::string& text) {
+    const auto program = read_grbl(text);
+    return program.errors.empty() ? std::string() : program.errors.front().message;
+}
+
+TEST(Grbl, TakesItsSubset) {
+    const auto program =
+        read_grbl("X1 Y2 (rapid is the mode at the start)\nG1 X5 F100\nG2 X10 Y0 I2.5 J-1\nG38.2 Z-5\n"
+                  "G10 L20 P1 X0\nG28.1\nG53 G0 X0\nG43.1 Z1\nG49\nM3 S1000\nM8\nG4 P0.1\nG80\n");
+    EXPECT_EQ(program.errors.size(), 0U) << (program.errors.empty() ? "" : to_text(program.errors.front()));
+}
+
+TEST(Grbl, NeedsNoEnd) {
+    EXPECT_EQ(refusal("G0 X1"), "");
+}
+
+TEST(Grbl, KeepsTheFeedWhenItsModeIsSetAgain) {
+    EXPECT_EQ(refusal("G94 F100\nG94 G1 X1\n"), "");
+    EXPECT_THAT(test::error_of("G94 F100\nG94 G1 X1"), HasSubstr("feed of zero"));
+}
+
+TEST(Grbl, RefusesWhatItDoesNotKnowByItsOwnErrorNumbers) {
+    EXPECT_THAT(refusal("G81 X1 Z-1 R1"), HasSubstr("G81 (error 20)"));
+    EXPECT_THAT(refusal("G41 D1"), HasSubstr("G41 (error 20)"));
+    EXPECT_THAT(refusal("G43 H1"), HasSubstr("G43 (error 20)"));
+    EXPECT_THAT(refusal("G64"), HasSubstr("G64 (error 20)"));
+    EXPECT_THAT(refusal("M6"), HasSubstr("M6 (error 20)"));
+    EXPECT_THAT(refusal("G59.1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("G0 A5"), HasSubstr("A words (error 20)"));
+    EXPECT_THAT(refusal("G0 X[1+1]"), HasSubstr("(error 1)"));
+    EXPECT_THAT(refusal("#1=5"), HasSubstr("(error 1)"));
+    EXPECT_THAT(refusal("O1 call"), HasSubstr("(error 1)"));
+    EXPECT_THAT(refusal("G1 F1\nG2 I5"), HasSubstr("(error 26)"));
+    EXPECT_THAT(refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
+    EXPECT_THAT(refusal("G10 L2 P7 X1"), HasSubstr("(error 29)"));
+}
+
+TEST(Grbl, CountsTheCharactersThatItKeeps) {
+    EXPECT_EQ(refusal("G0 X1" + std::string(200, ' ') + "(" + std::string(200, 'c') + ")"), "");
+    EXPECT_THAT(refusal("G0 X" + std::string(90, '0')), HasSubstr("(error 11)"));
+}
+
+} // namespace
+} // namespace millwright::gcode

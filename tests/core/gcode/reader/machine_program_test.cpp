@@ -1,0 +1,165 @@
+#include "core/gcode/reader/machine_program.h"
+
+#include "core/base/numbers.h"
+#include "core/base/units.h"
+#include "core/gcode/reader/interpreter.h"
+#include "tests/support/machines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+using ::testing::HasSubstr;
+
+MachineProgram read(const std::string& text, const std::string& machine = "ac-table") {
+    const kinematics::MachineModel model = test::machine(machine);
+    MachineProgramBuilder builder(model, "part.ngc");
+    Interpreter interpreter(text, "part.ngc", {}, builder);
+    interpreter.run();
+    EXPECT_TRUE(interpreter.errors().empty()) << interpreter.errors().front().message;
+    return builder.take();
+}
+
+std::vector<Block> moves_of(const MachineProgram& read) {
+    std::vector<Block> moves;
+    for (const Block& block : read.program.blocks) {
+        if (block.moves()) {
+            moves.push_back(block);
+        }
+    }
+    return moves;
+}
+
+Vec3 xyz(const Block& block) {
+    return block.target.head<3>(); // of X Y Z A C
+}
+
+TEST(MachineProgram, MovesAtTheFeedOfTheProgram) {
+    const auto moves = moves_of(read("G21 G90 G94\nG0 X5\nG1 X15 F600\nM2\n"));
+    ASSERT_EQ(moves.size(), 2U);
+    EXPECT_EQ(moves[0].kind, BlockKind::rapid);
+    EXPECT_EQ(moves[1].kind, BlockKind::feed);
+    EXPECT_DOUBLE_EQ(moves[1].duration, 1.0);
+    EXPECT_DOUBLE_EQ(moves[1].feed, 10.0);
+    EXPECT_EQ(xyz(moves[1]), Vec3(15, 0, 0));
+}
+
+TEST(MachineProgram, KeepsTheLineOfEveryBlock) {
+    const auto moves = moves_of(read("G21\n\n(nothing)\nG1 X1 F60\nG2 X3 I1\nM2\n"));
+    ASSERT_GT(moves.size(), 3U);
+    EXPECT_EQ(moves[0].source_line, 4);
+    for (std::size_t n = 1; n < moves.size(); ++n) {
+        EXPECT_EQ(moves[n].source_line, 5);
+    }
+}
+
+TEST(MachineProgram, TakesInchesFeedsInInchesToo) {
+    const auto moves = moves_of(read("G20\nG1 X1 F60\nM2\n"));
+    EXPECT_NEAR(xyz(moves[0]).x(), 25.4, 1e-12);
+    EXPECT_NEAR(moves[0].duration, 1.0, 1e-12);
+}
+
+TEST(MachineProgram, AppliesOffsetsAndRotation) {
+    const auto moves = moves_of(read("G21\nG10 L2 P1 X5 Y0 Z0 R90\nG54\nG1 X10 Y0 F60\nM2\n"));
+    EXPECT_LT((xyz(moves.back()) - Vec3(5, 10, 0)).norm(), 1e-9);
+    const auto shifted = moves_of(read("G21\nG1 X4 F60\nG92 X0\nG1 X10\nM2\n"));
+    EXPECT_NEAR(xyz(shifted.back()).x(), 14.0, 1e-9);
+    const auto unchanged = moves_of(read("G21\nG10 L2 P1 X5 R30\nG54\nG1 X10 Y3 F60\nG20\nG1 Z1\nM2\n"));
+    EXPECT_LT((xyz(unchanged[1]) - xyz(unchanged[0]) - Vec3(0, 0, 25.4)).norm(), 1e-9);
+}
+
+TEST(MachineProgram, FollowsArcsWithinTheChordTolerance) {
+    const MachineProgram program = read("G21 G17\nG0 X10\nG3 X10 Y0 I-10 F600\nM2\n");
+    const auto moves = moves_of(program);
+    constexpr double radius = 10.0;
+    ASSERT_GT(moves.size(), 20U);
+    double duration = 0.0;
+    for (std::size_t n = 1; n < moves.size(); ++n) {
+        EXPECT_NEAR(xyz(moves[n]).norm(), radius, 1e-9);
+        const Vec3 middle = (xyz(moves[n]) + xyz(moves[n - 1])) / 2.0;
+        EXPECT_GE(middle.norm(), radius - 0.002 - 1e-9);
+        duration += moves[n].duration;
+    }
+    EXPECT_EQ(xyz(moves.back()), Vec3(10, 0, 0));
+    EXPECT_NEAR(duration, 2.0 * pi, 1e-3);
+    EXPECT_NEAR(program.length, 10.0 + 2.0 * pi * radius, 2e-2);
+}
+
+TEST(MachineProgram, TurnsHelicesInEveryPlane) {
+    for (const auto& [text, axis] : {std::pair{"G17\nG1 X0 F60\nG2 X20 I10 Z6", 2},
+                                     std::pair{"G18\nG1 X0 F60\nG2 Z20 K10 Y6", 1},
+                                     std::pair{"G19\nG1 X0 F60\nG2 Y20 J10 X6", 0}}) {
+        const auto moves = moves_of(read(std::string("G21\n") + text + "\nM2\n"));
+        const auto middle = xyz(moves[moves.size() / 2]);
+        EXPECT_NEAR(middle[axis], 3.0, 0.2) << text;
+        EXPECT_EQ(xyz(moves.back())[axis], 6.0) << text;
+    }
+}
+
+TEST(MachineProgram, FollowsABezierCurve) {
+    const auto moves = moves_of(read("G21 G17\nG5 I0 J30 P0 Q-30 X40 Y10 F600\nM2\n"));
+    const std::array<Vec3, 4> p{Vec3(0, 0, 0), Vec3(0, 30, 0), Vec3(40, -20, 0), Vec3(40, 10, 0)};
+    const auto curve = [&](double t) -> Vec3 {
+        const double s = 1.0 - t;
+        return s * s * s * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t * t * t * p[3];
+    };
+    ASSERT_GT(moves.size(), 10U);
+    for (int k = 0; k <= 1000; ++k) { // every point of the curve is near a chord
+        const Vec3 at = curve(k / 1000.0);
+        double nearest = 1e9;
+        Vec3 a = p[0];
+        for (const Block& move : moves) {
+            const Vec3 b = xyz(move);
+            const double t = std::clamp((at - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+            nearest = std::min(nearest, (a + t * (b - a) - at).norm());
+            a = b;
+        }
+        ASSERT_LT(nearest, 0.003) << k;
+    }
+}
+
+TEST(MachineProgram, FeedsRotaryAxesInDegreesWhereNothingElseMoves) {
+    const auto moves = moves_of(read("G21\nG1 A30 F90\nG1 A60 X10 F600\nM2\n"));
+    EXPECT_NEAR(moves[0].duration, 20.0, 1e-9);
+    EXPECT_NEAR(moves[1].duration, 1.0, 1e-9);
+    EXPECT_NEAR(moves[1].target[test::machine("ac-table").axis_index('A')], pi / 3.0, 1e-12);
+}
+
+TEST(MachineProgram, TakesInverseTime) {
+    const auto moves = moves_of(read("G21 G93\nG1 X10 Y5 F30\nM2\n"));
+    EXPECT_NEAR(moves[0].duration, 2.0, 1e-9);
+}
+
+TEST(MachineProgram, SaysOnceWhichAxisIsMissingAndLeavesTheMovesOut) {
+    const MachineProgram program = read("G21\nG0 X1\nG0 B5\nG0 B7\nG0 X2 B7\nM2\n");
+    ASSERT_EQ(program.faults.size(), 1U);
+    EXPECT_EQ(program.faults[0].place.line, 3);
+    EXPECT_THAT(program.faults[0].message, HasSubstr("no axis B"));
+    EXPECT_EQ(moves_of(program).size(), 1U);
+}
+
+TEST(MachineProgram, PausesForToolsAndStops) {
+    const MachineProgram program = read("G21\nS900 M4\nG4 P1.5\nM0\nM5\nM8\nM9\nM30\n");
+    std::vector<BlockKind> kinds;
+    for (const Block& block : program.program.blocks) {
+        kinds.push_back(block.kind);
+    }
+    EXPECT_THAT(kinds,
+                ::testing::IsSupersetOf({BlockKind::spindle_on,
+                                         BlockKind::dwell,
+                                         BlockKind::pause,
+                                         BlockKind::spindle_off,
+                                         BlockKind::coolant_on,
+                                         BlockKind::coolant_off,
+                                         BlockKind::end}));
+    EXPECT_EQ(program.program.blocks[0].spindle_rpm, -900.0);
+}
+
+} // namespace
+} // namespace millwright::gcode

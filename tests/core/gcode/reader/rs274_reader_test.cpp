@@ -1,0 +1,177 @@
+// LinuxCNC's interpreter as the judge of ours: the same canonical commands in the same order, numbers within
+// 1e-4, for the samples that ship and for random programs; and where it refuses, so do we.
+#include "core/base/files.h"
+#include "core/gcode/reader/canon_printer.h"
+#include "core/gcode/reader/interpreter.h"
+#include "tests/core/gcode/reader/random_program.h"
+#include "tests/support/oracle.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+const std::filesystem::path samples = "assets/samples/gcode";
+
+struct Canon {
+    std::vector<std::string> lines;
+    bool refused = false;
+    std::string error;
+};
+
+/// Lines that begin with their running number; what is printed by the program itself has none.
+std::vector<std::string> canonical_lines(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        if (line.size() > 7 && line[5] == ' ' && line[6] == 'N') {
+            lines.push_back(line.substr(6));
+        }
+        at = end + 1;
+    }
+    while (!lines.empty() && lines.back().ends_with("ON_RESET()")) {
+        lines.pop_back(); // rs274 closes once or twice, by whether it was given an ini file
+    }
+    return lines;
+}
+
+/// Equal word for word, numbers within 1e-4 (and the last digit's rounding).
+bool same(const std::string& a, const std::string& b) {
+    constexpr double tolerance = 1.01e-4;
+    const char* p = a.c_str();
+    const char* q = b.c_str();
+    while (*p != '\0' && *q != '\0') {
+        char* p_end = nullptr;
+        char* q_end = nullptr;
+        const double x = std::strtod(p, &p_end);
+        const double y = std::strtod(q, &q_end);
+        if (p_end != p && q_end != q) {
+            if (!(std::abs(x - y) <= tolerance * std::max(1.0, std::abs(x) * 1e-12))) {
+                return false;
+            }
+            p = p_end;
+            q = q_end;
+        } else if (*p++ != *q++) {
+            return false;
+        }
+    }
+    return *p == *q;
+}
+
+class Rs274Reader : public OracleTest {
+protected:
+    Rs274Reader() : OracleTest("rs274", "linuxcnc-uspace") {
+        // Tells rs274 where subroutines are.
+        write_file(ini_, "[DISPLAY]\nPROGRAM_PREFIX = " + std::filesystem::absolute(samples).string() + "\n");
+    }
+    ~Rs274Reader() override {
+        std::filesystem::remove(file_);
+        std::filesystem::remove(ini_);
+    }
+
+    Canon theirs(const std::filesystem::path& file) const {
+        const ProgramRun answer =
+            run({"-g", "-i", ini_.string(), "-t", (samples / "tools.tbl").string(), file.string()});
+        return {canonical_lines(answer.output), answer.exit_code != 0, {}};
+    }
+
+    static Canon ours(const std::filesystem::path& file) {
+        ReaderSettings settings;
+        settings.machine_unit = LengthUnit::inch; // of rs274's own machine
+        settings.tools = read_tool_table(samples / "tools.tbl");
+        std::string text;
+        CanonPrinter printer([&](std::string_view piece) { text += piece; });
+        Interpreter program(file, settings, printer);
+        program.run();
+        printer.flush();
+        const bool refused = !program.errors().empty();
+        return {canonical_lines(text), refused, refused ? to_text(program.errors().front()) : ""};
+    }
+
+    void expect_same(const std::filesystem::path& file, const std::string& name) {
+        const Canon a = theirs(file);
+        const Canon b = ours(file);
+        ASSERT_EQ(a.refused, b.refused) << name << ": " << b.error;
+        for (std::size_t n = 0; n < std::min(a.lines.size(), b.lines.size()); ++n) {
+            ASSERT_PRED2(same, a.lines[n], b.lines[n]) << name << ", canonical line " << n + 1;
+        }
+        ASSERT_EQ(a.lines.size(), b.lines.size()) << name;
+        compared_ += static_cast<int>(b.lines.size());
+    }
+
+    void expect_same_text(const std::string& text, const std::string& name) {
+        write_file(file_, text);
+        expect_same(file_, name);
+        if (HasFatalFailure()) {
+            ADD_FAILURE() << text;
+        }
+    }
+
+    int compared_ = 0;
+
+private:
+    std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) / ("rs274_reader_" + std::to_string(getpid()) + ".ngc");
+    std::filesystem::path ini_ = std::filesystem::path(file_).replace_extension(".ini");
+};
+
+TEST_F(Rs274Reader, DoesTheSameWithEverySample) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(samples)) {
+        if (entry.path().extension() == ".ngc") {
+            expect_same(entry.path(), entry.path().filename().string());
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 25);
+}
+
+TEST_F(Rs274Reader, DoesTheSameWithRandomPrograms) {
+    for (unsigned seed = 1; seed <= 80 && !HasFatalFailure(); ++seed) {
+        expect_same_text(test::random_program(seed), "seed " + std::to_string(seed));
+    }
+    EXPECT_GT(compared_, 8000);
+}
+
+TEST_F(Rs274Reader, OffsetsTheSameContoursAndRefusesTheSameOnes) {
+    for (unsigned seed = 1; seed <= 80 && !HasFatalFailure(); ++seed) {
+        expect_same_text(test::random_contour(seed), "seed " + std::to_string(seed));
+    }
+    EXPECT_GT(compared_, 1000);
+}
+
+TEST_F(Rs274Reader, RefusesMostOfTheBadProgramsToo) {
+    // Those that LinuxCNC takes, or does not come to an end with; why: docs/reference/gcode-reading.md.
+    const std::vector<std::string> ours_only{"arc-giant",
+                                             "arc-giant-radius",
+                                             "arc-hair",
+                                             "arc-turns-many",
+                                             "cycle-endless-peck",
+                                             "cycle-endless-repeat",
+                                             "do-endless",
+                                             "while-endless",
+                                             "g10-p-fraction",
+                                             "g76-steep",
+                                             "io-channel",
+                                             "nested-deep",
+                                             "number-huge",
+                                             "spline-first",
+                                             "value-too-large"};
+    for (const auto& entry : std::filesystem::directory_iterator("tests/golden/gcode-bad")) {
+        const std::string name = entry.path().stem().string();
+        if (std::find(ours_only.begin(), ours_only.end(), name) == ours_only.end()) {
+            EXPECT_TRUE(theirs(entry.path()).refused) << name;
+        }
+    }
+}
+
+} // namespace
+} // namespace millwright::gcode
