@@ -4,4 +4,5 @@
 
 #include "core/motion/hold.h"
 #include "core/motion/planner.h"
+#include "core/motion/step_pulses.h"
 #include "core/motion/trajectory.h"

@@ -23,7 +23,7 @@ TEST(Trajectory, IsAtEachBlocksTargetWhenTheBlockEnds) {
     const gcode::Program program = test::post_over("dome", machine, 8, 8).program;
     const Trajectory trajectory = plan(program, machine, {}, {});
     for (int n = 0; n < program.block_count(); ++n) {
-        const auto off =
+        const kinematics::AxisPositions off =
             trajectory.at(trajectory.end_of(n)).position - program.blocks.at(std::size_t(n)).target;
         EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-9) << n;
     }

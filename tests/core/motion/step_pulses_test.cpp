@@ -1,0 +1,162 @@
+#include "core/motion/step_pulses.h"
+
+#include "core/base/error.h"
+#include "core/motion/hold.h"
+#include "core/motion/planner.h"
+#include "tests/support/motions.h"
+#include "tests/support/without_traps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::motion {
+namespace {
+
+using kinematics::AxisPositions;
+
+kinematics::MachineModel machine() {
+    return test::machine("rotary-tilt-listing");
+}
+
+AxisPositions at(double x, double y = 0.0) {
+    AxisPositions q = AxisPositions::Zero(5);
+    q.head<2>() << x, y;
+    return q;
+}
+
+/// Feeds through `targets`, 1 s each.
+Trajectory feeds(const std::vector<AxisPositions>& targets) {
+    gcode::Program program = test::empty_program(machine());
+    for (const AxisPositions& target : targets) {
+        test::add_move(program, target, 1.0);
+    }
+    return plan(program, machine(), {}, {});
+}
+
+StepSettings hundred_a_mm() {
+    StepSettings settings;
+    settings.steps_per_unit.assign(5, 100.0);
+    return settings;
+}
+
+struct Pulsed {
+    std::vector<StepPulse> pulses;
+    std::vector<StepJitter> axes;
+};
+
+Pulsed pulsed(const Trajectory& trajectory, const StepSettings& settings) {
+    Pulsed found;
+    const StepSink collect = [&](std::span<const StepPulse> block) {
+        found.pulses.insert(found.pulses.end(), block.begin(), block.end());
+    };
+    found.axes = step_pulses(trajectory, settings, collect, {});
+    return found;
+}
+
+TEST(StepPulses, AreAsManyAsTheWayHasSteps) {
+    const Pulsed found = pulsed(feeds({at(10.0, -5.0), at(4.0, -5.0)}), hundred_a_mm());
+    EXPECT_EQ(found.axes[0].pulses, 1600);
+    EXPECT_EQ(found.axes[0].reversals, 1);
+    EXPECT_EQ(found.axes[1].pulses, 500);
+    EXPECT_EQ(found.axes[2].pulses, 0);
+    EXPECT_EQ(found.pulses.size(), 2100U);
+    EXPECT_EQ(found.pulses.back().position, 400);
+    EXPECT_EQ(found.pulses.back().direction, -1);
+}
+
+TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
+    const auto model = machine();
+    const Trajectory trajectory = plan(test::random_program(model, 60, 7), model, {}, {});
+    StepSettings settings = hundred_a_mm();
+    settings.steps_per_unit = {400.0, 400.0, 400.0, 3000.0, 3000.0};
+    const Pulsed found = pulsed(trajectory, settings);
+    ASSERT_GT(found.pulses.size(), 1000U);
+    for (const StepPulse& pulse : found.pulses) {
+        const double planned = trajectory.at(pulse.due).position[pulse.axis] *
+                               settings.steps_per_unit[static_cast<std::size_t>(pulse.axis)];
+        ASSERT_NEAR(planned, static_cast<double>(pulse.position) - 0.5 * pulse.direction, 1e-5);
+    }
+    for (const StepJitter& axis : found.axes) {
+        EXPECT_LE(std::abs(axis.end_error_steps), 0.5 + 1e-9);
+    }
+}
+
+TEST(StepPulses, AreInOrderAndApart) {
+    StepSettings settings = hundred_a_mm();
+    settings.timer_frequency = 20'000.0;
+    settings.min_interval = 3;
+    const Pulsed found = pulsed(feeds({at(50.0, 20.0), at(0.0, 0.0)}), settings);
+    std::vector<std::int64_t> last(5, -3);
+    for (const StepPulse& pulse : found.pulses) {
+        std::int64_t& before = last[static_cast<std::size_t>(pulse.axis)];
+        ASSERT_GE(pulse.tick - before, 3);
+        before = pulse.tick;
+    }
+}
+
+TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
+    const Pulsed found = pulsed(feeds({at(10.0)}), hundred_a_mm());
+    EXPECT_EQ(found.axes[0].late, 0);
+    EXPECT_LE(found.axes[0].max_jitter, 0.5e-6 + 1e-15);
+    EXPECT_GT(found.axes[0].rms_jitter, 0.2e-6);
+    EXPECT_LT(found.axes[0].rms_jitter, 0.35e-6) << "evenly spread over a tick: 1/sqrt(12) of it";
+}
+
+TEST(StepPulses, SayHowFastTheyCome) {
+    const Pulsed found = pulsed(feeds({at(10.0)}), hundred_a_mm()); // 10 mm/s
+    EXPECT_NEAR(found.axes[0].max_frequency, 1000.0, 1e-3);
+}
+
+TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
+    StepSettings settings = hundred_a_mm();
+    settings.timer_frequency = 1000.0; // 1000 pulses a second need one every tick
+    settings.min_interval = 2;
+    settings.jitter_limit = 1e-3;
+    const Pulsed found = pulsed(feeds({at(10.0)}), settings);
+    EXPECT_GT(found.axes[0].late, 900);
+    EXPECT_GT(found.axes[0].over_limit, 900);
+    EXPECT_NEAR(found.axes[0].max_jitter, 1.0, 0.05);
+}
+
+TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
+    gcode::Program program = test::empty_program(machine());
+    test::add_move(program, at(0.019), 1.0);
+    const Trajectory trajectory = plan(program, machine(), {}, {}, at(0.004));
+    const Pulsed found = pulsed(trajectory, hundred_a_mm());
+    ASSERT_EQ(found.pulses.size(), 2U); // over 0.005 and 0.015
+    EXPECT_EQ(found.pulses[1].position, 2);
+    EXPECT_NEAR(found.axes[0].end_error_steps, -0.1, 1e-9);
+}
+
+TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
+    const Trajectory whole = feeds({at(10.0), at(20.0, 10.0)});
+    const StepSettings settings = hundred_a_mm();
+    const PathState somewhere = whole.state_at(0.7 * whole.duration());
+    const Trajectory braking = brake(whole, somewhere);
+    const Trajectory rest = rejoin(whole, end_state(braking));
+    const std::int64_t steps =
+        pulsed(braking, settings).axes[0].pulses + pulsed(rest, settings).axes[0].pulses;
+    EXPECT_NEAR(static_cast<double>(steps), 100.0 * (20.0 - braking.at(0.0).position[0]), 2.0);
+    EXPECT_LE(std::abs(pulsed(braking, settings).axes[0].end_error_steps), 0.5 + 1e-9);
+    EXPECT_LE(std::abs(pulsed(rest, settings).axes[1].end_error_steps), 0.5 + 1e-9);
+}
+
+TEST(StepPulses, RefuseSettingsWithoutSense) {
+    const test::WithoutTraps numbers_that_are_none;
+    const Trajectory trajectory = feeds({at(1.0)});
+    const auto refused = [&](auto change) {
+        StepSettings settings = hundred_a_mm();
+        change(settings);
+        EXPECT_THROW((void)pulsed(trajectory, settings), Error);
+    };
+    refused([](StepSettings& s) { s.steps_per_unit.pop_back(); });
+    refused([](StepSettings& s) { s.steps_per_unit[1] = 0.0; });
+    refused([](StepSettings& s) { s.steps_per_unit[1] = std::nan(""); });
+    refused([](StepSettings& s) { s.timer_frequency = 0.0; });
+    refused([](StepSettings& s) { s.min_interval = 0; });
+    refused([](StepSettings& s) { s.most_pulses_a_block = 99; });
+}
+
+} // namespace
+} // namespace millwright::motion
