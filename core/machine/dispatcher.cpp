@@ -124,7 +124,7 @@ private:
     bool cancelled_ = false;
 
     [[nodiscard]] double elapsed() const { return dispatcher_.clock_.now() - start_; }
-    [[nodiscard]] int blocks() const { return job_.program->block_count(); }
+    [[nodiscard]] int blocks() const { return job_.block_count(); }
 
     void remember(const DriverStatus& status) {
         if (status.state != DriverState::disconnected) {
@@ -165,8 +165,10 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const double fraction = planned_time_ > 0.0 ? last_.planned_time / planned_time_ : 1.0;
-        progress.report(fraction, fmt::format("block {} of {}", last_.executed_blocks, blocks()));
+        const double fraction = planned_time_ > 0.0
+                                    ? last_.planned_time / planned_time_
+                                    : static_cast<double>(last_.executed_blocks) / std::max(1, blocks());
+        progress.report(fraction, fmt::format("Block {} of {}", last_.executed_blocks, blocks()));
         if (listener) {
             listener({last_, blocks(), elapsed(), planned_time_});
         }
@@ -218,21 +220,30 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
             fmt::format("the machine is {} and takes no job", to_text(before.state)), {}, before.message);
     }
     constexpr double planning = 0.02; // of the progress
-    auto trajectory = std::make_shared<const motion::Trajectory>(
-        motion::plan(*job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
+    const bool text_alone = job.program == nullptr;
+    const Capabilities able = driver_.capabilities();
+    if (text_alone && !able.plans) {
+        throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
+    }
+    std::shared_ptr<const motion::Trajectory> trajectory;
+    if (!text_alone) {
+        trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
+            *job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
+    }
+    const double planned_time = trajectory ? trajectory->duration() : 0.0;
 
     JobLog log(log_folder_, job.name);
     log.write(LogStart{.job = job.name,
                        .project = job.project,
-                       .machine = job.machine->name(),
+                       .machine = job.machine ? job.machine->name() : std::string(),
                        .driver = driver_.name(),
                        .program_hash = program_hash(job.listing->text),
                        .started_at = job.started_at,
-                       .axes = job.program->axes,
-                       .blocks = job.program->block_count(),
-                       .planned_time = trajectory->duration()});
+                       .axes = text_alone ? able.axes : job.program->axes,
+                       .blocks = job.block_count(),
+                       .planned_time = planned_time});
     progress.check();
-    Watch watch(*this, job, log, trajectory->duration());
+    Watch watch(*this, job, log, planned_time);
     try {
         driver_.start({job.program, trajectory, job.listing});
         return watch.to_the_end(progress.part(planning, 1.0), listener);

@@ -1,6 +1,30 @@
 #include "core/machine/driver.h"
 
+#include "core/base/error.h"
+
 namespace millwright::machine {
+
+namespace {
+
+[[noreturn]] void refuse(const Driver& driver, const std::string& what) {
+    throw Error("the " + driver.name() + " driver cannot " + what);
+}
+
+} // namespace
+
+void Driver::set_overrides(const Overrides&) {
+    refuse(*this, "override feeds");
+}
+
+void Driver::jog(const Jog&) {
+    refuse(*this, "jog");
+}
+
+void Driver::stop_jog() {}
+
+void Driver::home() {
+    refuse(*this, "home");
+}
 
 std::string_view to_text(DriverState state) {
     switch (state) {

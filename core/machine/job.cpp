@@ -94,9 +94,44 @@ std::string_view to_text(JobEnd end) {
     return "unknown";
 }
 
+int Job::block_count() const {
+    return static_cast<int>(listing->line_of_block.size());
+}
+
+Job text_job(std::string text, const std::filesystem::path& file) {
+    gcode::Listing listing;
+    if (!text.empty() && text.back() != '\n') {
+        text += '\n';
+    }
+    listing.text = std::move(text);
+    listing.line_starts.push_back(0);
+    for (std::size_t n = 0; n < listing.text.size(); ++n) {
+        if (listing.text[n] != '\n') {
+            continue;
+        }
+        const std::string_view line =
+            std::string_view(listing.text).substr(listing.line_starts.back(), n - listing.line_starts.back());
+        if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
+            listing.line_of_block.push_back(static_cast<int>(listing.line_starts.size()));
+        }
+        listing.line_starts.push_back(n + 1);
+    }
+    if (listing.line_of_block.empty()) {
+        throw Error("there is nothing in the program", file);
+    }
+    Job job;
+    job.name = file.stem().string();
+    job.project = file.string();
+    job.listing = std::make_shared<const gcode::Listing>(std::move(listing));
+    return job;
+}
+
 std::vector<Diagnostic> preflight(const Job& job) {
-    expects(job.machine != nullptr && job.program != nullptr && job.listing != nullptr,
-            "a job has a machine, a program and its listing");
+    expects(job.listing != nullptr, "a job has a listing");
+    if (job.program == nullptr) {
+        return {};
+    }
+    expects(job.machine != nullptr, "a job with a program has a machine");
     const gcode::Program& program = *job.program;
     expects(std::ssize(job.listing->line_of_block) == program.block_count(),
             "a listing belongs to its program");

@@ -14,6 +14,7 @@
 
 namespace millwright::machine {
 
+/// With machine and program, or with the listing alone: a text that a controller understands by itself.
 struct Job {
     std::string name;       ///< also of its log file: letters, digits, '-', '_' and '.'
     std::string project;    ///< file or title it comes from
@@ -22,7 +23,12 @@ struct Job {
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const gcode::Listing> listing;
     motion::PlannerSettings planner;
+
+    [[nodiscard]] int block_count() const;
 };
+
+/// A job of the lines of a G-code file, each that is not empty being a block. Throws Error if there is none.
+[[nodiscard]] Job text_job(std::string text, const std::filesystem::path& file);
 
 enum class JobEnd {
     done,      ///< the driver executed every block
@@ -45,7 +51,8 @@ struct JobOutcome {
 };
 
 /// What is wrong with a job before it is sent: axes that are not the machine's, positions outside the limits,
-/// a start of the machine outside of them, a program without an end. Empty: nothing.
+/// a start of the machine outside of them, a program without an end. Of a text only its controller knows what
+/// is wrong. Empty: nothing.
 [[nodiscard]] std::vector<Diagnostic> preflight(const Job& job);
 
 /// FNV-1a of the listing as 16 hexadecimal digits: tells whether a log belongs to a program, no more.

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/jobs.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +43,7 @@ TEST(Preflight, NamesTheLineAxisAndRangeOncePerAxis) {
 }
 
 TEST(Preflight, FindsTargetsAndDurationsThatAreNoNumbers) {
+    const test::WithoutTraps numbers_that_are_none;
     Job job = test::job_of(good_program());
     gcode::Program spoiled = *job.program;
     const auto feed =

@@ -1,0 +1,201 @@
+#include "core/machine/drivers/grbl/grbl_driver.h"
+
+#include "core/base/error.h"
+#include "core/machine/drivers/grbl/internal/session.h"
+
+#include <algorithm>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+namespace millwright::machine {
+
+using grbl::Session;
+
+/// The session, its link, and the thread that carries bytes between them.
+struct GrblDriver::Body {
+    std::unique_ptr<Link> link;
+    const Clock& clock;
+    mutable std::mutex mutex; ///< guards the session
+    Session session;
+    std::jthread thread;
+
+    Body(std::unique_ptr<Link> its_link, const Clock& its_clock, const GrblOptions& options)
+        : link(std::move(its_link)), clock(its_clock),
+          session({options.one_by_one, options.poll_interval, options.patience, options.greeting_time}) {}
+
+    /// One command, its bytes sent before anybody else's.
+    template <class Command> auto with_session(Command&& command) {
+        const std::scoped_lock lock(mutex);
+        struct Sender {
+            Body& body;
+            ~Sender() { body.link->write(body.session.take_output()); }
+        } const sender{*this};
+        return command(session, clock.now());
+    }
+
+    void run(const std::stop_token& stop) {
+        constexpr double tick = 0.02;
+        while (!stop.stop_requested()) {
+            link->wait(tick);
+            with_session([this](Session& now, double time) {
+                now.receive(link->read(), time);
+                if (const auto why = link->lost()) {
+                    now.lost(*why);
+                }
+                now.tick(time);
+            });
+        }
+    }
+
+    void open() {
+        link->open();
+        with_session([](Session& now, double time) { now.opened(time); });
+        thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    }
+
+    void shut() {
+        thread = {};
+        link->close();
+        with_session([](Session& now, double) { now.closed(); });
+    }
+
+    [[nodiscard]] DriverStatus status() const {
+        const std::scoped_lock lock(mutex);
+        return session.status();
+    }
+
+    template <class Done> void wait_until(const Done& done) {
+        while (true) {
+            {
+                const std::scoped_lock lock(mutex);
+                if (done(session)) {
+                    return;
+                }
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+
+    void greet() {
+        open();
+        wait_until([](const Session& now) { return now.greeted(); });
+    }
+};
+
+GrblDriver::GrblDriver(std::unique_ptr<Link> link, const Clock& clock, GrblOptions options)
+    : body_(std::make_unique<Body>(std::move(link), clock, options)) {}
+
+GrblDriver::~GrblDriver() {
+    close();
+}
+
+DriverStatus GrblDriver::status() const {
+    return body_->status();
+}
+
+Capabilities GrblDriver::capabilities() const {
+    using kinematics::AxisKind;
+    return {.plans = true,
+            .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
+            .overrides = true,
+            .jog = true,
+            .home = true};
+}
+
+GrblReadout GrblDriver::readout() const {
+    const std::scoped_lock lock(body_->mutex);
+    const grbl::Readout& known = body_->session.readout();
+    GrblReadout result{.version = known.version,
+                       .settings = known.settings,
+                       .machine_position = known.machine_position,
+                       .work_offset = known.offset,
+                       .pins = known.pins,
+                       .probe = {}};
+    if (known.probe) {
+        result.probe = GrblReadout::Probe{known.probe->position, known.probe->touched};
+    }
+    return result;
+}
+
+void GrblDriver::check(const gcode::Listing& listing, const std::filesystem::path& file) const {
+    (void)grbl::program_lines(listing, file);
+}
+
+void GrblDriver::connect() {
+    if (status().state != DriverState::disconnected) {
+        return;
+    }
+    body_->greet();
+    const DriverStatus now = status();
+    if (now.state == DriverState::alarm && readout().settings.empty()) {
+        body_->shut();
+        throw Error(body_->link->name() + ": " + now.message, {}, "is it the right port, and switched on?");
+    }
+}
+
+void GrblDriver::start(Work work) {
+    expects(work.listing != nullptr, "Grbl is given a program's text");
+    grbl::ProgramLines lines = grbl::program_lines(*work.listing, {});
+    body_->with_session([&](Session& now, double time) { now.start(std::move(lines), time); });
+}
+
+void GrblDriver::hold() {
+    body_->with_session([](Session& now, double time) { now.hold(time); });
+}
+
+void GrblDriver::resume() {
+    body_->with_session([](Session& now, double time) { now.resume(time); });
+}
+
+void GrblDriver::stop() {
+    body_->with_session([](Session& now, double time) { now.stop(time); });
+}
+
+void GrblDriver::emergency_stop() {
+    body_->with_session([](Session& now, double time) { now.emergency_stop(time); });
+}
+
+void GrblDriver::reset() {
+    bool lost = false;
+    {
+        const std::scoped_lock lock(body_->mutex);
+        lost = body_->session.link_lost();
+    }
+    if (lost) {
+        body_->shut();
+        body_->greet();
+    }
+    body_->with_session([](Session& now, double time) { now.reset(time); });
+    body_->wait_until([](const Session& now) { return now.greeted(); });
+}
+
+void GrblDriver::close() noexcept {
+    try {
+        stop();
+        body_->wait_until([](const Session& now) { return now.status().state != DriverState::stopping; });
+        body_->shut();
+    } catch (const std::exception&) {
+        body_->thread = {};
+        body_->link->close(); // a controller without its host stops by itself when its buffers are empty
+    }
+}
+
+void GrblDriver::set_overrides(const Overrides& wanted) {
+    body_->with_session([&](Session& now, double) { now.set_overrides(wanted); });
+}
+
+void GrblDriver::jog(const Jog& jog) {
+    body_->with_session([&](Session& now, double time) { now.jog(jog, time); });
+}
+
+void GrblDriver::stop_jog() {
+    body_->with_session([](Session& now, double time) { now.stop_jog(time); });
+}
+
+void GrblDriver::home() {
+    body_->with_session([](Session& now, double time) { now.home(time); });
+}
+
+} // namespace millwright::machine

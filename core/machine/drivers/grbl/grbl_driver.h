@@ -1,0 +1,76 @@
+// Grbl 1.1 behind the Driver interface: three axes, G-code as text, over a serial port or TCP. What is
+// claimed as executed, and what happens when something goes wrong: docs/reference/grbl.md.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/driver.h"
+#include "core/machine/links/link.h"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::machine {
+
+struct GrblOptions {
+    bool one_by_one = false;    ///< each line waits for the answer to the last; else character counting
+    double poll_interval = 0.1; ///< s between questions for the status
+    double patience = 2.0;      ///< s without a byte after which the controller counts as silent
+    double greeting_time = 4.0; ///< s in which a controller has to greet; one with a boot loader takes two
+};
+
+/// What is known of the controller beyond DriverStatus. mm.
+struct GrblReadout {
+    std::string version;            ///< as 1.1h; empty before there was a link
+    std::map<int, double> settings; ///< $$
+    std::array<double, 3> machine_position{}, work_offset{};
+    std::string pins; ///< triggered inputs, as in Grbl's Pn field
+    struct Probe {
+        std::array<double, 3> position{};
+        bool touched = false;
+    };
+    std::optional<Probe> probe; ///< the last
+};
+
+class GrblDriver final : public Driver {
+public:
+    /// `clock` must outlive it.
+    GrblDriver(std::unique_ptr<Link> link, const Clock& clock, GrblOptions options = {});
+    GrblDriver(const GrblDriver&) = delete;
+    GrblDriver& operator=(const GrblDriver&) = delete;
+    ~GrblDriver() override;
+
+    [[nodiscard]] std::string name() const override { return "grbl"; }
+    [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] Capabilities capabilities() const override;
+    [[nodiscard]] GrblReadout readout() const;
+    /// Throws Error naming `file`, line and column for what start() would refuse; needs no link.
+    void check(const gcode::Listing& listing, const std::filesystem::path& file) const;
+
+    /// Resets the controller, if nothing is moving, and asks it for version and settings; waits for each of
+    /// both at most the greeting time. Throws Error if nobody answers, or if the machine is moving already. A
+    /// controller that is locked is connected, in DriverState::alarm.
+    void connect() override;
+    /// Uses the listing alone. Throws Error with its line for what must not be sent.
+    void start(Work work) override;
+    void hold() override;
+    void resume() override;
+    void stop() override;
+    void emergency_stop() override;
+    /// Makes a lost link again; unlocks the controller.
+    void reset() override;
+    void close() noexcept override;
+    void set_overrides(const Overrides& wanted) override;
+    void jog(const Jog& jog) override;
+    void stop_jog() override;
+    void home() override;
+
+private:
+    struct Body;
+    std::unique_ptr<Body> body_;
+};
+
+} // namespace millwright::machine

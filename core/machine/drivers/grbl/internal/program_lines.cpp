@@ -1,0 +1,175 @@
+#include "core/machine/drivers/grbl/internal/program_lines.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace millwright::machine::grbl {
+
+namespace {
+
+[[noreturn]] void fail(const Place& place, std::string message, std::string hint) {
+    throw Error(Diagnostic{place, std::move(message), std::move(hint)});
+}
+
+/// Takes off blanks and comments and looks at every character that remains.
+std::string bare_text(std::string_view line, Place place) {
+    std::string text;
+    bool comment = false;
+    for (std::size_t n = 0; n < line.size(); ++n) {
+        const char c = line[n];
+        place.column = static_cast<int>(n) + 1;
+        if (c == '\x18' || c == '!' || c == '~' || c == '?' || static_cast<unsigned char>(c) > '~') {
+            // Also within comments: Grbl acts upon these before it looks at the line.
+            if (comment) {
+                continue; // it is not sent
+            }
+            fail(place, "this character is a real-time command to Grbl", "take it out of the program");
+        }
+        if (comment) {
+            comment = c != ')';
+        } else if (c == ';') {
+            break;
+        } else if (c == '(') {
+            comment = true;
+        } else if (c == '$') {
+            fail(place, "a program has no $ commands", "send them by themselves");
+        } else if (c > ' ' && c != '/') {
+            text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        } else if (c < ' ' && c != '\t' && c != '\r') {
+            fail(place, "this is no character of a program", "is it a text file?");
+        }
+    }
+    return text.starts_with('%') ? std::string() : text;
+}
+
+struct Word {
+    char letter;
+    double value;
+};
+
+std::optional<std::vector<Word>> words_of(std::string_view text) {
+    std::vector<Word> words;
+    while (!text.empty()) {
+        Word word{text.front(), 0.0};
+        const auto read =
+            std::from_chars(text.data() + 1, text.data() + text.size(), word.value, std::chars_format::fixed);
+        if (read.ec != std::errc{} || !std::isfinite(word.value)) {
+            return std::nullopt;
+        }
+        words.push_back(word);
+        text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+    }
+    return words;
+}
+
+std::string without_line_number(std::string_view text) {
+    if (!text.starts_with('N')) {
+        return std::string(text);
+    }
+    const std::size_t end = text.find_first_not_of("0123456789.", 1);
+    return std::string(text.substr(std::min(end, text.size())));
+}
+
+/// Follows the modes just far enough to say "this surely moves". What it does not follow makes it forget.
+class SureMoves {
+public:
+    bool surely_moves(const std::vector<Word>& words) {
+        bool understood = true;
+        for (const Word& word : words) {
+            understood = understood && (word.letter != 'G' || take_mode(word.value)) && word.letter != 'M';
+        }
+        if (!understood) {
+            *this = {};
+            return false;
+        }
+        bool moves = false;
+        for (const Word& word : words) {
+            moves = (word.letter >= 'X' && word.letter <= 'Z' && take_axis(word)) || moves;
+        }
+        return moves && motion_;
+    }
+
+private:
+    bool absolute_ = true;
+    bool motion_ = false; ///< G0 to G3 is in force, for all that is known
+    std::array<std::optional<double>, 3> at_;
+
+    bool take_mode(double code) {
+        const int tenths = static_cast<int>(std::lround(std::clamp(code, 0.0, 1000.0) * 10.0));
+        constexpr std::array harmless = {170, 180, 190, 400, 610, 911, 930, 940};
+        if (tenths == 0 || tenths == 10 || tenths == 20 || tenths == 30) {
+            motion_ = true;
+        } else if (tenths == 900 || tenths == 910) {
+            absolute_ = tenths == 900;
+            at_ = {};
+        } else {
+            return std::ranges::find(harmless, tenths) != harmless.end();
+        }
+        return true;
+    }
+
+    bool take_axis(const Word& word) {
+        constexpr double enough = 0.1; // mm or inch: more than a step of any machine
+        auto& at = at_[static_cast<std::size_t>(word.letter - 'X')];
+        if (!absolute_) {
+            return std::abs(word.value) > enough;
+        }
+        const bool moves = at && std::abs(*at - word.value) > enough;
+        at = word.value;
+        return moves;
+    }
+};
+
+double dwell_in(const std::vector<Word>& words) {
+    double seconds = 0.0;
+    bool dwells = false;
+    for (const Word& word : words) {
+        dwells = dwells || (word.letter == 'G' && std::abs(word.value - 4.0) < 1e-6);
+        seconds = word.letter == 'P' ? std::max(0.0, word.value) : seconds;
+    }
+    return dwells ? seconds : 0.0;
+}
+
+} // namespace
+
+int ProgramLines::blocks_before(int count) const {
+    return count < static_cast<int>(lines.size()) ? lines[static_cast<std::size_t>(count)].block : blocks;
+}
+
+ProgramLines
+program_lines(const gcode::Listing& listing, const std::filesystem::path& file, std::size_t longest) {
+    ProgramLines result;
+    result.blocks = static_cast<int>(listing.line_of_block.size());
+    SureMoves sure;
+    for (int number = 1; number <= listing.line_count(); ++number) {
+        const Place place{file, number, 0, -1};
+        const std::string text = without_line_number(bare_text(listing.line(number), place));
+        if (text.empty()) {
+            continue;
+        }
+        if (text.size() > longest) {
+            fail(place,
+                 fmt::format("the line has {} characters and Grbl takes {}", text.size(), longest),
+                 "write it in two lines");
+        }
+        ProgramLine line{.text = text, .block = listing.block_at_line(number), .line = number};
+        if (const auto words = words_of(text)) {
+            line.surely_moves = sure.surely_moves(*words);
+            line.dwell = dwell_in(*words);
+        } else {
+            sure = {};
+        }
+        result.lines.push_back(std::move(line));
+    }
+    return result;
+}
+
+} // namespace millwright::machine::grbl

@@ -1,0 +1,34 @@
+// A program's text as the lines that Grbl is sent, and what can be said of them without executing them.
+#pragma once
+
+#include "core/gcode/writer.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace millwright::machine::grbl {
+
+struct ProgramLine {
+    std::string text;          ///< without blanks, comments and N word, in capitals, without its end
+    int block = 0;             ///< of the listing
+    int line = 0;              ///< of its text, from 1
+    bool surely_moves = false; ///< Grbl makes at least one planner block of it
+    double dwell = 0.0;        ///< s, of a G4
+};
+
+struct ProgramLines {
+    std::vector<ProgramLine> lines; ///< those with nothing to do are left out
+    int blocks = 0;                 ///< of the listing
+
+    /// Blocks that are done when the first `count` lines are.
+    [[nodiscard]] int blocks_before(int count) const;
+};
+
+/// Throws Error naming `file`, line and column for what Grbl must not be sent within a program: characters
+/// that it takes for real-time commands or does not know, $ commands, lines of more than `longest`
+/// characters.
+[[nodiscard]] ProgramLines
+program_lines(const gcode::Listing& listing, const std::filesystem::path& file, std::size_t longest = 79);
+
+} // namespace millwright::machine::grbl

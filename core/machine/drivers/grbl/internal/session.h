@@ -1,0 +1,157 @@
+// The host's side of a conversation with Grbl 1.1, without wires, threads and clocks: bytes come in, bytes go
+// out, time is told. One rule stands above all: once something is wrong, no byte leaves that could begin
+// motion, until a person has asked for it.
+#pragma once
+
+#include "core/machine/driver.h"
+#include "core/machine/drivers/grbl/internal/messages.h"
+#include "core/machine/drivers/grbl/internal/program_lines.h"
+#include "core/machine/drivers/grbl/internal/proof.h"
+#include "core/machine/drivers/grbl/internal/window.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine::grbl {
+
+struct SessionSettings {
+    bool one_by_one = false;    ///< simple protocol: each line waits for the answer to the last
+    double poll_interval = 0.1; ///< s between questions for the status
+    double patience = 2.0;      ///< s without a byte after which the controller counts as silent
+    double greeting_time = 4.0; ///< s in which a controller has to greet; one with a boot loader takes two
+};
+
+/// What is known of the controller beyond DriverStatus.
+struct Readout {
+    std::string version;
+    std::map<int, double> settings;
+    Axes machine_position{}, offset{};
+    std::string pins;
+    std::optional<ProbeResult> probe;
+    int planner_blocks = 15, buffer_bytes = 128;
+    bool line_numbers = false;
+};
+
+class Session {
+public:
+    explicit Session(SessionSettings settings = {}) : settings_(settings) {}
+
+    // What happens to it.
+    void opened(double now);
+    void lost(const std::string& why);
+    void closed();
+    void receive(std::string_view bytes, double now);
+    void tick(double now);
+    /// Takes the bytes that shall be sent.
+    [[nodiscard]] std::string take_output();
+
+    // What it knows.
+    [[nodiscard]] DriverStatus status() const;
+    [[nodiscard]] const Readout& readout() const { return readout_; }
+    /// Whether the greeting is over, well or not.
+    [[nodiscard]] bool greeted() const { return stage_ != Stage::greeting && stage_ != Stage::asking; }
+    [[nodiscard]] bool link_lost() const { return link_lost_; }
+
+    // What a person wants. Each throws Error with the reason if it cannot be done now; those of Driver that
+    // do nothing in other states do nothing.
+    void start(ProgramLines program, double now);
+    void hold(double now);
+    void resume(double now);
+    void stop(double now);
+    void emergency_stop(double now);
+    void reset(double now);
+    void home(double now);
+    void jog(const Jog& jog, double now);
+    void stop_jog(double now);
+    void set_overrides(const Overrides& wanted);
+
+private:
+    enum class Stage {
+        closed,
+        greeting, ///< is anybody there?
+        asking,   ///< reset, then asked for version and settings
+        ready,
+        running,
+        jogging,
+        homing,
+        braking,  ///< to rest, for good
+        flushing, ///< at rest or cut off: the reset that empties its buffers is under way
+        stopped,
+        alarm
+    };
+
+    // session.cpp: commands and time
+    void require_rest(std::string_view what) const;
+    void begin_asking(double now, bool unlock);
+    void ask_first();
+    void ask_next();
+    void finish_asking(const StatusMessage& report);
+    void send_reset(double now);
+    void end(bool fault, std::string message, double now);
+    void finish_ending();
+    void fail(const std::string& message, double now);
+    void pump();
+    void poll(double now);
+    void watch_silence(double now);
+    void watch_ending(double now);
+    void watch_hold(double now);
+    void watch_jog(double now);
+    void watch_answers(double now);
+    [[nodiscard]] bool active() const;
+
+    // session_messages.cpp: what the controller says
+    void handle_line(std::string_view line, double now);
+    void handle(const Ack&, double now);
+    void handle(const ErrorAnswer& error, double now);
+    void handle(const AlarmMessage& alarm, double now);
+    void handle(const Welcome& welcome, double now);
+    void handle(const StatusMessage& report, double now);
+    void handle(const SettingMessage& setting, double now);
+    void handle(const Feedback& feedback, double now);
+    void handle(const StartupLine& line, double now);
+    void handle(const Blank& blank, double now);
+    void handle(const Garbage& garbage, double now);
+    void take_readout(const StatusMessage& report);
+    void watch_state(const StatusMessage& report, double now);
+    void watch_motion(const StatusMessage& report, double now);
+    void read_options(std::string_view text);
+    void check_echo(std::string_view text, double now);
+    void answered(const SentLine& line);
+
+    SessionSettings settings_;
+    Stage stage_ = Stage::closed;
+    Readout readout_;
+    std::string output_, input_;
+    bool link_lost_ = false;
+
+    ProgramLines program_;
+    Proof proof_;
+    bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
+    Window window_;
+    int next_line_ = 0;
+    std::vector<std::string> questions_; ///< to be asked, the next comes last
+    std::string message_;
+
+    bool ending_in_fault_ = false; ///< while braking and flushing
+    std::string ending_message_;
+    double ending_since_ = 0.0;
+    int rest_reports_ = 0;   ///< in a row
+    bool unlock_ = false;    ///< after the questions
+    int spare_welcomes_ = 0; ///< that repeated resets may still bring
+    int resets_due_ = 0;     ///< greetings that our resets will bring
+
+    bool hold_wanted_ = false, held_ = false;
+    double hold_sent_ = 0.0, resume_sent_ = -1.0;
+    bool jog_stopping_ = false;
+    std::optional<double> jog_until_; ///< dead-man's time
+    double dead_man_ = 0.0;
+
+    std::optional<StatusMessage> report_; ///< the last
+    double last_heard_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0, last_brake_ = 0.0;
+    Overrides overrides_;
+};
+
+} // namespace millwright::machine::grbl

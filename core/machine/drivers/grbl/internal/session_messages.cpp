@@ -1,0 +1,353 @@
+// What the controller says, and what follows from it.
+#include "core/machine/drivers/grbl/codes.h"
+#include "core/machine/drivers/grbl/internal/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace millwright::machine::grbl {
+
+namespace {
+
+constexpr int report_inches = 13;
+constexpr double mm_per_inch = 25.4;
+constexpr double stale_time = 0.5; // s in which a report may still tell of the time before
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    return text;
+}
+
+void append(std::string& sentence, const std::string& more) {
+    sentence += sentence.empty() ? "" : "; ";
+    sentence += more;
+}
+
+} // namespace
+
+void Session::begin_asking(double now, bool unlock) {
+    stage_ = Stage::asking;
+    unlock_ = unlock;
+    ending_since_ = now;
+    message_.clear();
+    window_ = Window(readout_.buffer_bytes, true);
+    send_reset(now);
+}
+
+/// After the greeting that our reset brought.
+void Session::ask_first() {
+    questions_.clear(); // the last comes first
+    if (unlock_) {
+        questions_.emplace_back("$X");
+    }
+    for (const char* question : {"$#", "$$", "$I"}) {
+        questions_.emplace_back(question);
+    }
+    window_.clear();
+    ask_next();
+}
+
+void Session::ask_next() {
+    report_.reset(); // the next one tells how the controller is after all of this
+    if (questions_.empty()) {
+        return;
+    }
+    std::string text = questions_.back() + "\n";
+    questions_.pop_back();
+    output_ += text;
+    window_.push({LineKind::query, std::move(text), -1, 0.0});
+}
+
+void Session::finish_asking(const StatusMessage& report) {
+    if (report.state == MachineState::idle) {
+        stage_ = Stage::ready;
+        return;
+    }
+    stage_ = Stage::alarm;
+    message_ = report.state == MachineState::alarm
+                   ? "Grbl is locked: home the machine, or reset to unlock it where it stands"
+                   : "Grbl is neither idle nor locked after its reset: the door is open, or it sleeps";
+}
+
+void Session::handle_line(std::string_view line, double now) {
+    if (stage_ == Stage::closed || link_lost_) {
+        return;
+    }
+    std::visit([&](const auto& message) { handle(message, now); }, read_message(line));
+}
+
+void Session::handle(const Blank&, double) {}
+
+void Session::handle(const Garbage&, double now) {
+    proof_.disturbed();
+    fail("bytes from the controller were changed or lost on the way", now);
+}
+
+void Session::handle(const StartupLine& line, double now) {
+    if (!line.executed) {
+        handle(Garbage{}, now);
+    }
+}
+
+void Session::answered(const SentLine& line) {
+    if (line.kind == LineKind::program) {
+        proof_.acknowledged();
+    } else if (line.kind == LineKind::home && stage_ == Stage::homing) {
+        stage_ = Stage::ready;
+    } else if (line.kind == LineKind::query && stage_ == Stage::asking) {
+        ask_next();
+    }
+}
+
+void Session::handle(const Ack&, double now) {
+    if (stage_ == Stage::greeting || stage_ == Stage::flushing || resets_due_ > 0) {
+        return; // for something before the reset
+    }
+    if (window_.empty()) {
+        fail("the controller acknowledged a line that it was not sent", now);
+        return;
+    }
+    last_answer_ = now;
+    rest_reports_ = stage_ == Stage::jogging ? 0 : rest_reports_;
+    answered(window_.pop());
+}
+
+void Session::handle(const ErrorAnswer& error, double now) {
+    if (stage_ == Stage::greeting || stage_ == Stage::flushing || resets_due_ > 0) {
+        return;
+    }
+    if (window_.empty()) {
+        fail("the controller refused a line that it was not sent", now);
+        return;
+    }
+    last_answer_ = now;
+    proof_.disturbed();
+    const SentLine line = window_.pop();
+    const std::string why = explain_grbl_error(error.number);
+    if (line.kind == LineKind::program) {
+        const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
+        fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
+    } else if (line.kind == LineKind::query && stage_ == Stage::asking) {
+        ask_next(); // an older Grbl that does not know the question
+    } else {
+        message_ = why;
+        stage_ = line.kind == LineKind::home && stage_ == Stage::homing ? Stage::alarm : stage_;
+    }
+}
+
+void Session::handle(const AlarmMessage& alarm, double now) {
+    proof_.disturbed();
+    const std::string why = explain_grbl_alarm(alarm.number);
+    if (stage_ == Stage::flushing || stage_ == Stage::asking || resets_due_ > 0) {
+        append(ending_message_, why);
+        ending_in_fault_ = true;
+        return; // the greeting of the reset follows
+    }
+    if (stage_ == Stage::greeting) {
+        return;
+    }
+    const bool was_active = active() || stage_ == Stage::braking;
+    if (stage_ != Stage::braking) {
+        ending_message_.clear();
+    }
+    append(ending_message_, why);
+    ending_in_fault_ = true;
+    window_.clear();
+    if (was_active) { // it stands still; the reset empties what is left in its buffers
+        stage_ = Stage::flushing;
+        ending_since_ = now;
+        output_.clear();
+        send_reset(now);
+    } else {
+        finish_ending();
+    }
+}
+
+void Session::handle(const Welcome& welcome, double now) {
+    readout_.version = welcome.version;
+    proof_.disturbed();
+    input_.clear();
+    const bool expected = resets_due_ > 0 || spare_welcomes_ > 0;
+    spare_welcomes_ = resets_due_ > 0 ? resets_due_ - 1 : std::max(0, spare_welcomes_ - 1);
+    resets_due_ = 0;
+    report_.reset();
+    switch (stage_) {
+    case Stage::greeting:
+        begin_asking(now, false);
+        break;
+    case Stage::asking:
+        ask_first();
+        break;
+    case Stage::flushing:
+        finish_ending();
+        break;
+    case Stage::running:
+    case Stage::jogging:
+    case Stage::homing:
+    case Stage::braking: // lines that were under way may have set it in motion again
+        proof_closed_ = true;
+        window_.clear();
+        end(true, "the controller was reset", now);
+        break;
+    case Stage::ready:
+    case Stage::stopped:
+        if (!expected) {
+            stage_ = Stage::alarm;
+            message_ = "the controller was reset";
+        }
+        break;
+    case Stage::closed:
+    case Stage::alarm:
+        break;
+    }
+}
+
+void Session::handle(const SettingMessage& setting, double) {
+    readout_.settings[setting.number] = setting.value;
+}
+
+/// V,15,128: options, planner blocks, bytes of the receive buffer.
+void Session::read_options(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    readout_.line_numbers = text.substr(0, comma).find('N') != std::string_view::npos;
+    if (comma == std::string_view::npos) {
+        return;
+    }
+    text.remove_prefix(comma + 1);
+    int blocks = 0;
+    int bytes = 0;
+    const auto first = std::from_chars(text.data(), text.data() + text.size(), blocks);
+    if (first.ec != std::errc{} || first.ptr == text.data() + text.size()) {
+        return;
+    }
+    const auto second = std::from_chars(first.ptr + 1, text.data() + text.size(), bytes);
+    constexpr int most = 10'000;
+    if (second.ec == std::errc{} && blocks > 0 && blocks < most && bytes >= 80 && bytes < most) {
+        readout_.planner_blocks = blocks;
+        readout_.buffer_bytes = bytes;
+    }
+}
+
+/// A controller that repeats what it reads lets changed bytes be noticed; others do not.
+void Session::check_echo(std::string_view text, double now) {
+    if (stage_ != Stage::running) {
+        return;
+    }
+    if (window_.empty() || one_line(window_.lines().front().text) != text) {
+        fail(fmt::format("the controller read '{}', which is not what it was sent", text), now);
+    }
+}
+
+void Session::handle(const Feedback& feedback, double now) {
+    if (feedback.tag == "OPT") {
+        read_options(feedback.text);
+    } else if (feedback.tag == "PRB") {
+        readout_.probe = read_probe_result(feedback.text);
+    } else if (feedback.tag == "echo") {
+        check_echo(feedback.text, now);
+    }
+}
+
+void Session::take_readout(const StatusMessage& report) {
+    const auto inches = readout_.settings.find(report_inches);
+    const double unit = inches != readout_.settings.end() && inches->second > 0.0 ? mm_per_inch : 1.0;
+    const auto scaled = [unit](Axes axes) {
+        for (double& axis : axes) {
+            axis *= unit;
+        }
+        return axes;
+    };
+    readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
+    if (report.machine_position) {
+        readout_.machine_position = scaled(*report.machine_position);
+    } else if (report.work_position) {
+        const Axes work = scaled(*report.work_position);
+        for (std::size_t n = 0; n < work.size(); ++n) {
+            readout_.machine_position[n] = work[n] + readout_.offset[n];
+        }
+    }
+    readout_.pins = report.pins;
+    if (report.overrides) {
+        overrides_ = {(*report.overrides)[0], (*report.overrides)[1], (*report.overrides)[2]};
+    }
+}
+
+void Session::handle(const StatusMessage& report, double now) {
+    if (resets_due_ > 0) {
+        return; // of the time before the reset
+    }
+    take_readout(report);
+    report_ = report;
+    rest_reports_ = report.moving() ? 0 : rest_reports_ + 1;
+    if (stage_ == Stage::greeting) {
+        if (report.moving()) {
+            stage_ = Stage::alarm;
+            message_ = "the machine is moving for somebody else";
+        } else {
+            begin_asking(now, false);
+        }
+        return;
+    }
+    if (stage_ == Stage::asking && questions_.empty() && window_.empty()) {
+        finish_asking(report);
+    }
+    if ((active() || stage_ == Stage::braking) && !proof_closed_) {
+        proof_.reported(report, window_.empty());
+    }
+    watch_state(report, now);
+}
+
+void Session::watch_state(const StatusMessage& report, double now) {
+    const bool alarm = report.state == MachineState::alarm;
+    if (alarm && (active() || stage_ == Stage::ready || stage_ == Stage::stopped) &&
+        stage_ != Stage::homing) {
+        if (active()) {
+            end(true, "the controller raised an alarm", now);
+        } else {
+            stage_ = Stage::alarm;
+            message_ = "the controller raised an alarm";
+        }
+        return;
+    }
+    if (report.state == MachineState::sleep || report.state == MachineState::check) {
+        fail("the controller was put to sleep or into check mode", now);
+        return;
+    }
+    if (stage_ == Stage::running) {
+        watch_motion(report, now);
+        const bool all = next_line_ == std::ssize(program_.lines) && window_.empty() &&
+                         proof_.executed_lines() == std::ssize(program_.lines);
+        if (stage_ == Stage::running && all && proof_.settled() && !hold_wanted_ && !held_) {
+            stage_ = Stage::ready;
+        }
+    }
+    constexpr int enough_reports = 2;
+    if (stage_ == Stage::jogging && window_.empty() && report.state == MachineState::idle &&
+        rest_reports_ >= enough_reports) {
+        stage_ = Stage::ready;
+        jog_stopping_ = false;
+        jog_until_.reset();
+    }
+}
+
+void Session::watch_motion(const StatusMessage& report, double now) {
+    const bool held = report.state == MachineState::hold || report.state == MachineState::door;
+    const bool stale = resume_sent_ >= 0.0 && now - resume_sent_ < stale_time;
+    if (held && !stale) {
+        if (!hold_wanted_ && !held_) {
+            message_ = report.state == MachineState::door
+                           ? "the safety door is open: close it, then resume"
+                           : "the program pauses (M0), or hold was pressed at the machine";
+        }
+        held_ = hold_wanted_ = true;
+    } else if (!held && held_) { // resumed at the machine
+        held_ = hold_wanted_ = false;
+        message_.clear();
+    }
+}
+
+} // namespace millwright::machine::grbl

@@ -1,0 +1,74 @@
+// A Grbl 1.1 controller with its machine, in this program: takes the bytes of a serial port and answers as
+// the real one does, and remembers what it really executed. What is emulated, and what is not:
+// docs/reference/grbl.md. mm, s.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine {
+
+struct GrblEmulatorOptions {
+    std::filesystem::path eeprom_file{}; ///< read now, written with each change; empty: neither
+    bool line_numbers = false;           ///< built with USE_LINE_NUMBERS
+    bool echo = false;                   ///< built with REPORT_ECHO_LINE_RECEIVED
+    bool keep_truth = true;              ///< remembers every line
+    /// Height of what a probe touches, in machine coordinates; none: nothing is there.
+    std::function<double(double x, double y)> surface{};
+};
+
+/// One line that was accepted.
+struct TruthLine {
+    std::string text;       ///< as Grbl read it: no blanks, no comments, capitals
+    double accepted = 0.0;  ///< when it was acknowledged
+    double executed = -1.0; ///< when its last motion ended; negative: never
+};
+
+struct Truth {
+    std::vector<TruthLine> lines;
+    double travelled = 0.0;    ///< way of the tool so far, mm
+    double last_motion = -1.0; ///< when it was last moving
+    int lost_bytes = 0;        ///< that found the receive buffer full
+};
+
+/// Without threads and clocks: time is what advance() adds. Used by one thread at a time.
+class GrblEmulator {
+public:
+    /// Switched on; the greeting is in the first output. Throws Error for an EEPROM file that cannot be read.
+    explicit GrblEmulator(GrblEmulatorOptions options = {});
+    GrblEmulator(const GrblEmulator&) = delete;
+    GrblEmulator& operator=(const GrblEmulator&) = delete;
+    ~GrblEmulator();
+
+    void receive(std::string_view bytes);
+    /// Throws Error if a changed EEPROM cannot be written.
+    void advance(double seconds);
+    /// Takes what it has sent.
+    [[nodiscard]] std::string take_output();
+
+    [[nodiscard]] double time() const;
+    [[nodiscard]] std::array<double, 3> position() const; ///< machine coordinates
+    [[nodiscard]] bool moving() const;
+    [[nodiscard]] int planned_blocks() const;
+    [[nodiscard]] Truth truth() const;
+
+    /// What happens to machines. A limit switch that is hit works only with hard limits on ($21).
+    void hit_limit_switch();
+    /// As if a limit switch had been hit, whatever the settings.
+    void raise_alarm();
+    void set_door(bool open);
+    void break_limit_switches();
+    void power_cycle();
+
+private:
+    class Body;
+    std::unique_ptr<Body> body_;
+};
+
+} // namespace millwright::machine

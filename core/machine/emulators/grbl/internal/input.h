@@ -1,0 +1,37 @@
+// The receive buffer of an emulated Grbl and the lines that come out of it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+namespace millwright::machine::emulated {
+
+struct InputLine {
+    std::string text;      ///< without blanks and comments, in capitals
+    bool too_long = false; ///< then the text is cut off
+};
+
+class Input {
+public:
+    static constexpr int capacity = 128;
+    static constexpr std::size_t longest_line = 79;
+
+    [[nodiscard]] int free_bytes() const { return capacity - static_cast<int>(bytes_.size()); }
+    [[nodiscard]] bool empty() const { return bytes_.empty(); }
+    /// False if there is no room: the byte is lost.
+    bool push(char byte);
+    /// Reads until the end of a line, or of what there is.
+    [[nodiscard]] std::optional<InputLine> take_line();
+    void clear();
+
+private:
+    enum class Comment { none, parentheses, to_end };
+    void add(char byte);
+
+    std::deque<char> bytes_;
+    InputLine line_;
+    Comment comment_ = Comment::none;
+};
+
+} // namespace millwright::machine::emulated

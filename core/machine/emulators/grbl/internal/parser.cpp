@@ -1,0 +1,432 @@
+#include "core/machine/emulators/grbl/internal/parser.h"
+
+#include "core/base/numbers.h"
+#include "core/machine/emulators/grbl/internal/arcs.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::machine::emulated {
+
+namespace {
+
+enum Fault {
+    fine = 0,
+    jog_with_other_words = 16,
+    no_such_command = 20,
+    no_feed = 22,
+    no_axes = 26,
+    bad_line_number = 27,
+    value_missing = 28,
+    no_such_offset = 29,
+    g53_without_line = 30,
+    axes_without_motion = 31,
+    bad_target = 33,
+    unused_words = 36,
+    wrong_length_axis = 37,
+    no_such_tool = 38
+};
+
+constexpr double mm_per_inch = 25.4;
+constexpr std::string_view axis_letters = "XYZ";
+
+class Parser {
+public:
+    Parser(const Words& words, const Modes& modes, const Eeprom& eeprom) : words_(words) {
+        result_.modes = modes;
+        result_.eeprom = eeprom;
+    }
+
+    Parsed line() {
+        for (const auto step : {&Parser::take_numbers,
+                                &Parser::take_modes,
+                                &Parser::take_feed,
+                                &Parser::take_switches,
+                                &Parser::take_dwell,
+                                &Parser::take_tool_length,
+                                &Parser::take_target,
+                                &Parser::take_non_modal,
+                                &Parser::take_motion,
+                                &Parser::take_flow,
+                                &Parser::check_all_used}) {
+            result_.error = (this->*step)();
+            if (result_.error != fine) {
+                break;
+            }
+        }
+        return result_;
+    }
+
+    Parsed jog() {
+        const bool others = words_.motion >= 0 || words_.plane >= 0 || words_.feed_mode >= 0 ||
+                            words_.tool_length >= 0 || words_.coordinates >= 0 || words_.flow >= 0 ||
+                            words_.spindle >= 0 || words_.flood || words_.mist || words_.coolant_off ||
+                            words_.cutter_off || words_.exact_path || words_.arc_distance ||
+                            (words_.non_modal >= 0 && words_.non_modal != 530);
+        const Modes before = result_.modes;
+        result_.error = others                                  ? jog_with_other_words
+                        : !words_.has_axes()                    ? no_axes
+                        : words_.value('F').value_or(0.0) > 0.0 ? fine
+                                                                : no_feed;
+        if (result_.error != fine) {
+            return result_;
+        }
+        (void)take_modes();
+        (void)take_target();
+        use("NF");
+        result_.tasks.push_back(
+            {.action = Action::move, .points = {target_}, .rate = *words_.value('F') * unit()});
+        result_.modes = before;
+        result_.modes.position = target_;
+        result_.error = check_all_used();
+        return result_;
+    }
+
+private:
+    const Words words_;
+    Parsed result_;
+    std::string used_;
+    Axes target_{};
+    AxisUse axis_use_ = AxisUse::none;
+
+    Modes& modes() { return result_.modes; }
+    Eeprom& eeprom() { return result_.eeprom; }
+    void use(std::string_view letters) { used_ += letters; }
+    [[nodiscard]] double unit() const { return result_.modes.inches ? mm_per_inch : 1.0; }
+    void add(Action action) { result_.tasks.push_back({.action = action}); }
+
+    int take_numbers() {
+        constexpr double greatest_line = 9'999'999.0;
+        constexpr double greatest_tool = 255.0;
+        use("NFST");
+        if (words_.value('N').value_or(0.0) > greatest_line) {
+            return bad_line_number;
+        }
+        if (words_.value('T').value_or(0.0) > greatest_tool) {
+            return no_such_tool;
+        }
+        result_.line_number = static_cast<int>(words_.value('N').value_or(0.0));
+        modes().tool = static_cast<int>(words_.value('T').value_or(modes().tool));
+        return fine;
+    }
+
+    int take_modes() {
+        axis_use_ = words_.axis_use;
+        if (words_.units >= 0) {
+            modes().inches = words_.units == 200;
+        }
+        if (words_.distance >= 0) {
+            modes().absolute = words_.distance == 900;
+        }
+        if (words_.plane >= 0) {
+            modes().plane = words_.plane;
+        }
+        if (words_.motion >= 0) {
+            modes().motion = words_.motion;
+        }
+        if (words_.coordinates >= 0) {
+            modes().coordinates = (words_.coordinates - 540) / 10;
+        }
+        if (words_.has_axes() && axis_use_ == AxisUse::none) {
+            axis_use_ = AxisUse::motion;
+        }
+        return fine;
+    }
+
+    /// In inverse time each move of a feed has its own F; else the last one counts.
+    int take_feed() {
+        const bool was_inverse = modes().inverse_time;
+        if (words_.feed_mode >= 0) {
+            modes().inverse_time = words_.feed_mode == 930;
+        }
+        const bool feeds = axis_use_ == AxisUse::motion && modes().motion != 0 && modes().motion != 800;
+        if (modes().inverse_time) {
+            modes().feed = words_.value('F').value_or(0.0);
+            return feeds && !words_.has('F') ? no_feed : fine;
+        }
+        if (words_.has('F')) {
+            modes().feed = *words_.value('F') * unit();
+        } else if (was_inverse) {
+            modes().feed = 0.0;
+        }
+        return fine;
+    }
+
+    int take_switches() {
+        const double rpm = words_.value('S').value_or(modes().spindle_rpm);
+        const bool turns = modes().spindle != 50;
+        const int spindle = words_.spindle >= 0 ? words_.spindle : modes().spindle;
+        if (spindle != modes().spindle || (turns && !exactly_equal(rpm, modes().spindle_rpm))) {
+            add(Action::spindle);
+        }
+        modes().spindle = spindle;
+        modes().spindle_rpm = rpm;
+        if (words_.flood || words_.mist || words_.coolant_off) {
+            modes().flood = !words_.coolant_off && (modes().flood || words_.flood);
+            modes().mist = !words_.coolant_off && (modes().mist || words_.mist);
+            add(Action::coolant);
+        }
+        return fine;
+    }
+
+    int take_dwell() {
+        if (words_.non_modal != 40) {
+            return fine;
+        }
+        if (!words_.has('P')) {
+            return value_missing;
+        }
+        use("P");
+        result_.tasks.push_back({.action = Action::dwell, .seconds = *words_.value('P')});
+        return fine;
+    }
+
+    int take_tool_length() {
+        if (words_.tool_length == 490) {
+            modes().tool_length = false;
+            modes().tool_length_offset = 0.0;
+        } else if (words_.tool_length == 431) {
+            if (words_.has('X') || words_.has('Y') || !words_.has('Z')) {
+                return wrong_length_axis;
+            }
+            use("Z");
+            modes().tool_length = true;
+            modes().tool_length_offset = *words_.value('Z') * unit();
+        }
+        return fine;
+    }
+
+    /// Where the axis words lead, in machine coordinates.
+    int take_target() {
+        target_ = modes().position;
+        if (axis_use_ == AxisUse::none || axis_use_ == AxisUse::tool_length) {
+            return fine;
+        }
+        const Axes offset = work_offset(modes(), eeprom());
+        for (std::size_t n = 0; n < target_.size(); ++n) {
+            const auto& word = words_.value(axis_letters[n]);
+            if (!word) {
+                continue;
+            }
+            use(axis_letters.substr(n, 1));
+            const double way = *word * unit();
+            const double absolute = words_.non_modal == 530 ? way : way + offset[n];
+            target_[n] = modes().absolute ? absolute : target_[n] + way;
+        }
+        return fine;
+    }
+
+    int take_non_modal() {
+        switch (words_.non_modal) {
+        case 100:
+            return set_offset();
+        case 280:
+        case 300:
+            go_home(words_.non_modal == 280 ? eeprom().g28 : eeprom().g30);
+            return fine;
+        case 281:
+        case 301:
+            (words_.non_modal == 281 ? eeprom().g28 : eeprom().g30) = modes().position;
+            add(Action::store);
+            return fine;
+        case 530:
+            return modes().motion == 0 || modes().motion == 10 ? fine : g53_without_line;
+        case 920:
+            return shift_coordinates();
+        case 921:
+            modes().g92 = {};
+            return fine;
+        default:
+            return fine;
+        }
+    }
+
+    /// By way of the axis words' point, if there are any; then only these axes go home.
+    void go_home(const Axes& home) {
+        Axes end = modes().position;
+        const bool all = !words_.has_axes();
+        for (std::size_t n = 0; n < end.size(); ++n) {
+            end[n] = all || words_.has(axis_letters[n]) ? home[n] : end[n];
+        }
+        Task task{.action = Action::move, .points = {end}, .rapid = true};
+        if (!all) {
+            task.points.insert(task.points.begin(), target_);
+        }
+        result_.tasks.push_back(task);
+        modes().position = end;
+    }
+
+    int set_offset() {
+        if (!words_.has_axes()) {
+            return no_axes;
+        }
+        if (!words_.has('P') || !words_.has('L')) {
+            return value_missing;
+        }
+        const double which = *words_.value('P');
+        const double how = *words_.value('L');
+        if (which > 6.0) {
+            return no_such_offset;
+        }
+        const bool known = exactly_equal(how, 2.0) || exactly_equal(how, 20.0);
+        if (!known || words_.has('R')) {
+            return no_such_command;
+        }
+        use("PL");
+        const int slot = which < 1.0 ? modes().coordinates : static_cast<int>(which) - 1;
+        Axes& offset = eeprom().work_offsets[static_cast<std::size_t>(slot)];
+        for (std::size_t n = 0; n < offset.size(); ++n) {
+            if (const auto& word = words_.value(axis_letters[n])) {
+                const double value = *word * unit();
+                const double other = modes().g92[n] + (n == 2 ? modes().tool_length_offset : 0.0);
+                offset[n] = how > 2.0 ? modes().position[n] - other - value : value;
+            }
+        }
+        add(Action::store);
+        return fine;
+    }
+
+    int shift_coordinates() {
+        if (!words_.has_axes()) {
+            return no_axes;
+        }
+        const Axes offset = work_offset(modes(), eeprom());
+        for (std::size_t n = 0; n < offset.size(); ++n) {
+            if (const auto& word = words_.value(axis_letters[n])) {
+                modes().g92[n] += modes().position[n] - offset[n] - *word * unit();
+            }
+        }
+        return fine;
+    }
+
+    int take_motion() {
+        if (modes().motion == 800 && axis_use_ == AxisUse::motion && words_.has_axes()) {
+            return axes_without_motion;
+        }
+        if (axis_use_ != AxisUse::motion || modes().motion == 800) {
+            return fine;
+        }
+        const bool arc = modes().motion == 20 || modes().motion == 30;
+        const bool probe = modes().motion >= 382 && modes().motion <= 385;
+        if (modes().motion != 0 && !(modes().feed > 0.0)) {
+            return no_feed;
+        }
+        if (!words_.has_axes()) {
+            return arc || probe ? no_axes : fine;
+        }
+        Task task{.action = probe ? Action::probe : Action::move,
+                  .points = {target_},
+                  .rapid = modes().motion == 0,
+                  .inverse_time = modes().inverse_time,
+                  .rate = modes().feed,
+                  .probe = probe ? modes().motion : 0};
+        if (probe && target_ == modes().position) {
+            return bad_target;
+        }
+        if (arc) {
+            const ArcPoints points = arc_points(arc_of_words());
+            if (points.error != fine) {
+                return points.error;
+            }
+            use("IJKR");
+            task.points = points.points;
+        }
+        result_.tasks.push_back(task);
+        modes().position = target_;
+        return fine;
+    }
+
+    [[nodiscard]] ArcWords arc_of_words() const {
+        ArcWords arc;
+        arc.from = result_.modes.position;
+        arc.to = target_;
+        arc.plane = result_.modes.plane;
+        arc.clockwise = result_.modes.motion == 20;
+        arc.tolerance = result_.eeprom.setting(12);
+        for (std::size_t n = 0; n < axis_letters.size(); ++n) {
+            constexpr std::string_view offset_letters = "IJK";
+            arc.has_axis[n] = words_.has(axis_letters[n]);
+            if (const auto& offset = words_.value(offset_letters[n])) {
+                arc.offset[n] = *offset * unit();
+            }
+        }
+        if (const auto& radius = words_.value('R')) {
+            arc.radius = *radius * unit();
+        }
+        return arc;
+    }
+
+    int take_flow() {
+        if (words_.flow == 0) {
+            add(Action::pause);
+        } else if (words_.flow == 20 || words_.flow == 300) {
+            add(Action::end);
+        }
+        return fine;
+    }
+
+    int check_all_used() {
+        for (char letter = 'A'; letter <= 'Z'; ++letter) {
+            if (words_.has(letter) && used_.find(letter) == std::string::npos) {
+                return unused_words;
+            }
+        }
+        return fine;
+    }
+};
+
+Parsed failed(int error, const Modes& modes, const Eeprom& eeprom) {
+    Parsed result;
+    result.error = error;
+    result.modes = modes;
+    result.eeprom = eeprom;
+    return result;
+}
+
+std::string command_text(char letter, int tenths) {
+    return tenths % 10 == 0 ? fmt::format("{}{}", letter, tenths / 10)
+                            : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
+}
+
+} // namespace
+
+Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
+    Axes offset = eeprom.work_offsets[static_cast<std::size_t>(modes.coordinates)];
+    for (std::size_t n = 0; n < offset.size(); ++n) {
+        offset[n] += modes.g92[n];
+    }
+    offset[2] += modes.tool_length_offset;
+    return offset;
+}
+
+Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
+    const ReadWords read = read_words(line);
+    return read.error != fine ? failed(read.error, modes, eeprom) : Parser(read.words, modes, eeprom).line();
+}
+
+Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
+    const ReadWords read = read_words(line);
+    return read.error != fine ? failed(read.error, modes, eeprom) : Parser(read.words, modes, eeprom).jog();
+}
+
+std::string modes_report(const Modes& modes, bool report_inches) {
+    std::string coolant = modes.mist ? " M7" : "";
+    coolant += modes.flood ? " M8" : "";
+    coolant += coolant.empty() ? " M9" : "";
+    return fmt::format("[GC:{} G{} {} G{} G{} G{} {}{} T{} F{:.{}f} S{:.0f}]",
+                       command_text('G', modes.motion),
+                       54 + modes.coordinates,
+                       command_text('G', modes.plane),
+                       modes.inches ? 20 : 21,
+                       modes.absolute ? 90 : 91,
+                       modes.inverse_time ? 93 : 94,
+                       command_text('M', modes.spindle),
+                       coolant,
+                       modes.tool,
+                       report_inches ? modes.feed / mm_per_inch : modes.feed,
+                       report_inches ? 1 : 0,
+                       modes.spindle_rpm);
+}
+
+} // namespace millwright::machine::emulated

@@ -1,0 +1,48 @@
+// The settings of an emulated Grbl and what else its EEPROM keeps: offsets, startup lines, build text.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace millwright::machine::emulated {
+
+using Axes = std::array<double, 3>; ///< X, Y, Z; mm
+
+/// One of the numbers behind `$$`. Rates mm/min, accelerations mm/s^2, as Grbl shows them.
+struct Setting {
+    int number = 0;
+    double value = 0.0;
+    int decimals = 0; ///< as it is printed
+
+    friend bool operator==(const Setting&, const Setting&) = default;
+};
+
+struct Eeprom {
+    std::vector<Setting> settings;
+    std::array<Axes, 6> work_offsets{}; ///< G54 to G59
+    Axes g28{}, g30{};
+    std::array<std::string, 2> startup_lines;
+    std::string build_text;
+
+    /// Throws Defect for a setting that Grbl does not have.
+    [[nodiscard]] double setting(int number) const;
+    [[nodiscard]] double axis_setting(int first, int axis) const { return setting(first + axis); }
+    [[nodiscard]] bool is_on(int number) const { return setting(number) > 0.0; }
+    /// Grbl's answer: 0, or the number of its error.
+    [[nodiscard]] int set(int number, double value);
+
+    friend bool operator==(const Eeprom&, const Eeprom&) = default;
+};
+
+/// Those that Grbl 1.1 is delivered with, but for a machine that is faster: 3000 mm/min, 200 mm/s^2.
+[[nodiscard]] std::vector<Setting> default_settings();
+[[nodiscard]] Eeprom default_eeprom();
+
+/// As lines of text: `$110=500.000`, `G54=0,0,0`, `$N0=...`, `$I=...`. Reading throws Error with file and
+/// line for a line it does not know; what is missing has its default. Without a file: the defaults.
+[[nodiscard]] Eeprom read_eeprom(const std::filesystem::path& file);
+void write_eeprom(const std::filesystem::path& file, const Eeprom& eeprom);
+
+} // namespace millwright::machine::emulated

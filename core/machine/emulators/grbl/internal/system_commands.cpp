@@ -1,0 +1,231 @@
+// Lines that begin with $.
+#include "core/machine/emulators/grbl/internal/controller.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace millwright::machine::emulated {
+
+namespace {
+
+enum Fault {
+    fine = 0,
+    bad_number = 2,
+    unknown = 3,
+    homing_off = 5,
+    not_idle = 8,
+    door_is_open = 13,
+    outside_travel = 15,
+    bad_jog = 16
+};
+
+constexpr int homing_enabled = 22;
+constexpr int soft_limits = 20;
+
+} // namespace
+
+int Controller::system_command(std::string_view line) {
+    const bool at_work = state_ == State::run || state_ == State::hold;
+    if (line == "$") {
+        say("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\n");
+        return fine;
+    }
+    if (line.starts_with("$J")) {
+        return state_ != State::idle && state_ != State::jog ? not_idle
+               : line.starts_with("$J=")                     ? jog(line.substr(3))
+                                                             : bad_jog;
+    }
+    if (line == "$$") {
+        if (at_work) {
+            return not_idle;
+        }
+        say(settings_report(eeprom_));
+        return fine;
+    }
+    if (line == "$G") {
+        constexpr int report_inches = 13;
+        say(modes_report(modes_, eeprom_.is_on(report_inches)) + "\r\n");
+        return fine;
+    }
+    if (line == "$C") {
+        return check_mode();
+    }
+    if (line == "$X") {
+        return unlock();
+    }
+    return state_ != State::idle && state_ != State::alarm ? not_idle : named_command(line);
+}
+
+int Controller::named_command(std::string_view line) {
+    if (line == "$#") {
+        say(parameters_report(modes_, probe_, eeprom_));
+        return fine;
+    }
+    if (line.starts_with("$H")) {
+        return home(line);
+    }
+    if (line == "$SLP") {
+        stop_everything();
+        say("[MSG:Sleeping]\r\n");
+        state_ = State::sleep;
+        answer_due_ = true;
+        acknowledge(fine);
+        return fine;
+    }
+    if (line.starts_with("$I")) {
+        return build_info(line);
+    }
+    if (line.starts_with("$RST=")) {
+        return restore(line.substr(5));
+    }
+    if (line.starts_with("$N")) {
+        return startup_line(line);
+    }
+    return store_setting(line);
+}
+
+int Controller::jog(std::string_view line) {
+    const Parsed parsed = parse_jog(line, modes_, eeprom_);
+    if (parsed.error != fine) {
+        return parsed.error;
+    }
+    if (eeprom_.is_on(soft_limits) && !inside_travel(parsed.modes.position)) {
+        return outside_travel;
+    }
+    state_ = State::jog;
+    line_owner_ = -1;
+    line_number_ = 0;
+    take_over(parsed);
+    return fine;
+}
+
+int Controller::check_mode() {
+    if (state_ == State::check) {
+        say("[MSG:Disabled]\r\n");
+        acknowledge(fine);
+        reset();
+        return fine;
+    }
+    if (state_ != State::idle) {
+        return not_idle;
+    }
+    state_ = State::check;
+    say("[MSG:Enabled]\r\n");
+    return fine;
+}
+
+int Controller::unlock() {
+    if (state_ == State::alarm) {
+        if (door_open_) {
+            return door_is_open;
+        }
+        say("[MSG:Caution: Unlocked]\r\n");
+        state_ = State::idle;
+    }
+    return fine;
+}
+
+int Controller::home(std::string_view line) {
+    if (line != "$H") {
+        return unknown;
+    }
+    if (!eeprom_.is_on(homing_enabled)) {
+        return homing_off;
+    }
+    if (door_open_) {
+        return door_is_open;
+    }
+    state_ = State::home;
+    homing_.emplace(eeprom_, stepper_.position(), switches_broken_);
+    return fine;
+}
+
+int Controller::build_info(std::string_view line) {
+    if (line == "$I") {
+        say(fmt::format("[VER:1.1h.20190825:{}]\r\n[OPT:V{}M,{},{}]\r\n",
+                        eeprom_.build_text,
+                        options_.line_numbers ? "N" : "",
+                        Planner::capacity,
+                        Input::capacity));
+        return fine;
+    }
+    if (!line.starts_with("$I=")) {
+        return unknown;
+    }
+    eeprom_.build_text = line.substr(3);
+    save_eeprom();
+    return fine;
+}
+
+int Controller::restore(std::string_view what) {
+    const Eeprom fresh = default_eeprom();
+    if (what == "$") {
+        eeprom_.settings = fresh.settings;
+    } else if (what == "#") {
+        eeprom_.work_offsets = fresh.work_offsets;
+        eeprom_.g28 = eeprom_.g30 = {};
+    } else if (what == "*") {
+        eeprom_ = fresh;
+    } else {
+        return unknown;
+    }
+    save_eeprom();
+    say("[MSG:Restoring defaults]\r\n");
+    acknowledge(fine);
+    reset();
+    return fine;
+}
+
+int Controller::startup_line(std::string_view line) {
+    if (line == "$N") {
+        say(fmt::format("$N0={}\r\n$N1={}\r\n", eeprom_.startup_lines[0], eeprom_.startup_lines[1]));
+        return fine;
+    }
+    if (!line.starts_with("$N0=") && !line.starts_with("$N1=")) {
+        return unknown;
+    }
+    if (state_ != State::idle) {
+        return not_idle;
+    }
+    const std::string_view code = line.substr(4);
+    if (const int error = parse_line(code, modes_, eeprom_).error; error != fine) {
+        return error;
+    }
+    eeprom_.startup_lines[line[2] == '0' ? 0 : 1] = code;
+    save_eeprom();
+    return fine;
+}
+
+int Controller::store_setting(std::string_view line) {
+    line.remove_prefix(1);
+    const std::size_t equals = line.find('=');
+    int number = -1;
+    const std::string_view name = line.substr(0, equals);
+    const auto read_name = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (equals == std::string_view::npos || read_name.ec != std::errc{} ||
+        read_name.ptr != name.data() + name.size()) {
+        return unknown;
+    }
+    const std::string_view text = line.substr(equals + 1);
+    double value = 0.0;
+    const auto read =
+        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    constexpr double most = 1e9;
+    if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || !(value > -most && value < most)) {
+        return bad_number;
+    }
+    const int error = eeprom_.set(number, value);
+    if (error == fine) {
+        save_eeprom();
+    }
+    return error;
+}
+
+void Controller::save_eeprom() const {
+    if (!options_.eeprom_file.empty()) {
+        write_eeprom(options_.eeprom_file, eeprom_);
+    }
+}
+
+} // namespace millwright::machine::emulated

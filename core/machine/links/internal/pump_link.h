@@ -1,0 +1,60 @@
+// A Link over a Boost.Asio stream: everything but how it is opened.
+#pragma once
+
+#include "core/machine/links/internal/pump.h"
+#include "core/machine/links/link.h"
+
+#include <memory>
+
+namespace millwright::machine::internal {
+
+template <class Stream> class PumpLink {
+public:
+    /// `connect` opens the stream of a fresh pump and may throw.
+    template <class Connect> void open(Connect&& connect) {
+        auto fresh = std::make_shared<Pump<Stream>>();
+        connect(fresh->stream());
+        fresh->start();
+        replace(std::move(fresh));
+    }
+    void write(std::string_view bytes) const {
+        if (const auto pump = now()) {
+            pump->write(bytes);
+        }
+    }
+    [[nodiscard]] std::string read() const {
+        const auto pump = now();
+        return pump ? pump->read() : std::string();
+    }
+    void wait(double seconds) const {
+        if (const auto pump = now()) {
+            pump->wait(seconds);
+        } else {
+            std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        }
+    }
+    [[nodiscard]] std::optional<std::string> lost() const {
+        const auto pump = now();
+        return pump ? pump->lost() : std::optional<std::string>("it is not open");
+    }
+    void close() noexcept {
+        if (const auto pump = now()) {
+            pump->close();
+        }
+    }
+
+private:
+    [[nodiscard]] std::shared_ptr<Pump<Stream>> now() const {
+        const std::scoped_lock lock(mutex_);
+        return pump_;
+    }
+    void replace(std::shared_ptr<Pump<Stream>> fresh) {
+        const std::scoped_lock lock(mutex_);
+        std::swap(pump_, fresh);
+    }
+
+    mutable std::mutex mutex_;
+    std::shared_ptr<Pump<Stream>> pump_; ///< null: never opened
+};
+
+} // namespace millwright::machine::internal

@@ -1,0 +1,42 @@
+#include "core/machine/links/link.h"
+
+#include "core/base/error.h"
+#include "core/machine/links/serial_link.h"
+#include "core/machine/links/tcp_link.h"
+
+#include <charconv>
+#include <cstdint>
+
+namespace millwright::machine {
+
+namespace {
+
+constexpr std::string_view tcp_prefix = "tcp:";
+
+std::unique_ptr<Link> make_tcp_link(const std::string& address) {
+    const std::string_view rest = std::string_view(address).substr(tcp_prefix.size());
+    const std::size_t colon = rest.rfind(':');
+    std::uint16_t port = 0;
+    if (colon != std::string_view::npos && colon > 0) {
+        const std::string_view digits = rest.substr(colon + 1);
+        const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+        if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && port > 0) {
+            return std::make_unique<TcpLink>(std::string(rest.substr(0, colon)), port);
+        }
+    }
+    throw Error("'" + address + "' is no address", {}, "write tcp:HOST:PORT, as in tcp:127.0.0.1:2300");
+}
+
+} // namespace
+
+std::unique_ptr<Link> make_link(const std::string& address) {
+    if (address.empty()) {
+        throw Error("no port is named", {}, "a path as /dev/ttyUSB0, or tcp:HOST:PORT");
+    }
+    if (address.starts_with(tcp_prefix)) {
+        return make_tcp_link(address);
+    }
+    return std::make_unique<SerialLink>(address);
+}
+
+} // namespace millwright::machine

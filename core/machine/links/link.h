@@ -1,0 +1,37 @@
+// A way for bytes to a controller and back: a serial port, a TCP connection, or the other end of one. Knows
+// nothing of what the bytes mean.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine {
+
+/// Every member may be called from any thread.
+class Link {
+public:
+    virtual ~Link() = default;
+    /// Where it leads, for people: "/dev/ttyUSB0", "tcp:127.0.0.1:2300".
+    [[nodiscard]] virtual std::string name() const = 0;
+
+    /// Throws Error with name and reason if there is nothing at the other end. Opening an open link drops
+    /// what came before and starts afresh.
+    virtual void open() = 0;
+    /// Hands over bytes and returns at once; they are sent in order. Bytes for a lost link are dropped.
+    virtual void write(std::string_view bytes) = 0;
+    /// Takes everything that has come, in order; never waits.
+    [[nodiscard]] virtual std::string read() = 0;
+    /// Returns as soon as there is something to read or the link is lost, at the latest after `seconds`.
+    virtual void wait(double seconds) = 0;
+    /// Why nothing can be sent or received any more; nothing while the link stands.
+    [[nodiscard]] virtual std::optional<std::string> lost() const = 0;
+    virtual void close() noexcept = 0;
+};
+
+/// The link that `address` names: `tcp:HOST:PORT`, else the path of a serial port (115200 baud, 8N1). Not
+/// opened yet. Throws Error if it is no address.
+[[nodiscard]] std::unique_ptr<Link> make_link(const std::string& address);
+
+} // namespace millwright::machine

@@ -1,0 +1,73 @@
+#include "core/machine/links/serial_link.h"
+
+#include "core/base/error.h"
+#include "core/machine/links/internal/pump_link.h"
+
+#include <boost/asio/serial_port.hpp>
+#include <sys/file.h>
+#include <termios.h>
+
+#include <cerrno>
+
+namespace millwright::machine {
+
+struct SerialLink::Port : internal::PumpLink<boost::asio::serial_port> {};
+
+namespace {
+
+/// Two senders on one machine are one too many. The system takes the lock back when the program ends.
+void lock(int handle) {
+    if (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
+        throw boost::system::system_error(boost::system::error_code(EBUSY, boost::system::system_category()));
+    }
+}
+
+} // namespace
+
+SerialLink::SerialLink(std::string path, unsigned baud)
+    : path_(std::move(path)), baud_(baud), port_(std::make_unique<Port>()) {}
+
+SerialLink::~SerialLink() = default;
+
+void SerialLink::open() {
+    using Base = boost::asio::serial_port_base;
+    try {
+        port_->close();
+        port_->open([this](boost::asio::serial_port& port) {
+            port.open(path_);
+            port.set_option(Base::baud_rate(baud_));
+            port.set_option(Base::character_size(8));
+            port.set_option(Base::parity(Base::parity::none));
+            port.set_option(Base::stop_bits(Base::stop_bits::one));
+            port.set_option(Base::flow_control(Base::flow_control::none));
+            lock(port.native_handle());
+            (void)::tcflush(port.native_handle(), TCIFLUSH);
+        });
+    } catch (const boost::system::system_error& failure) {
+        throw Error("cannot open the serial port: " + failure.code().message(),
+                    path_,
+                    "is it plugged in, and may you use it (group dialout)?");
+    }
+}
+
+void SerialLink::write(std::string_view bytes) {
+    port_->write(bytes);
+}
+
+std::string SerialLink::read() {
+    return port_->read();
+}
+
+void SerialLink::wait(double seconds) {
+    port_->wait(seconds);
+}
+
+std::optional<std::string> SerialLink::lost() const {
+    return port_->lost();
+}
+
+void SerialLink::close() noexcept {
+    port_->close();
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,293 @@
+// Many runs of random programs over a wire that fails in every way, in time that passes as fast as it is
+// computed. What must hold in each of them:
+//   nothing that could begin motion is sent after the run has ended, and the machine stands still;
+//   each line of the program is executed once, in order, or the run did not end well;
+//   no more is claimed as executed than the emulated controller truly executed.
+#include "core/machine/drivers/grbl/internal/session.h"
+#include "tests/core/machine/drivers/grbl/grbl_wire.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+namespace millwright::machine::grbl {
+namespace {
+
+using test::GrblWire;
+
+enum class Kind {
+    none,
+    drop_to_host,
+    garble_to_host,
+    duplicate_to_host,
+    drop_to_grbl,
+    garble_to_grbl,
+    duplicate_to_grbl,
+    lost_ok,
+    delay,
+    disconnect,
+    stall_to_host,
+    stall_to_grbl,
+    reset,
+    alarm
+};
+constexpr int kinds = 14;
+
+using Random = std::mt19937_64;
+
+int pick(Random& random, int count) {
+    return static_cast<int>(random() % static_cast<std::uint64_t>(count));
+}
+
+std::string random_program(Random& random) {
+    std::string text = "(run)\nG21G90G94F3000\n";
+    const int lines = 15 + pick(random, 25);
+    for (int n = 0; n < lines; ++n) {
+        const int x = pick(random, 9);
+        const int y = pick(random, 9);
+        switch (pick(random, 10)) {
+        case 0:
+            text += fmt::format("G0 X{} Z{}\n", x, y);
+            break;
+        case 1:
+            text += "G91\nG3 X2 Y0 I1 J0\nG90\n";
+            break;
+        case 2:
+            text += fmt::format("G4 P0.{}\n", y);
+            break;
+        case 3:
+            text += fmt::format("M3 S{}00\n", 1 + x);
+            break;
+        default:
+            text += fmt::format("G1 X{} Y{}.{}\n", x, y, n);
+            break;
+        }
+    }
+    return text + "M5\nM30\n";
+}
+
+FaultSpec faults_of(Kind kind, Random& random, std::uint64_t seed) {
+    FaultSpec spec;
+    spec.seed = seed;
+    const double rate = 0.0002 * (1 + pick(random, 20));
+    const std::int64_t moment = 20 + pick(random, 3000);
+    spec.toward_host = kind != Kind::drop_to_grbl && kind != Kind::garble_to_grbl &&
+                       kind != Kind::duplicate_to_grbl && kind != Kind::stall_to_grbl;
+    spec.toward_controller = !spec.toward_host || kind == Kind::delay || kind == Kind::disconnect;
+    switch (kind) {
+    case Kind::drop_to_host:
+    case Kind::drop_to_grbl:
+        spec.drop = rate;
+        break;
+    case Kind::garble_to_host:
+    case Kind::garble_to_grbl:
+        spec.garble = rate;
+        break;
+    case Kind::duplicate_to_host:
+    case Kind::duplicate_to_grbl:
+        spec.duplicate = rate;
+        break;
+    case Kind::lost_ok:
+        spec.lost_ok = 0.05;
+        break;
+    case Kind::delay:
+        spec.delay = 0.001 * (1 + pick(random, 200));
+        break;
+    case Kind::disconnect:
+        spec.disconnect = moment;
+        break;
+    case Kind::stall_to_host:
+        spec.stall = moment;
+        break;
+    case Kind::stall_to_grbl:
+        spec.stall = moment / 4;
+        break;
+    case Kind::reset:
+        spec.reset = moment;
+        break;
+    case Kind::alarm:
+        spec.alarm = moment;
+        break;
+    case Kind::none:
+        break;
+    }
+    return spec;
+}
+
+/// A person who now and then holds, resumes, overrides, stops.
+class Person {
+public:
+    Person(GrblWire& wire, Random& random) : wire_(wire), random_(random) {}
+
+    void act() {
+        if (wire_.state() == DriverState::holding && pick(random_, 200) == 0) {
+            wire_.session.resume(wire_.now);
+        }
+        switch (pick(random_, 6000)) {
+        case 0:
+        case 1:
+        case 2:
+        case 3:
+            wire_.session.hold(wire_.now);
+            break;
+        case 4:
+            wire_.session.stop(wire_.now);
+            break;
+        case 5:
+            wire_.session.emergency_stop(wire_.now);
+            break;
+        case 6:
+            wire_.session.set_overrides({.feed = 50 + pick(random_, 100), .rapid = 50, .spindle = 90});
+            break;
+        default:
+            break;
+        }
+    }
+
+private:
+    GrblWire& wire_;
+    Random& random_;
+};
+
+struct Verdict {
+    std::string wrong; ///< empty: everything held
+    DriverState end = DriverState::running;
+};
+
+class Run {
+public:
+    explicit Run(std::uint64_t seed)
+        : random_(seed), kind_(static_cast<Kind>(seed % kinds)), program_(random_program(random_)),
+          lines_(program_lines(test::listing_of(program_), "campaign.ngc")),
+          // half of the controllers tell what is in their buffers
+          wire_(faults_of(kind_, random_, seed), options(), {}, pick(random_, 2) == 0 ? "$10=3\n" : "") {}
+
+    Verdict run() {
+        wire_.start(program_);
+        Person person(wire_, random_);
+        constexpr double longest = 300.0; // s
+        const double begin = wire_.now;
+        int steps = 0;
+        while (!ended() && wire_.now - begin < longest) {
+            person.act();
+            wire_.step();
+            if (++steps % 16 == 0) {
+                check_claim();
+            }
+        }
+        verdict_.end = wire_.state();
+        if (!ended()) {
+            wrong("the run has no end");
+        }
+        check_lines();
+        check_claim();
+        check_quiet();
+        return verdict_;
+    }
+
+private:
+    Random random_;
+    Kind kind_;
+    std::string program_;
+    ProgramLines lines_;
+    GrblWire wire_;
+    Verdict verdict_;
+
+    GrblEmulatorOptions options() {
+        const bool changed =
+            kind_ == Kind::drop_to_grbl || kind_ == Kind::garble_to_grbl || kind_ == Kind::duplicate_to_grbl;
+        return {.line_numbers = pick(random_, 2) == 0, .echo = changed || pick(random_, 4) == 0};
+    }
+
+    [[nodiscard]] bool ended() const {
+        const DriverState state = wire_.state();
+        return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
+    }
+
+    void wrong(const std::string& what) {
+        if (verdict_.wrong.empty()) {
+            verdict_.wrong = fmt::format(
+                "kind {}: {} ({})", static_cast<int>(kind_), what, wire_.session.status().message);
+        }
+    }
+
+    [[nodiscard]] std::string text_of(std::size_t n, const std::string& truth) const {
+        const bool numbered = truth.starts_with('N');
+        return (numbered ? fmt::format("N{}", lines_.lines[n].block + 1) : "") + lines_.lines[n].text;
+    }
+
+    void check_lines() {
+        const Truth truth = wire_.grbl.truth();
+        std::size_t right = 0;
+        while (right < std::min(truth.lines.size(), lines_.lines.size()) &&
+               truth.lines[right].text == text_of(right, truth.lines[right].text)) {
+            ++right;
+        }
+        const bool all_right = right == truth.lines.size();
+        if (!all_right && verdict_.end == DriverState::idle) {
+            wrong("a line that is not the program's was not noticed");
+        }
+        const bool may_be_changed = kind_ == Kind::drop_to_grbl || kind_ == Kind::garble_to_grbl ||
+                                    kind_ == Kind::duplicate_to_grbl || kind_ == Kind::reset;
+        if (!all_right && !may_be_changed) {
+            wrong("a line was skipped, repeated or changed");
+        }
+        if (verdict_.end == DriverState::idle && right != lines_.lines.size()) {
+            wrong("the end was reported too early");
+        }
+    }
+
+    void check_claim() {
+        const int claimed = wire_.session.status().executed_blocks;
+        const Truth truth = wire_.grbl.truth();
+        int executed = 0;
+        while (executed < std::ssize(truth.lines) &&
+               truth.lines[static_cast<std::size_t>(executed)].executed >= 0.0) {
+            ++executed;
+        }
+        if (claimed > lines_.blocks_before(executed)) {
+            wrong(fmt::format("{} blocks are claimed and {} lines were executed", claimed, executed));
+        }
+    }
+
+    /// Half a minute later.
+    void check_quiet() {
+        const double end = wire_.grbl.time();
+        wire_.sent.clear();
+        wire_.run_until([] { return false; }, 30.0);
+        const bool deaf = kind_ == Kind::stall_to_grbl || kind_ == Kind::disconnect;
+        const double slack = deaf ? 30.0 : 0.5;
+        if (wire_.sent.find_first_not_of("?!\x18") != std::string::npos) {
+            wrong("something was sent after the end: " + wire_.sent);
+        }
+        if (wire_.grbl.truth().last_motion > end + slack) {
+            wrong("the machine moved after the end");
+        }
+    }
+};
+
+void run_campaign(std::uint64_t first, int runs) {
+    std::array<int, kinds> done{};
+    std::array<int, kinds> faults{};
+    for (int n = 0; n < runs; ++n) {
+        const std::uint64_t seed = first + static_cast<std::uint64_t>(n);
+        const Verdict verdict = Run(seed).run();
+        EXPECT_EQ(verdict.wrong, "") << "seed " << seed;
+        ++(verdict.end == DriverState::idle ? done : faults)[seed % kinds];
+    }
+    for (std::size_t kind = 0; kind < done.size(); ++kind) {
+        fmt::print("kind {:2}: {:5} ended well, {:5} did not\n", kind, done[kind], faults[kind]);
+    }
+    EXPECT_GT(done[0], 0);
+    EXPECT_GT(faults[static_cast<std::size_t>(Kind::garble_to_host)], 0);
+}
+
+TEST(GrblFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALineInTenThousandRuns) {
+    run_campaign(1, 10'000);
+}
+
+} // namespace
+} // namespace millwright::machine::grbl

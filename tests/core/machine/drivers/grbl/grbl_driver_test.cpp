@@ -1,0 +1,182 @@
+#include "core/machine/drivers/grbl/grbl_driver.h"
+
+#include "core/base/error.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/emulators/grbl/grbl_server.h"
+#include "core/machine/links/fault_link.h"
+#include "core/machine/links/pseudo_terminal.h"
+#include "core/machine/links/serial_link.h"
+#include "core/machine/links/tcp_link.h"
+#include "core/machine/links/tcp_server.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+
+std::string zigzag(int lines) {
+    std::string text = "G21 G90 G94\n\nG1 F3000 (feed)\n";
+    for (int n = 0; n < lines; ++n) {
+        text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
+    }
+    return text + "M30\n";
+}
+
+Work work_of(const Job& job) {
+    return {nullptr, nullptr, job.listing};
+}
+
+/// An emulated controller on a pseudo-terminal or TCP port, and a driver at the other end of a real link.
+class Bench {
+public:
+    explicit Bench(const FaultSpec& faults = {}, bool tcp = false, double speed = 20.0) {
+        std::unique_ptr<Link> far_end;
+        std::unique_ptr<Link> near_end;
+        if (tcp) {
+            auto listener = std::make_unique<TcpServer>(0);
+            listener->open();
+            near_end = std::make_unique<TcpLink>("127.0.0.1", listener->port());
+            far_end = std::move(listener);
+        } else {
+            auto terminal = std::make_unique<PseudoTerminal>();
+            terminal->open();
+            near_end = std::make_unique<SerialLink>(terminal->path());
+            far_end = std::move(terminal);
+        }
+        std::vector<std::unique_ptr<Link>> links;
+        links.push_back(std::move(far_end));
+        server.emplace(std::move(links), clock, GrblEmulatorOptions{.line_numbers = true}, speed);
+        driver.emplace(std::make_unique<FaultLink>(std::move(near_end), faults, WireEnd::host, clock), clock);
+    }
+
+    SteadyClock clock;
+    std::optional<GrblServer> server;
+    std::optional<GrblDriver> driver;
+
+    [[nodiscard]] DriverState state() const { return driver->status().state; }
+    void wait_for(DriverState wanted) const {
+        test::wait_until([&] { return state() == wanted; });
+        EXPECT_EQ(state(), wanted) << driver->status().message;
+    }
+    [[nodiscard]] Truth truth() {
+        return server->with_controller([](const GrblEmulator& grbl) { return grbl.truth(); });
+    }
+    [[nodiscard]] bool moving() {
+        return server->with_controller([](const GrblEmulator& grbl) { return grbl.moving(); });
+    }
+};
+
+class GrblDriverOver : public testing::TestWithParam<bool> {};
+
+TEST_P(GrblDriverOver, RunsAJobAndLogsWhatWasExecuted) {
+    const test::ScratchFolder scratch;
+    Bench bench({}, GetParam());
+    const Job job = text_job(zigzag(20), "zigzag.ngc");
+    Dispatcher dispatcher(*bench.driver, bench.clock, scratch / "logs");
+    const JobOutcome outcome = dispatcher.run(job, {});
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.executed_blocks, 23);
+    const Truth truth = bench.truth();
+    ASSERT_EQ(truth.lines.size(), 23u);
+    EXPECT_GE(truth.lines.back().executed, 0.0);
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_EQ(log.start.driver, "grbl");
+    EXPECT_EQ(log.executed_blocks(), 23);
+    EXPECT_EQ(log.records.back().position[1], 19.0);
+}
+
+TEST_P(GrblDriverOver, HoldsResumesAndStops) {
+    Bench bench({}, GetParam());
+    bench.driver->connect();
+    bench.driver->start(work_of(text_job(zigzag(200), "zigzag.ngc")));
+    test::wait_until([&] { return bench.driver->status().position[1] > 5.0; });
+    bench.driver->hold();
+    bench.wait_for(DriverState::holding);
+    test::wait_until([&] { return !bench.moving(); });
+    EXPECT_FALSE(bench.moving());
+    bench.driver->resume();
+    test::wait_until([&] { return bench.driver->status().position[1] > 15.0; });
+    bench.driver->stop();
+    bench.wait_for(DriverState::stopped);
+    EXPECT_FALSE(bench.moving());
+    const double travelled = bench.truth().travelled;
+    bench.driver->close();
+    EXPECT_EQ(bench.truth().travelled, travelled);
+}
+
+INSTANTIATE_TEST_SUITE_P(RealLinks, GrblDriverOver, testing::Values(false, true));
+
+TEST(GrblDriver, TellsThatNobodyAnswers) {
+    PseudoTerminal nobody;
+    nobody.open();
+    SteadyClock clock;
+    GrblDriver driver(std::make_unique<SerialLink>(nobody.path()), clock, {.greeting_time = 0.2});
+    try {
+        driver.connect();
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no Grbl answers"));
+    }
+    EXPECT_EQ(driver.status().state, DriverState::disconnected);
+}
+
+TEST(GrblDriver, ReadsSettingsAndPosition) {
+    Bench bench;
+    bench.driver->connect();
+    const GrblReadout readout = bench.driver->readout();
+    EXPECT_EQ(readout.version, "1.1h");
+    EXPECT_EQ(readout.settings.at(110), 3000.0);
+    EXPECT_EQ(bench.driver->status().position.size(), 3);
+    EXPECT_TRUE(bench.driver->capabilities().jog);
+}
+
+TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
+    Bench bench({.disconnect = 1900, .toward_controller = false});
+    bench.driver->connect();
+    bench.driver->start(work_of(text_job(zigzag(2000), "zigzag.ngc")));
+    bench.wait_for(DriverState::alarm);
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("the link was lost"));
+    EXPECT_THROW(bench.driver->start(work_of(text_job("G0 X0\n", "x"))), Error);
+    test::wait_until([&] { return !bench.moving(); });
+    const std::size_t lines = bench.truth().lines.size();
+    bench.driver->reset();
+    bench.wait_for(DriverState::idle);
+    EXPECT_EQ(bench.truth().lines.size(), lines);
+}
+
+TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {
+    Bench bench;
+    bench.driver->connect();
+    bench.driver->start(work_of(text_job(zigzag(2000), "zigzag.ngc")));
+    test::wait_until([&] { return bench.driver->status().position[1] > 3.0; });
+    bench.server->with_controller([](GrblEmulator& grbl) { grbl.raise_alarm(); });
+    bench.wait_for(DriverState::alarm);
+    test::wait_until([&] { return !bench.driver->status().message.empty(); });
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("alarm 1: a limit switch was hit"));
+    bench.driver->reset();
+    bench.wait_for(DriverState::idle);
+    EXPECT_FALSE(bench.moving());
+}
+
+TEST(GrblDriver, JogsWhileTheButtonIsHeld) {
+    Bench bench({}, false, 1.0);
+    bench.driver->connect();
+    Jog jog;
+    jog.way = kinematics::AxisPositions::Zero(3);
+    jog.way[0] = 50.0;
+    jog.speed = 30.0;
+    bench.driver->jog(jog);
+    test::wait_until([&] { return bench.driver->status().position[0] > 1.0; });
+    bench.driver->stop_jog();
+    bench.wait_for(DriverState::idle);
+    EXPECT_FALSE(bench.moving());
+    EXPECT_LT(bench.driver->status().position[0], 40.0);
+}
+
+} // namespace
+} // namespace millwright::machine

@@ -1,0 +1,296 @@
+#include "core/machine/drivers/grbl/internal/session.h"
+
+#include "core/base/error.h"
+#include "tests/core/machine/drivers/grbl/grbl_wire.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::machine::grbl {
+namespace {
+
+using test::GrblWire;
+using testing::HasSubstr;
+
+std::string zigzag(int lines) {
+    std::string text = "(zigzag)\nG21 G90 G94\nG0 Z5\nM3 S1000\nG1 Z-1 F600\n";
+    for (int n = 0; n < lines; ++n) {
+        text += "G1 X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + " F1500\n";
+    }
+    return text + "G0 Z5\nM5\nM30\n";
+}
+
+int executed_lines(const GrblEmulator& grbl) {
+    int count = 0;
+    for (const TruthLine& line : grbl.truth().lines) {
+        count += line.executed >= 0.0 ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(GrblSession, FindsTheControllerAndAsksItForEverything) {
+    const GrblWire wire;
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.session.readout().version, "1.1h");
+    EXPECT_EQ(wire.session.readout().settings.size(), 34u);
+    EXPECT_EQ(wire.session.readout().planner_blocks, 15);
+}
+
+TEST(GrblSession, RunsAProgramToItsEnd) {
+    for (const bool one_by_one : {false, true}) {
+        GrblWire wire({}, {}, {.one_by_one = one_by_one});
+        wire.start(zigzag(40));
+        EXPECT_EQ(wire.state(), DriverState::running);
+        EXPECT_TRUE(wire.run_to_end());
+        EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+        EXPECT_EQ(wire.session.status().executed_blocks, 48);
+        EXPECT_EQ(executed_lines(wire.grbl), 47);
+        EXPECT_EQ(wire.grbl.truth().lost_bytes, 0);
+        EXPECT_EQ(wire.session.status().position[1], 39.0);
+    }
+}
+
+TEST(GrblSession, NeverClaimsMoreThanWasExecuted) {
+    for (const bool numbers : {false, true}) {
+        GrblWire wire({}, {.line_numbers = numbers});
+        wire.grbl.receive("$10=3\n");
+        wire.run_until([] { return false; }, 0.2);
+        wire.start(zigzag(60));
+        int claimed = 0;
+        while (wire.state() == DriverState::running) {
+            wire.step();
+            const int blocks = wire.session.status().executed_blocks;
+            EXPECT_LE(blocks, executed_lines(wire.grbl) + 1); // the comment on top is a block
+            claimed = wire.state() == DriverState::running ? std::max(claimed, blocks) : claimed;
+        }
+        EXPECT_EQ(wire.state(), DriverState::idle);
+        EXPECT_GT(claimed, 40);
+    }
+}
+
+TEST(GrblSession, KeepsThePlannerFullAtAThousandBlocksASecond) {
+    GrblWire wire;
+    for (const char* setting : {"$110=60000", "$111=60000", "$120=5000", "$121=5000"}) {
+        wire.grbl.receive(std::string(setting) + "\n");
+        wire.grbl.advance(0.1);
+    }
+    (void)wire.grbl.take_output();
+    std::string program = "G1 F6000\n";
+    for (int n = 1; n <= 2000; ++n) {
+        program += "X" + std::to_string(n / 10) + "." + std::to_string(n % 10) + "\n";
+    }
+    wire.start(program);
+    int steps = 0;
+    int starved = 0;
+    while (wire.state() == DriverState::running) {
+        wire.step(0.001);
+        ++steps;
+        const double x = wire.grbl.position()[0];
+        starved += x > 1.0 && x < 190.0 && wire.grbl.planned_blocks() < 8 ? 1 : 0;
+    }
+    EXPECT_EQ(starved, 0);
+    EXPECT_LT(steps, 2600); // 2000 blocks at 1000 a second, and the end
+}
+
+TEST(GrblSession, HoldsAndResumes) {
+    GrblWire wire;
+    wire.start(zigzag(20));
+    wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
+    wire.session.hold(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    wire.run_until([] { return false; }, 2.0);
+    const auto there = wire.grbl.position();
+    wire.run_until([] { return false; }, 5.0);
+    EXPECT_EQ(wire.grbl.position(), there);
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    wire.session.resume(wire.now);
+    EXPECT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.session.status().executed_blocks, 28);
+}
+
+TEST(GrblSession, StopsAtRestWithItsPositionKept) {
+    GrblWire wire;
+    wire.start(zigzag(20));
+    wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
+    wire.session.stop(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::stopping);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
+    const double rest = wire.now;
+    wire.run_until([] { return false; }, 5.0);
+    EXPECT_LT(wire.grbl.truth().last_motion + 1000.0, rest);
+    EXPECT_LE(wire.session.status().executed_blocks, executed_lines(wire.grbl) + 1);
+    wire.start("G0 X0 Y0\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.grbl.position()[1], 0.0);
+}
+
+TEST(GrblSession, CutsMotionOffInAnEmergency) {
+    GrblWire wire;
+    wire.start(zigzag(20));
+    wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
+    wire.session.emergency_stop(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    wire.step();
+    wire.step();
+    const auto there = wire.grbl.position();
+    wire.run_until([] { return false; }, 5.0);
+    EXPECT_EQ(wire.grbl.position(), there);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 3"));
+    EXPECT_THROW(wire.start("G0 X0\n"), Error);
+    wire.session.reset(wire.now);
+    EXPECT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.grbl.position(), there);
+}
+
+TEST(GrblSession, StopsAtALineThatIsRefusedAndNamesIt) {
+    GrblWire wire;
+    wire.start("G0 X10\nG0 X20\nG1 X30\nG0 X40\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("line 3 was refused, error 22: there is no feed"));
+    wire.run_until([] { return false; }, 3.0);
+    EXPECT_LT(wire.grbl.position()[0], 40.0);
+}
+
+TEST(GrblSession, ExplainsAnAlarm) {
+    GrblWire wire;
+    wire.start("G38.2 Z-1 F100\nG0 X10\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 5: the probe touched nothing"));
+    EXPECT_EQ(wire.grbl.position()[0], 0.0);
+}
+
+TEST(GrblSession, TellsWhereTheProbeTouched) {
+    GrblWire wire({}, {.surface = [](double, double) { return -3.25; }});
+    wire.start("G38.2 Z-10 F100\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    ASSERT_TRUE(wire.session.readout().probe);
+    EXPECT_TRUE(wire.session.readout().probe->touched);
+    EXPECT_NEAR(wire.session.readout().probe->position[2], -3.25, 0.001);
+}
+
+TEST(GrblSession, SetsOverridesFromAnyState) {
+    GrblWire wire;
+    wire.session.set_overrides({.feed = 137, .rapid = 25, .spindle = 64});
+    wire.run_until([] { return false; }, 2.0);
+    EXPECT_EQ(wire.session.status().overrides, (Overrides{137, 25, 64}));
+}
+
+TEST(GrblSession, ShowsAPauseOfTheProgramAsAHold) {
+    GrblWire wire;
+    wire.start("G0 X1\nM0\nG0 X2\n");
+    wire.run_until([&] { return wire.state() == DriverState::holding; }, 10.0);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("M0"));
+    wire.session.resume(wire.now);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.grbl.position()[0], 2.0);
+}
+
+TEST(GrblSession, WaitsForALongDwell) {
+    GrblWire wire;
+    wire.start("G0 X1\nG4 P20\nG0 X2\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+}
+
+Jog jog_x(double way, double dead_man = 0.0) {
+    Jog jog;
+    jog.way = kinematics::AxisPositions::Zero(3);
+    jog.way[0] = way;
+    jog.speed = 20.0;
+    jog.dead_man = dead_man;
+    return jog;
+}
+
+TEST(GrblSession, JogsToTheEndOfTheJog) {
+    GrblWire wire;
+    wire.session.jog(jog_x(5.0), wire.now);
+    EXPECT_EQ(wire.state(), DriverState::running);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.grbl.position()[0], 5.0);
+}
+
+TEST(GrblSession, StopsAJogWithin100Milliseconds) {
+    GrblWire wire;
+    wire.grbl.receive("$120=500\n");
+    wire.run_until([] { return false; }, 0.2);
+    wire.session.jog(jog_x(100.0), wire.now);
+    wire.run_until([&] { return wire.grbl.position()[0] > 20.0; }, 10.0);
+    const double begin = wire.now;
+    wire.session.stop_jog(wire.now);
+    wire.run_to_end();
+    EXPECT_LT(wire.grbl.truth().last_motion + 1000.0 - begin, 0.1 + 0.05); // the wire steps by 5 ms
+    EXPECT_EQ(wire.state(), DriverState::idle);
+}
+
+TEST(GrblSession, StopsAJogWhoseHandIsDead) {
+    GrblWire wire;
+    wire.session.jog(jog_x(100.0, 0.2), wire.now);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_LT(wire.grbl.position()[0], 8.0);
+}
+
+TEST(GrblSession, HomesAndUnlocks) {
+    GrblWire wire;
+    wire.grbl.receive("$22=1\n$25=3000\n");
+    wire.run_until([] { return false; }, 0.5);
+    wire.session.home(wire.now);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.grbl.position()[0], -1.0);
+}
+
+TEST(GrblSession, NoticesThatTheControllerIsSilent) {
+    GrblWire wire({.stall = 1500, .toward_controller = false});
+    wire.start(zigzag(50));
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("does not answer"));
+    EXPECT_FALSE(wire.grbl.moving());
+}
+
+TEST(GrblSession, NoticesThatAnAcknowledgementWasLost) {
+    GrblWire wire({.lost_ok = 0.1, .seed = 5});
+    wire.start(zigzag(30));
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("acknowledgement"));
+}
+
+TEST(GrblSession, NoticesThatTheControllerWasReset) {
+    GrblWire wire({.reset = 800});
+    wire.start(zigzag(30));
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("was reset"));
+}
+
+TEST(GrblSession, NoticesALostLink) {
+    GrblWire wire({.disconnect = 800});
+    wire.start(zigzag(30));
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the link was lost"));
+    EXPECT_THROW(wire.start("G0 X0\n"), Error);
+}
+
+TEST(GrblSession, RefusesAProgramThatIsNoneForGrbl) {
+    GrblWire wire;
+    for (const char* program : {"G0 X1\n$H\n", "G0 X1 !\n", "?\n", "G0 X1~\n", "G1 X\x84\n", "G0\x01\n"}) {
+        EXPECT_THROW(wire.start(program), Error) << program;
+    }
+    EXPECT_THROW(wire.start(std::string(80, 'X') + "\n"), Error);
+    EXPECT_EQ(wire.state(), DriverState::idle);
+}
+
+} // namespace
+} // namespace millwright::machine::grbl

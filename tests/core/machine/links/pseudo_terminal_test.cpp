@@ -1,0 +1,89 @@
+#include "core/machine/links/pseudo_terminal.h"
+
+#include "core/base/error.h"
+#include "core/machine/links/serial_link.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace millwright::machine {
+namespace {
+
+TEST(PseudoTerminal, IsASerialPortForOthers) {
+    PseudoTerminal terminal;
+    terminal.open();
+    SerialLink port(terminal.path());
+    port.open();
+    std::string every_byte;
+    for (int n = 0; n < 256; ++n) {
+        every_byte += static_cast<char>(n);
+    }
+    port.write(every_byte);
+    EXPECT_EQ(test::read_bytes(terminal, 256), every_byte);
+    terminal.write(every_byte);
+    EXPECT_EQ(test::read_bytes(port, 256), every_byte);
+}
+
+TEST(PseudoTerminal, OutlivesProgramsThatComeAndGo) {
+    PseudoTerminal terminal;
+    terminal.open();
+    for (int visit = 0; visit < 3; ++visit) {
+        SerialLink port(terminal.path());
+        port.open();
+        port.write("?");
+        EXPECT_EQ(test::read_bytes(terminal, 1), "?");
+    }
+    EXPECT_FALSE(terminal.lost());
+}
+
+TEST(PseudoTerminal, IsFoundByItsSymbolicLinkWhileItIsOpen) {
+    const test::ScratchFolder scratch;
+    const auto path = scratch / "grbl";
+    {
+        PseudoTerminal terminal(path);
+        terminal.open();
+        SerialLink port(path);
+        port.open();
+        port.write("!");
+        EXPECT_EQ(test::read_bytes(terminal, 1), "!");
+    }
+    EXPECT_FALSE(std::filesystem::is_symlink(path));
+}
+
+TEST(PseudoTerminal, ReplacesALinkButNoFile) {
+    const test::ScratchFolder scratch;
+    std::filesystem::create_symlink("/nowhere", scratch / "link");
+    PseudoTerminal(scratch / "link").open();
+    std::ofstream(scratch / "file") << "precious";
+    EXPECT_THROW(PseudoTerminal(scratch / "file").open(), Error);
+    EXPECT_TRUE(std::filesystem::is_regular_file(scratch / "file"));
+}
+
+TEST(SerialLink, IsForOneProgramAtATime) {
+    PseudoTerminal terminal;
+    terminal.open();
+    SerialLink first(terminal.path());
+    first.open();
+    SerialLink second(terminal.path());
+    EXPECT_THROW(second.open(), Error);
+    first.close();
+    second.open();
+    EXPECT_FALSE(second.lost());
+}
+
+TEST(SerialLink, IsLostWhenItsFarEndGoes) {
+    auto terminal = std::make_unique<PseudoTerminal>();
+    terminal->open();
+    SerialLink port(terminal->path());
+    port.open();
+    EXPECT_FALSE(port.lost());
+    terminal.reset();
+    test::wait_until([&] { return port.lost().has_value(); });
+    EXPECT_TRUE(port.lost());
+}
+
+} // namespace
+} // namespace millwright::machine
