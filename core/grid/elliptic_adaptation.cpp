@@ -3,9 +3,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/grid/discrete_minimiser.h"
+#include "core/grid/grid_promise.h"
 #include "core/grid/jacobi_newton.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,9 +18,11 @@ namespace millwright::grid {
 namespace {
 
 constexpr int iterations_per_measurement =
-    10; // not those of a step, so that watching does not change the result
+    10;                        // not those of a step, so that watching does not change the result
+constexpr int enough_kept = 6; // candidates to choose from at the end; each costs a whole path
 constexpr int most_falls = 3;
 constexpr double fall_of_adaptation = 0.1;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int shown_decimals = 4; // of a mean error in mm
 
 bool has_failed(SolverStatus status) {
@@ -54,8 +60,9 @@ std::string failure_sentence(SolverStatus status) {
 }
 
 std::string mean_sentence(const ErrorSummary& error) {
-    return std::isfinite(error.mean) ? "mean error " + fixed(error.mean, shown_decimals) + " mm"
-                                     : "some moves are out of reach";
+    return std::isfinite(error.mean)
+               ? "mean distance to the curve " + fixed(error.mean, shown_decimals) + " mm"
+               : "some moves are out of reach";
 }
 
 /// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.
@@ -68,6 +75,11 @@ void keep_outline(NodeArray& nodes, const NodeArray& from) {
         nodes.at(0, j) = from.at(0, j);
         nodes.at(nodes.rows - 1, j) = from.at(nodes.rows - 1, j);
     }
+}
+
+/// No reason is left to prefer the other grid.
+bool dominates(const ErrorSummary& one, const ErrorSummary& other) {
+    return one.mean <= other.mean && one.axis_max <= other.axis_max;
 }
 
 void expects_sense(const EllipticAdaptationSettings& settings) {
@@ -207,9 +219,14 @@ void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progre
     const Grid grid(parameters_of(nodes));
     at.moves = measure(model_, grid, settings_.direction, settings_.sampling, progress);
     at.state.now = summary(at.moves);
+    const bool has_gained = at.state.now.mean < at.state.start.mean;
+    if (has_gained && std::ranges::none_of(at.candidates, [&](const CandidatePtr& earlier) {
+            return dominates(earlier->error, at.state.now);
+        })) {
+        at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
+    }
     const bool axis_is_kept = at.state.now.axis_max <= at.state.start.axis_max;
     if (at.state.now.mean < at.state.of_best.mean && axis_is_kept) {
-        at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
         at.state.best = grid;
         at.state.of_best = at.state.now;
     }
@@ -251,23 +268,26 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     }
 }
 
-/// Takes the best candidate that fine sampling finds better than the start, too.
+/// Takes the candidate whose path has the least mean error among those that keep the promise.
 void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
-    const auto finely = [&](const Grid& grid) {
-        return summary(measure(model_, grid, settings_.direction, fine, progress));
-    };
     at.state.best = start_;
     at.state.of_best = at.state.start;
-    bool better = false;
-    const ErrorSummary start = at.candidates.empty() ? ErrorSummary{} : finely(start_);
-    for (auto candidate = at.candidates.rbegin(); !better && candidate != at.candidates.rend(); ++candidate) {
-        const ErrorSummary found = finely((*candidate)->grid);
-        better = found.mean < start.mean && found.axis_max <= start.axis_max;
-        if (better) {
-            at.state.best = (*candidate)->grid;
-            at.state.of_best = (*candidate)->error;
+    std::ranges::sort(at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; });
+    double least = infinity;
+    if (!at.candidates.empty()) {
+        const GridPromise promise(model_, start_, settings_.direction, progress);
+        int kept = 0;
+        for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
+            const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, progress);
+            kept += path.has_value() ? 1 : 0;
+            if (path.has_value() && path->mean < least) {
+                least = path->mean;
+                at.state.best = (*c)->grid;
+                at.state.of_best = (*c)->error;
+            }
         }
     }
+    const bool better = least < infinity;
     const bool failed = at.ending == ImproverStatus::folded || at.ending == ImproverStatus::not_finite ||
                         at.ending == ImproverStatus::singular;
     at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;

@@ -40,7 +40,8 @@ struct EllipticAdaptationSettings {
 
 /// Measures every ten iterations, so that the grid half-way to a solution can be the best one. If the solver
 /// fails, LV becomes a tenth and the round starts again; after three such falls the adaptation ends with the
-/// solver's failure. Before the end the best grid is confirmed against the start with fine sampling.
+/// solver's failure. At the end the best grid that fine sampling and the whole path (ErrorModel::on_path) do
+/// not find worse than the start is taken.
 class EllipticAdaptation final : public GridImprover {
 public:
     /// Adapts `start` to the error of `model`, which must outlive this, or to `weight` (in solver
@@ -65,6 +66,7 @@ private:
         Grid grid;
         ErrorSummary error;
     };
+    using CandidatePtr = std::shared_ptr<const Candidate>;
 
     /// Everything that a step changes; a cancelled step is forgotten with its copy.
     struct Position {
@@ -75,7 +77,7 @@ private:
         WeightPtr density{};                            ///< the error density, remembered from round to round
         WeightPtr round_weight{};                       ///< null between two rounds
         std::shared_ptr<const EllipticSolver> solver{}; ///< null between two rounds
-        std::vector<std::shared_ptr<const Candidate>> candidates{}; ///< each better than the one before
+        std::vector<CandidatePtr> candidates{};         ///< none dominated by one before it
         FunctionalWeights functional{};
         int falls = 0;
         int iterations_before = 0;                       ///< done before the solver started

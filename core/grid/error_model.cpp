@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool out_of_reach(const MoveError& move) {
+bool is_out_of_reach(const MoveError& move) {
     return !std::isfinite(move.tip) || !std::isfinite(move.axis);
 }
 
@@ -27,6 +27,14 @@ double nearest_rank_95(std::vector<double> tips) {
 }
 
 } // namespace
+
+ErrorSummary out_of_reach() {
+    return {infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity};
+}
+
+ErrorSummary ErrorModel::on_path(const Grid& grid, TrackDirection direction, const Progress& progress) const {
+    return summary(measure(*this, grid, direction, fine, progress));
+}
 
 std::vector<MoveError> measure(const ErrorModel& model,
                                const Grid& grid,
@@ -49,8 +57,8 @@ std::vector<MoveError> measure(const ErrorModel& model,
 
 ErrorSummary summary(std::span<const MoveError> moves) {
     expects(!moves.empty(), "a summary of errors has at least one move");
-    if (std::ranges::any_of(moves, out_of_reach)) {
-        return {infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity};
+    if (std::ranges::any_of(moves, is_out_of_reach)) {
+        return out_of_reach();
     }
     const auto count = static_cast<double>(moves.size());
     ErrorSummary s;

@@ -41,6 +41,21 @@ public:
     [[nodiscard]] virtual MoveError between(int k, int l) const = 0;
 };
 
+/// The figures that are always shown together. Lengths mm, angles rad.
+struct ErrorSummary {
+    double max = 0.0;
+    double mean = 0.0;  ///< per move
+    double lmean = 0.0; ///< weighted by the length of the moves
+    double rms = 0.0;
+    double p95 = 0.0;      ///< 95 % of the moves are not worse (nearest rank)
+    double variance = 0.0; ///< per move
+    double axis_max = 0.0;
+    double axis_mean = 0.0;
+};
+
+/// Infinity in every figure.
+[[nodiscard]] ErrorSummary out_of_reach();
+
 /// The error of moves on one surface and machine. Const and callable from several threads.
 class ErrorModel {
 public:
@@ -56,6 +71,12 @@ public:
 
     /// The largest distance between neighbouring tracks, mm on the surface (decides the scallop height).
     [[nodiscard]] virtual double track_gap(const Grid& grid, TrackDirection direction) const = 0;
+
+    /// The figures of the whole path over `grid`, whose branches continue from move to move: what people are
+    /// shown, and the last word on a grid. Infinity where the path cannot be run. By default every move for
+    /// itself, finely.
+    [[nodiscard]] virtual ErrorSummary
+    on_path(const Grid& grid, TrackDirection direction, const Progress& progress) const;
 };
 
 /// All moves inside tracks, [tracks x (nodes - 1)], track by track. Parallel over tracks. Throws Cancelled
@@ -65,18 +86,6 @@ public:
                                              TrackDirection direction,
                                              Sampling sampling,
                                              const Progress& progress = Progress());
-
-/// The figures that are always shown together. Lengths mm, angles rad.
-struct ErrorSummary {
-    double max = 0.0;
-    double mean = 0.0;  ///< per move
-    double lmean = 0.0; ///< weighted by the length of the moves
-    double rms = 0.0;
-    double p95 = 0.0;      ///< 95 % of the moves are not worse (nearest rank)
-    double variance = 0.0; ///< per move
-    double axis_max = 0.0;
-    double axis_mean = 0.0;
-};
 
 /// Throws Defect if `moves` is empty. Infinity in, infinity out.
 [[nodiscard]] ErrorSummary summary(std::span<const MoveError> moves);

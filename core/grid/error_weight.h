@@ -19,9 +19,9 @@ inline constexpr double no_error = 1e-10;
 /// The defaults are what cut the error most on a dome and a two-bell surface on two machines
 /// (tests/core/toolpath/elliptic_gain_test.cpp).
 struct ErrorWeightSettings {
-    double exponent = 0.4;    ///< p
-    double floor = 0.01;      ///< eps: what is added, so that no weight is zero
-    int smoothing_passes = 1; ///< of the 9-point average
+    double exponent = 0.7;    ///< p
+    double floor = 0.03;      ///< eps: what is added, so that no weight is zero
+    int smoothing_passes = 2; ///< of the 9-point average
 
     friend bool operator==(const ErrorWeightSettings&, const ErrorWeightSettings&) = default;
 };

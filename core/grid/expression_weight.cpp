@@ -17,6 +17,7 @@ namespace millwright::grid {
 
 namespace {
 
+constexpr std::size_t longest_expression = 500;
 constexpr double difference_step = 1e-5; // of a uniform cell; the error is its square
 
 /// A formula may divide by zero on its way to a value that is then looked at: no traps meanwhile.
@@ -159,6 +160,10 @@ private:
 
 WeightPtr expression_weight(const std::string& text, int nu, int nv) {
     expects(nu >= 2 && nv >= 2, "a grid has at least 2 x 2 nodes");
+    if (text.size() > longest_expression) {
+        fail_at(longest_expression,
+                "it is longer than " + std::to_string(longest_expression) + " characters");
+    }
     refuse_assignment(text);
     const auto weight = std::make_shared<ExpressionWeight>(text, Vec2(nu - 1, nv - 1));
     NodeArray nodes = Grid::uniform(nu, nv).array();

@@ -23,11 +23,11 @@ struct MoveCost {
 
     /// Infinity where the move is out of reach.
     [[nodiscard]] double operator()(const MoveError& move) const {
-        const double error =
-            mix(move.off_surface, move.tip, tip_share) + param_share * move.param + axis_weight * move.axis;
-        if (!std::isfinite(error)) {
+        if (!std::isfinite(move.tip) || !std::isfinite(move.axis)) {
             return std::numeric_limits<double>::infinity();
         }
+        const double error =
+            mix(move.off_surface, move.tip, tip_share) + param_share * move.param + axis_weight * move.axis;
         const double weight = mix(even_length, move.length, length_share);
         return weight * (exactly_equal(exponent, 2.0) ? square(error) : std::pow(error, exponent));
     }

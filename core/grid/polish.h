@@ -13,8 +13,8 @@
 namespace millwright::grid {
 
 struct PolishSettings {
-    MoveCost cost;
-    MoveLimits limits;
+    MoveCost cost = {};
+    MoveLimits limits = {};
     double min_gap = 0.0;      ///< no two nodes come nearer, or nearer than they are
     Sampling sampling{16, 16}; ///< 10 times inside a move let the search slip between them
     double first_step = 0.10;  ///< of the smaller gap next to the node

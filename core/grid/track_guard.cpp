@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace millwright::grid {
 
@@ -38,7 +39,9 @@ bool not_above(const std::vector<MoveError>& is, const std::vector<MoveError>& w
 
 bool inside(const TrackPromise& promise, const MeasuredTrack& track) {
     return std::ranges::all_of(track.moves, [&](const MoveError& move) {
-        return move.tip <= promise.tip + negligible_mm && move.axis <= promise.axis + negligible_rad;
+        const bool in_reach = std::isfinite(move.tip) && std::isfinite(move.axis); // the start may not be
+        return in_reach && move.tip <= promise.tip + negligible_mm &&
+               move.axis <= promise.axis + negligible_rad;
     });
 }
 

@@ -43,11 +43,11 @@ struct GuardedTracks {
     int kept_from_start = 0; ///< tracks of which no version kept the promise
 };
 
-/// Of each track the first of `versions` (each a whole grid of tracks, the most wanted first) with which the
-/// promise is kept and max, mean and length-weighted mean of tip, off_surface and param (MoveError) do not
-/// rise: over the whole grid if that is so at once, else track by track, where at last the start's own track
-/// is taken. Where two neighbours lie too far apart, both go back to their next version until the gap is
-/// kept.
+/// Of each track the first of `versions` (each a whole grid of tracks, the most wanted first) in reach with
+/// which the promise is kept and max, mean and length-weighted mean of tip, off_surface and param (MoveError)
+/// do not rise: over the whole grid if that is so at once, else track by track, where at last the start's own
+/// track is taken. Where two neighbours lie too far apart, both go back to their next version until the gap
+/// is kept.
 [[nodiscard]] GuardedTracks never_worse(const ErrorModel& model,
                                         const std::vector<std::vector<MeasuredTrack>>& versions,
                                         const std::vector<MeasuredTrack>& start,

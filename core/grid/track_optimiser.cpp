@@ -20,7 +20,7 @@ constexpr int least_lattice = 160;  // below, the polish no longer makes up for 
 constexpr int lattice_per_node = 4; // the same, for long tracks
 constexpr int quick_lattice = 100;
 constexpr double axis_margin = 0.98; // of the axis limit in the search, whose 10 times miss the top of a move
-constexpr double aim_slack = 1.02; // above the least possible, so that the cost has something to choose from
+constexpr double aim_slack = 1.05; // above the least possible, so that the cost has something to choose from
 constexpr double small_tip_mm = 1e-3; // no aim is below what a machine could follow
 constexpr double small_axis = 1e-4;   // the same, rad: a micrometre at 10 mm
 constexpr double still = 1e-4;        // mean steps: a sweep that moves no node further has settled
@@ -221,7 +221,7 @@ void TrackOptimiser::find_paths(const Progress& progress) {
     if (settings_.polish_sweeps > 0 && moves() > 1) {
         begin_polish();
     } else {
-        finish(best, ImproverStatus::converged);
+        finish(ImproverStatus::converged);
     }
 }
 
@@ -273,7 +273,7 @@ void TrackOptimiser::end_polish(const std::vector<TrackPolish>& polished,
     const GuardedTracks best = never_worse(model_, {after, paths_}, measured_start_, promise_, progress);
     publish(best);
     state_.note = note_of("Polished", best);
-    finish(best, status);
+    finish(status);
 }
 
 void TrackOptimiser::publish(const GuardedTracks& best) {
@@ -281,8 +281,8 @@ void TrackOptimiser::publish(const GuardedTracks& best) {
     state_.of_best = summary(moves_of(best.tracks));
 }
 
-void TrackOptimiser::finish(const GuardedTracks& best, ImproverStatus status) {
-    const bool gained = best.kept_from_start < static_cast<int>(std::ssize(start_));
+void TrackOptimiser::finish(ImproverStatus status) {
+    const bool gained = !(state_.best.array() == array_of(start_));
     state_.status = gained ? status : ImproverStatus::no_gain;
     state_.current = state_.best.array();
     state_.now = state_.of_best;

@@ -69,7 +69,7 @@ private:
     void begin_polish();
     void
     end_polish(const std::vector<TrackPolish>& polished, ImproverStatus status, const Progress& progress);
-    void finish(const GuardedTracks& best, ImproverStatus status);
+    void finish(ImproverStatus status);
     void publish(const GuardedTracks& best);
 
     [[nodiscard]] MoveTable table_of(std::size_t track, const Progress& progress) const;

@@ -6,6 +6,8 @@
 #include "core/kinematics/branch.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
+#include "core/toolpath/error_field.h"
+#include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +23,7 @@ using geometry::ToolPose;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
+constexpr int finely = grid::fine.tip;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The surface curve between two nodes, as chords with normals.
@@ -250,6 +253,20 @@ double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection di
             std::max(largest_distance(lines[n], lines[n + 1]), largest_distance(lines[n + 1], lines[n]));
     });
     return *std::max_element(gaps.begin(), gaps.end());
+}
+
+grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
+                                           grid::TrackDirection direction,
+                                           const Progress& progress) const {
+    progress.check();
+    try {
+        const Toolpath path = zigzag(patch_, grid, direction, flipped_);
+        const AxisPath axes = sequence(machine_, path);
+        const ErrorField field = error_field(patch_, machine_, path, axes, finely, progress);
+        return summary(field, Distance::closest, MoveKind::track);
+    } catch (const Error&) { // a pose that cannot be reached
+        return grid::out_of_reach();
+    }
 }
 
 } // namespace millwright::toolpath

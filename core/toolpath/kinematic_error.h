@@ -11,7 +11,7 @@ namespace millwright::toolpath {
 /// `tip` is the largest distance of the true tip from the surface curve between the nodes, `axis` the largest
 /// angle of the true tool axis to the normal at the nearest point of that curve. A pose on the machine's pole
 /// takes the free angle of the other end, so that the move is judged without a rotation in place.
-/// Unlike in a sequence, each move chooses its branches for itself.
+/// Unlike on the path, each move chooses its branches for itself.
 class KinematicError final : public grid::ErrorModel {
 public:
     KinematicError(geometry::BezierPatch patch, kinematics::MachineModel machine, bool flipped);
@@ -20,6 +20,9 @@ public:
     [[nodiscard]] std::unique_ptr<grid::LatticeErrors> lattice(std::span<const Vec2> nodes,
                                                                grid::Sampling sampling) const override;
     [[nodiscard]] double track_gap(const grid::Grid& grid, grid::TrackDirection direction) const override;
+    /// Closest distance from the surface, over the moves inside the tracks.
+    [[nodiscard]] grid::ErrorSummary
+    on_path(const grid::Grid& grid, grid::TrackDirection direction, const Progress& progress) const override;
 
 private:
     geometry::BezierPatch patch_;

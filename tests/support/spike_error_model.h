@@ -3,17 +3,14 @@
 #pragma once
 
 #include "core/base/numbers.h"
-#include "core/grid/error_model.h"
+#include "tests/support/closed_form_error_model.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <span>
-#include <vector>
 
 namespace millwright::grid {
 
-class SpikeErrorModel final : public ErrorModel {
+class SpikeErrorModel final : public ClosedFormErrorModel {
 public:
     struct Shape {
         Vec2 spike{0.48, 0.52};
@@ -31,41 +28,10 @@ public:
         const double kappa = shape_.background + shape_.height / (1.0 + square(away / shape_.width));
         const double e = kappa * h * h;
         const double tip = shape_.limit * e / (shape_.limit + e);
-        return {tip, tip / 100.0, 100.0 * h};
-    }
-
-    [[nodiscard]] std::unique_ptr<LatticeErrors> lattice(std::span<const Vec2> nodes,
-                                                         Sampling sampling) const override {
-        return std::make_unique<Lattice>(*this, nodes, sampling);
-    }
-
-    [[nodiscard]] double track_gap(const Grid& grid, TrackDirection direction) const override {
-        double gap = 0.0;
-        for (int t = 0; t + 1 < grid.track_count(direction); ++t) {
-            for (int k = 0; k < grid.nodes_per_track(direction); ++k) {
-                const Vec2 step = grid.track_node(direction, t + 1, k) - grid.track_node(direction, t, k);
-                gap = std::max(gap, 100.0 * step.norm());
-            }
-        }
-        return gap;
+        return {tip, tip / 100.0, size * h};
     }
 
 private:
-    class Lattice final : public LatticeErrors {
-    public:
-        Lattice(const SpikeErrorModel& model, std::span<const Vec2> nodes, Sampling sampling)
-            : model_(model), nodes_(nodes.begin(), nodes.end()), sampling_(sampling) {}
-        [[nodiscard]] MoveError between(int k, int l) const override {
-            return model_.move(
-                nodes_[static_cast<std::size_t>(k)], nodes_[static_cast<std::size_t>(l)], sampling_);
-        }
-
-    private:
-        const SpikeErrorModel& model_;
-        std::vector<Vec2> nodes_;
-        Sampling sampling_;
-    };
-
     /// The distance of the spike from the nearest point of the move.
     [[nodiscard]] double nearest_on_move(const Vec2& a, const Vec2& b) const {
         const Vec2 along = b - a;

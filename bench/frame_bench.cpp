@@ -1,0 +1,152 @@
+// What a frame of the 3D view costs: where no graphics card is, Mesa's llvmpipe draws on the processor, and
+// the person who turns the view waits for it. In memory, so no display is needed.
+#include "core/geometry/mesh.h"
+#include "core/geometry/presets.h"
+#include "core/project/plan.h"
+#include "core/project/project_file.h"
+#include "ui/render/camera.h"
+#include "ui/render/convert.h"
+#include "ui/render/offscreen_context.h"
+#include "ui/render/painter.h"
+#include "ui/render/view_target.h"
+#include "ui/viewport/picture.h"
+#include "ui/viewport/scene_view.h"
+
+#include <benchmark/benchmark.h>
+#include <epoxy/gl.h>
+
+namespace millwright::viewport {
+namespace {
+
+constexpr render::PixelSize pane{1028, 612}; // of the 3D view in a window of 1600 x 1000
+
+struct TessellatedDome {
+    std::vector<render::MeshVertex> vertices;
+    std::vector<std::uint32_t> triangles;
+    std::vector<glm::dvec3> outline;
+};
+
+/// `cells` x `cells` x 2 triangles.
+TessellatedDome dome(int cells) {
+    const geometry::Surface surface = geometry::surface_preset("dome").make();
+    const geometry::Mesh mesh = geometry::tessellate(surface.patch(geometry::PatchId{0}), cells, cells);
+    TessellatedDome made;
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        made.vertices.push_back({.position = render::to_float(mesh.positions[k]),
+                                 .normal = render::to_float(mesh.normals[k]),
+                                 .value = static_cast<float>(mesh.positions[k].z())});
+        made.outline.push_back(render::to_glm(mesh.positions[k]));
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        for (const auto corner : {a, b, c}) {
+            made.triangles.push_back(static_cast<std::uint32_t>(corner));
+        }
+    }
+    return made;
+}
+
+constexpr int cells_of_100k = 224; // 100,352 triangles
+constexpr int cells_of_7k = 60;    // of a bicubic patch in the view
+
+/// A new angle each frame, as when turning.
+render::Camera turned(const render::Camera& camera, int frame) {
+    return camera.orbited(0.01 * frame, 0.0);
+}
+
+enum Light { unlit, lit };
+enum Color { plain, by_value };
+
+void mesh(benchmark::State& state) {
+    const render::OffscreenContext context(pane);
+    const render::Painter painter;
+    const TessellatedDome model = dome(static_cast<int>(state.range(3)));
+    const render::MeshBuffer buffer(model.vertices, model.triangles);
+    const render::Camera camera = render::Camera().fitted(model.outline, render::aspect(pane));
+    const render::ViewColors colors = render::view_colors(render::Theme::dark);
+    render::MeshStyle style;
+    style.lit = state.range(1) == lit;
+    if (state.range(2) == by_value) {
+        style.coloring.from = render::ColorFrom::value;
+        style.coloring.scale.high = 80.0;
+    }
+    render::ViewTarget target(static_cast<int>(state.range(0)));
+    render::Bounds bounds;
+    for (const glm::dvec3& point : model.outline) {
+        bounds = united(bounds, point);
+    }
+    int frame = 0;
+    for (auto _ : state) {
+        target.begin(pane);
+        painter.background(colors);
+        painter.mesh(buffer, style, turned(camera, ++frame).view(pane, bounds));
+        target.end();
+        glFinish();
+    }
+    state.counters["triangles"] = static_cast<double>(model.triangles.size() / 3);
+}
+
+void upload_100k(benchmark::State& state) {
+    const render::OffscreenContext context(pane);
+    const TessellatedDome model = dome(cells_of_100k);
+    for (auto _ : state) {
+        const render::MeshBuffer buffer(model.vertices, model.triangles);
+        glFinish();
+    }
+}
+
+void background(benchmark::State& state) {
+    const render::OffscreenContext context(pane);
+    const render::Painter painter;
+    render::ViewTarget target(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        target.begin(pane);
+        painter.background(render::view_colors(render::Theme::dark));
+        target.end();
+        glFinish();
+    }
+}
+
+void view(benchmark::State& state) {
+    const render::OffscreenContext context(pane);
+    const project::Project project = project::read_project("assets/projects/dome.json");
+    const project::Plan plan =
+        project::make_plan(project, {"assets/projects", "assets"}, Progress(), project::Scope::program);
+    const auto kind = static_cast<ViewKind>(state.range(1));
+    SceneView drawn;
+    drawn.update(scene_of(project, plan, kind));
+    const render::Camera camera = render::Camera().fitted(drawn.outline(), render::aspect(pane));
+    const render::ViewColors colors = render::view_colors(render::Theme::dark);
+    render::ViewTarget target(static_cast<int>(state.range(0)));
+    int frame = 0;
+    for (auto _ : state) {
+        target.begin(pane);
+        drawn.draw(turned(camera, ++frame).view(pane, drawn.depth_range()), colors, {});
+        target.end();
+        glFinish();
+    }
+    state.SetLabel(std::string(id(kind)));
+}
+
+BENCHMARK(mesh)
+    ->ArgNames({"samples", "lit", "by_value", "cells"})
+    ->ArgsProduct({{1, 4}, {unlit, lit}, {plain, by_value}, {cells_of_7k, cells_of_100k}})
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(upload_100k)->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(background)
+    ->ArgName("samples")
+    ->Arg(1)
+    ->Arg(4)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(view)
+    ->ArgNames({"samples", "kind"})
+    ->ArgsProduct({{1, 4}, {0, 1, 2, 3, 4}})
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace millwright::viewport

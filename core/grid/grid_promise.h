@@ -1,0 +1,32 @@
+// The promise that no grid is handed out that is worse than the one it started from.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/grid/error_model.h"
+
+#include <optional>
+
+namespace millwright::grid {
+
+/// What the start is worth: its path as it is run (ErrorModel::on_path), and each of its moves by itself.
+/// Judged finely.
+class GridPromise {
+public:
+    /// `model` must outlive this. Throws Cancelled.
+    GridPromise(const ErrorModel& model,
+                const Grid& start,
+                TrackDirection direction,
+                const Progress& progress);
+
+    /// The figures of the path over `grid` if its mean, max and largest axis deviation are not above the
+    /// start's and its moves have a lower mean; else nothing. Throws Cancelled.
+    [[nodiscard]] std::optional<ErrorSummary> kept_by(const Grid& grid, const Progress& progress) const;
+
+private:
+    const ErrorModel& model_;
+    TrackDirection direction_;
+    double mean_of_moves_;
+    ErrorSummary path_;
+};
+
+} // namespace millwright::grid

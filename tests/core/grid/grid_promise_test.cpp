@@ -1,0 +1,54 @@
+#include "core/grid/grid_promise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::grid {
+namespace {
+
+constexpr TrackDirection along_v = TrackDirection::along_v;
+
+/// Each move by itself wants to be 0.5 long; what the path is worth is said.
+class PathModel final : public ErrorModel {
+public:
+    [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling) const override {
+        return {std::abs((b - a).norm() - 0.5), 0.0, 1.0};
+    }
+    [[nodiscard]] std::unique_ptr<LatticeErrors> lattice(std::span<const Vec2>, Sampling) const override {
+        return nullptr;
+    }
+    [[nodiscard]] double track_gap(const Grid&, TrackDirection) const override { return 0.0; }
+    [[nodiscard]] ErrorSummary on_path(const Grid& grid, TrackDirection, const Progress&) const override {
+        return grid == Grid::uniform(3, 3) ? of_start : of_others;
+    }
+
+    ErrorSummary of_start{.max = 2.0, .mean = 1.0, .axis_max = 0.5};
+    ErrorSummary of_others{.max = 1.5, .mean = 0.5, .axis_max = 0.25};
+};
+
+Grid bent() {
+    NodeArray nodes = Grid::uniform(3, 3).array();
+    nodes.at(1, 1) = {0.5, 0.4};
+    return Grid(nodes);
+}
+
+TEST(GridPromise, IsNotKeptByTheStartItself) {
+    const PathModel model;
+    const GridPromise promise(model, Grid::uniform(3, 3), along_v, {});
+    EXPECT_FALSE(promise.kept_by(Grid::uniform(3, 3), {}).has_value());
+}
+
+TEST(GridPromise, IsBrokenByAnyFigureOfThePath) {
+    const Grid start = bent();
+    for (double ErrorSummary::*figure : {&ErrorSummary::mean, &ErrorSummary::max, &ErrorSummary::axis_max}) {
+        PathModel model;
+        model.of_start = model.of_others;
+        EXPECT_TRUE(GridPromise(model, start, along_v, {}).kept_by(Grid::uniform(3, 3), {}).has_value());
+        model.of_start.*figure *= 1.01;
+        EXPECT_FALSE(GridPromise(model, start, along_v, {}).kept_by(Grid::uniform(3, 3), {}).has_value());
+    }
+}
+
+} // namespace
+} // namespace millwright::grid
