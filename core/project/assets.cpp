@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 namespace millwright::project {
 
@@ -69,17 +70,26 @@ fs::path assets_folder(const AssetsSearch& search) {
     return search.fallback;
 }
 
-fs::path machine_path(const Project& project, const fs::path& project_folder, const fs::path& assets) {
-    const std::string& name = project.machine.file;
-    const fs::path file = is_id(name) ? assets / "machines" / (name + ".json") : project_folder / name;
+fs::path machine_path(const std::string& name, const fs::path& folder, const fs::path& assets) {
+    const fs::path file = is_id(name) ? assets / "machines" / (name + ".json") : folder / name;
     std::error_code failure;
     if (!fs::is_regular_file(file, failure)) {
-        const std::string known = fmt::format("known: {}; or a path relative to the project file",
-                                              fmt::join(machine_ids(assets), ", "));
-        throw is_id(name) ? Error(fmt::format("machine/file: unknown machine '{}'", name), {}, known)
-                          : Error("machine/file: no such machine file", file, known);
+        const std::string known =
+            fmt::format("known: {}; or a path to a machine file", fmt::join(machine_ids(assets), ", "));
+        throw is_id(name) ? Error(fmt::format("unknown machine '{}'", name), {}, known)
+                          : Error("no such machine file", file, known);
     }
     return file;
+}
+
+fs::path machine_path(const Project& project, const fs::path& project_folder, const fs::path& assets) {
+    try {
+        return machine_path(project.machine.file, project_folder, assets);
+    } catch (const Error& error) {
+        Diagnostic found = error.diagnostic();
+        found.message = "machine/file: " + found.message;
+        throw Error(std::move(found));
+    }
 }
 
 std::vector<std::string> machine_ids(const fs::path& assets) {

@@ -27,6 +27,11 @@ struct AssetsSearch {
                                                  const std::filesystem::path& project_folder,
                                                  const std::filesystem::path& assets);
 
+/// The same for any `name`; a path is taken relative to `folder`.
+[[nodiscard]] std::filesystem::path machine_path(const std::string& name,
+                                                 const std::filesystem::path& folder,
+                                                 const std::filesystem::path& assets);
+
 /// Ids of the shipped machines, in order.
 [[nodiscard]] std::vector<std::string> machine_ids(const std::filesystem::path& assets);
 

@@ -36,13 +36,28 @@ grid::WeightPtr weight_of_formula(const GridInput& input) {
         return grid::expression_weight(input.elliptic.expression, input.nu, input.nv);
     } catch (const Error& error) {
         Diagnostic found = error.diagnostic();
-        found.message = "grid/elliptic/expression: " + found.message;
+        found.message = "grid/elliptic/expression, character " + std::to_string(found.place.column) + ": " +
+                        found.message;
+        found.place = {}; // it counts in the formula, not in a file
         throw Error(std::move(found));
     }
 }
 
-/// Null: from the measured error.
-grid::WeightPtr weight_of(const GridInput& input) {
+grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
+    grid::EllipticAdaptationSettings settings;
+    settings.direction = input.direction;
+    settings.functional = {.adaptation = input.elliptic.adaptation,
+                           .orthogonality = input.elliptic.orthogonality};
+    settings.boundary = input.elliptic.sliding_boundary ? grid::Boundary::sliding : grid::Boundary::fixed;
+    settings.tolerance = input.elliptic.tolerance;
+    settings.max_iterations = input.elliptic.max_iterations;
+    settings.max_rounds = input.elliptic.max_rounds;
+    return settings;
+}
+
+} // namespace
+
+grid::WeightPtr chosen_weight(const GridInput& input) {
     switch (input.elliptic.weight) {
     case WeightSource::error:
         return nullptr;
@@ -60,20 +75,6 @@ grid::WeightPtr weight_of(const GridInput& input) {
     return nullptr;
 }
 
-grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
-    grid::EllipticAdaptationSettings settings;
-    settings.direction = input.direction;
-    settings.functional = {.adaptation = input.elliptic.adaptation,
-                           .orthogonality = input.elliptic.orthogonality};
-    settings.boundary = input.elliptic.sliding_boundary ? grid::Boundary::sliding : grid::Boundary::fixed;
-    settings.tolerance = input.elliptic.tolerance;
-    settings.max_iterations = input.elliptic.max_iterations;
-    settings.max_rounds = input.elliptic.max_rounds;
-    return settings;
-}
-
-} // namespace
-
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const GridInput& input,
                                                   const toolpath::KinematicError& error,
@@ -82,7 +83,7 @@ std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
     grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
     if (method == GridMethod::elliptic) {
         return std::make_unique<grid::EllipticAdaptation>(
-            error, start, elliptic_settings(input), weight_of(input));
+            error, start, elliptic_settings(input), chosen_weight(input));
     }
     return std::make_unique<grid::TrackOptimiser>(
         error, std::move(start), input.direction, track_settings(input, effort));
@@ -155,6 +156,7 @@ Evaluation improved_evaluation(GridMethod method,
 bool is_worse(const Evaluation& found, const Evaluation& start) {
     constexpr double rounding = 1e-9; // of figures that are sums over many moves
     return !(found.closest.mean <= start.closest.mean * (1.0 + rounding)) ||
+           !(found.closest.max <= start.closest.max * (1.0 + rounding)) ||
            !(found.closest.axis_max <= start.closest.axis_max * (1.0 + rounding));
 }
 

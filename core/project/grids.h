@@ -1,6 +1,7 @@
 // The grids of a project: uniform, or made better by a method, at two levels of effort.
 #pragma once
 
+#include "core/grid/weight.h"
 #include "core/project/evaluation.h"
 #include "core/project/project.h"
 
@@ -15,6 +16,10 @@ enum class Effort { live, full };
 /// Samples inside a move: while dragging, and for figures that are reported.
 inline constexpr int live_samples = 8;
 inline constexpr int report_samples = 40;
+
+/// The weight of the elliptic functional that was chosen; null where it comes from the measured error. Throws
+/// Error if an expression has no sense.
+[[nodiscard]] grid::WeightPtr chosen_weight(const GridInput& input);
 
 /// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
 /// an expression of the settings has no sense.

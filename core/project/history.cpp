@@ -7,14 +7,14 @@
 namespace millwright::project {
 
 History::History(Project start) {
-    steps_.push_back({std::move(start), {}, {}});
+    steps_.push_back({std::move(start), {}, {}, 0});
 }
 
 void History::commit(Project next, std::string title, std::string merge_key) {
     if (next == current()) {
         return;
     }
-    steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, steps_.end());
+    drop_undone();
     if (at_ > 0 && !merge_key.empty() && steps_[at_].merge_key == merge_key) {
         steps_[at_].project = std::move(next);
         if (steps_[at_].project == steps_[at_ - 1].project) { // dragged back to where it began
@@ -23,7 +23,21 @@ void History::commit(Project next, std::string title, std::string merge_key) {
         }
         return;
     }
-    steps_.push_back({std::move(next), std::move(title), std::move(merge_key)});
+    push({std::move(next), std::move(title), std::move(merge_key), project_number()});
+}
+
+void History::begin(Project other, std::string title) {
+    drop_undone();
+    close_step();
+    push({std::move(other), std::move(title), {}, ++last_project_number_});
+}
+
+void History::drop_undone() {
+    steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, steps_.end());
+}
+
+void History::push(Step step) {
+    steps_.push_back(std::move(step));
     if (steps_.size() > most_steps + 1) {
         steps_.erase(steps_.begin());
     }

@@ -17,6 +17,11 @@ public:
     /// Makes `next` current under the action's title; what was undone before is dropped. A step that changes
     /// nothing is none. Steps with the same non-empty `merge_key` right after each other become one (a drag).
     void commit(Project next, std::string title, std::string merge_key = {});
+    /// Makes another project current, as a step of its own: undo goes back to the one before.
+    void begin(Project other, std::string title);
+    /// Which of the projects begun the current step belongs to; that of the constructor is 0. Those after it
+    /// count on, also past steps that were dropped.
+    [[nodiscard]] int project_number() const { return steps_[at_].project_number; }
     /// Ends merging: the next commit is a step of its own.
     void close_step();
 
@@ -32,9 +37,14 @@ private:
         Project project;
         std::string title;
         std::string merge_key;
+        int project_number = 0;
     };
+    void drop_undone();
+    void push(Step step);
+
     std::vector<Step> steps_;
     std::size_t at_ = 0;
+    int last_project_number_ = 0;
     static constexpr std::size_t most_steps = 500;
 };
 

@@ -89,8 +89,8 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     const kinematics::MachineModel& machine = plan.workpiece->machine;
     progress.report(0.0, "Writing the program");
     progress.check();
-    gcode::PostResult posted =
-        gcode::post(machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen));
+    gcode::PostResult posted = gcode::post(
+        machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen), progress);
     progress.check();
     auto listing = std::make_shared<const gcode::Listing>(gcode::write_gcode(posted.program, settings));
     progress.report(0.4, "Planning the motion");
@@ -112,8 +112,12 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
         }
         try {
             const kinematics::MachineModel& machine = plan.workpiece->machine;
-            const gcode::PostResult posted = gcode::post(
-                machine, evaluation->toolpath, evaluation->axes, program_settings(project.program), {});
+            const gcode::PostResult posted = gcode::post(machine,
+                                                         evaluation->toolpath,
+                                                         evaluation->axes,
+                                                         program_settings(project.program),
+                                                         {},
+                                                         progress);
             progress.check();
             plan.estimated_time(method) =
                 motion::plan(posted.program, machine, motion::PlannerSettings{}, progress).duration();
@@ -134,6 +138,9 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     progress.report(0.0, title_of_making(GridMethod::uniform));
     plan.uniform = std::make_shared<const Evaluation>(
         evaluate(workpiece, uniform_outcome(project.grid), report_samples, progress.part(0.0, 0.1)));
+    if (scope == Scope::everything) {
+        plan.weight = std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, progress));
+    }
     const auto improve = [&](GridMethod method, const Progress& part) {
         if (scope == Scope::everything || method == project.grid.method) {
             part.report(0.0, title_of_making(method));

@@ -9,6 +9,7 @@
 #include "core/project/evaluation.h"
 #include "core/project/grids.h"
 #include "core/project/project.h"
+#include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
 
 #include <array>
@@ -27,6 +28,7 @@ struct Plan {
     std::shared_ptr<const Evaluation> uniform;
     std::shared_ptr<const Evaluation> elliptic;  ///< the adapted grid
     std::shared_ptr<const Evaluation> optimised; ///< the track optimiser's grid
+    std::shared_ptr<const WeightMap> weight;     ///< of the elliptic functional
     std::shared_ptr<const gcode::Program> program;
     gcode::PostNotes program_notes;
     std::shared_ptr<const gcode::Listing> listing; ///< G-code text

@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array all_methods{GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks};
 constexpr std::array improved_methods{GridMethod::elliptic, GridMethod::tracks};
 
 bool same_place(const Project& a, const Project& b) {
@@ -47,52 +48,77 @@ bool quick_enough(const GridInput& input) {
 
 } // namespace
 
-void PlanStages::hold(GridMethod method, Evaluation evaluation, bool exact) {
-    held(method) = {std::make_shared<const Evaluation>(std::move(evaluation)), exact};
-    plan_.evaluation(method) = held(method).evaluation;
+void PlanStages::hold(GridMethod method, Held found) {
+    now_.plan.evaluation(method) = found.evaluation;
+    now_.plan.estimated_time(method).reset();
+    if (method == input().method) { // a program of another grid must not be taken for this one's
+        now_.program_of = nullptr;
+        now_.plan.program = nullptr;
+        now_.plan.listing = nullptr;
+        now_.plan.trajectory = nullptr;
+    }
+    now_.held[static_cast<std::size_t>(method)] = std::move(found);
 }
 
-/// Throws what is wrong with the project, keeping what the new one has in common with the last.
+/// Throws what is wrong with the project; the surface is there then if it can be.
 void PlanStages::begin(const Project& project, const Folders& folders) {
-    const Plan last = std::exchange(plan_, {});
-    const auto last_held = std::exchange(held_, {});
-    const std::optional<Source> source = std::exchange(source_, std::nullopt);
-    for (std::size_t n = 0; n < last_held.size(); ++n) {
-        if (last_held[n].evaluation) {
-            before_[n] = last_held[n];
+    const State last = std::exchange(now_, {});
+    for (std::size_t n = 0; n < last.held.size(); ++n) {
+        if (last.held[n].evaluation) {
+            before_[n] = last.held[n];
         }
     }
-    plan_.surface = source && last.surface && source->project.surface.patches == project.surface.patches
-                        ? last.surface
-                        : std::make_shared<const geometry::Surface>(surface_of(project.surface));
-    const auto faults = faults_of(project);
-    if (!faults.empty()) {
+    const bool same_surface =
+        last.source && last.plan.surface && last.source->project.surface.patches == project.surface.patches;
+    now_.plan.surface = same_surface ? last.plan.surface
+                                     : std::make_shared<const geometry::Surface>(surface_of(project.surface));
+    if (const auto faults = faults_of(project); !faults.empty()) {
         throw Error(faults.front());
     }
-    source_ = Source{project, folders, machine_written(project, folders)};
-    const bool same_workpiece = source && same_place(source->project, project) &&
-                                source->folders == folders &&
-                                source->machine_written == source_->machine_written && last.workpiece;
-    plan_.workpiece =
-        same_workpiece ? last.workpiece : std::make_shared<const Workpiece>(workpiece_of(project, folders));
-    if (!same_workpiece || !same_nodes(source->project.grid, project.grid)) {
-        return;
+    now_.source = Source{project, folders, machine_written(project, folders)};
+    const bool same_workpiece = last.plan.workpiece && same_place(last.source->project, project) &&
+                                last.source->folders == folders &&
+                                last.source->machine_written == now_.source->machine_written;
+    if (same_workpiece) {
+        now_.plan.workpiece = last.plan.workpiece;
+        keep_grids(last);
+        keep_weight(last);
+        keep_program(last);
+    } else {
+        now_.plan.workpiece = std::make_shared<const Workpiece>(workpiece_of(project, folders));
     }
-    for (const GridMethod method : {GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks}) {
-        const Held& old = last_held[static_cast<std::size_t>(method)];
-        if (old.exact && same_settings(method, source->project.grid, project.grid)) {
-            held(method) = old;
-            plan_.evaluation(method) = old.evaluation;
+}
+
+void PlanStages::keep_grids(const State& last) {
+    const GridInput& then = last.source->project.grid;
+    for (const GridMethod method : all_methods) {
+        const Held& old = last.held[static_cast<std::size_t>(method)];
+        if (old.exact && same_nodes(then, input()) && same_settings(method, then, input())) {
+            hold(method, old);
         }
     }
-    const bool same_program =
-        source->project.program == project.program && source->project.name == project.name;
-    if (same_program && program_of_ && program_of_ == held(project.grid.method).evaluation) {
-        plan_.program = last.program;
-        plan_.program_notes = last.program_notes;
-        plan_.listing = last.listing;
-        plan_.trajectory = last.trajectory;
-        plan_.estimated_time(project.grid.method) = last.estimated_time(project.grid.method);
+}
+
+void PlanStages::keep_weight(const State& last) {
+    const GridInput& then = last.source->project.grid;
+    const bool same = then.elliptic.weight == input().elliptic.weight &&
+                      then.elliptic.expression == input().elliptic.expression;
+    if (same && same_nodes(then, input())) {
+        now_.plan.weight = last.plan.weight;
+    }
+}
+
+void PlanStages::keep_program(const State& last) {
+    const Project& then = last.source->project;
+    const bool same = then.program == project().program && then.name == project().name &&
+                      then.grid.method == input().method;
+    if (same && last.program_of && last.program_of == held(input().method).evaluation) {
+        now_.program_of = last.program_of;
+        now_.plan.program = last.plan.program;
+        now_.plan.program_notes = last.plan.program_notes;
+        now_.plan.listing = last.plan.listing;
+        now_.plan.trajectory = last.plan.trajectory;
+        now_.plan.estimated_time(input().method) = last.plan.estimated_time(input().method);
     }
 }
 
@@ -105,7 +131,7 @@ void PlanStages::derive(const Project& project,
         coarse(publish, progress.part(0.0, 0.2));
         exact(publish, progress.part(0.2, 1.0));
     } catch (const Error& error) {
-        publish(plan_, error.diagnostic(), false);
+        publish(now_.plan, error.diagnostic(), false);
     }
 }
 
@@ -120,36 +146,43 @@ void PlanStages::carry_over(GridMethod method, const Progress& progress) {
     GridOutcome outcome = old->outcome;
     outcome.status = grid::ImproverStatus::running;
     outcome.note = "The grid from before the last change, until the new one is there.";
-    hold(method, evaluate(*plan_.workpiece, std::move(outcome), coarse_samples(input()), progress), false);
+    Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_samples(input()), progress);
+    hold(method, {std::make_shared<const Evaluation>(std::move(found)), false});
 }
 
 void PlanStages::measure_uniform(int samples, const Progress& progress) {
-    if (exactly(GridMethod::uniform) || (held(GridMethod::uniform).evaluation && samples < report_samples)) {
+    const Held& there = held(GridMethod::uniform);
+    const bool exact = samples >= report_samples;
+    if (there.exact || (there.evaluation && !exact)) {
         return;
     }
     progress.report(0.0, title_of_making(GridMethod::uniform));
-    hold(GridMethod::uniform,
-         evaluate(*plan_.workpiece, uniform_outcome(input()), samples, progress),
-         samples >= report_samples);
+    Evaluation found = evaluate(workpiece(), uniform_outcome(input()), samples, progress);
+    hold(GridMethod::uniform, {std::make_shared<const Evaluation>(std::move(found)), exact});
 }
 
 void PlanStages::improve(GridMethod method, Effort effort, const Progress& progress) {
-    if (exactly(method)) {
+    if (held(method).exact) {
         return;
     }
     progress.report(0.0, title_of_making(method));
-    hold(method,
-         improved_evaluation(method, input(), *plan_.workpiece, *plan_.uniform, effort, progress),
-         effort == Effort::full);
+    Evaluation found =
+        improved_evaluation(method, input(), workpiece(), *now_.plan.uniform, effort, progress);
+    hold(method, {std::make_shared<const Evaluation>(std::move(found)), effort == Effort::full});
+}
+
+void PlanStages::add_weight(const Progress& progress) {
+    if (!now_.plan.weight) {
+        now_.plan.weight = std::make_shared<const WeightMap>(weight_map(input(), workpiece(), progress));
+    }
 }
 
 void PlanStages::add_program_of_chosen(const Progress& progress) {
-    const auto& chosen = plan_.evaluation(input().method);
-    if (!chosen || (plan_.program && program_of_ == chosen)) {
-        return;
+    const auto& chosen = held(input().method).evaluation;
+    if (chosen && now_.program_of != chosen) {
+        add_program(now_.plan, project(), progress);
+        now_.program_of = chosen;
     }
-    add_program(plan_, source_->project, progress);
-    program_of_ = chosen;
 }
 
 void PlanStages::coarse(const Publish& publish, const Progress& progress) {
@@ -157,38 +190,42 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
     if (chosen != GridMethod::uniform) {
         carry_over(chosen, progress.part(0.0, 0.1));
     }
-    if (!plan_.evaluation(chosen)) {
+    if (!now_.plan.evaluation(chosen)) {
         measure_uniform(coarse_samples(input()), progress.part(0.1, 0.2));
     }
-    publish(plan_, std::nullopt, false);
+    publish(now_.plan, std::nullopt, false);
     measure_uniform(coarse_samples(input()), progress.part(0.2, 0.3));
-    plan_.singular_points = toolpath::singular_points(plan_.workpiece->patch, plan_.workpiece->machine);
+    now_.plan.singular_points = toolpath::singular_points(workpiece().patch, workpiece().machine);
+    if (quick_enough(input())) {
+        add_weight(progress.part(0.3, 0.3));
+    }
     for (const GridMethod method : improved_methods) {
         carry_over(method, progress.part(0.3, 0.4));
     }
-    publish(plan_, std::nullopt, false);
+    publish(now_.plan, std::nullopt, false);
     if (chosen == GridMethod::tracks && quick_enough(input())) {
         improve(chosen, Effort::live, progress.part(0.4, 0.9));
     }
     if (quick_enough(input())) {
         add_program_of_chosen(progress.part(0.9, 1.0));
     }
-    publish(plan_, std::nullopt, false);
+    publish(now_.plan, std::nullopt, false);
 }
 
 void PlanStages::exact(const Publish& publish, const Progress& progress) {
     const GridMethod chosen = input().method;
-    measure_uniform(report_samples, progress.part(0.0, 0.1));
+    measure_uniform(report_samples, progress.part(0.0, 0.08));
+    add_weight(progress.part(0.08, 0.1));
     if (chosen != GridMethod::uniform) {
         improve(chosen, Effort::full, progress.part(0.1, 0.5));
     }
     add_program_of_chosen(progress.part(0.5, 0.6));
-    publish(plan_, std::nullopt, false);
+    publish(now_.plan, std::nullopt, false);
     for (const GridMethod method : improved_methods) {
         improve(method, Effort::full, progress.part(method == GridMethod::elliptic ? 0.6 : 0.8, 1.0));
     }
-    add_estimated_times(plan_, source_->project, progress);
-    publish(plan_, std::nullopt, true);
+    add_estimated_times(now_.plan, project(), progress);
+    publish(now_.plan, std::nullopt, true);
 }
 
 } // namespace millwright::project

@@ -135,7 +135,7 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
      "mm",
      "How far the tool is lifted off the part between two tracks",
      0.01,
-     1e4,
+     1e3,
      2,
      field<&ProgramInput::link_clearance_mm>},
     {"approach_clearance_mm",
@@ -143,7 +143,7 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
      "mm",
      "Height above the first and the last pose at which the tool comes and goes",
      0.01,
-     1e4,
+     1e3,
      2,
      field<&ProgramInput::approach_clearance_mm>},
 }};
@@ -172,7 +172,7 @@ constexpr std::array<Choice<GridMethod>, 3> of_method{{
 }};
 
 constexpr std::array<Choice<WeightSource>, 6> of_weight{{
-    {WeightSource::error, "error", "Error density", "The measured error, e/h^2, scaled and smoothed once"},
+    {WeightSource::error, "error", "Error density", "The measured error, e/h^2, scaled and smoothed"},
     {WeightSource::expression, "expression", "Expression", "A formula of u and v"},
     {WeightSource::w1, "w1", "W1 (circle)", "exp(-|25 - (x-10)^2 - (y-10)^2|) + 0.01 in node coordinates"},
     {WeightSource::w2,

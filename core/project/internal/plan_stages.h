@@ -29,31 +29,42 @@ private:
         std::shared_ptr<const Evaluation> evaluation;
         bool exact = false;
     };
-    /// What the last plan was made from.
+    using HeldGrids = std::array<Held, 3>; ///< by GridMethod
+    /// What a plan was made from.
     struct Source {
         Project project;
         Folders folders;
         std::filesystem::file_time_type machine_written;
     };
+    struct State {
+        std::optional<Source> source; ///< nothing where the project had faults
+        Plan plan;
+        HeldGrids held;
+        std::shared_ptr<const Evaluation> program_of; ///< the evaluation that the program was made from
+    };
 
     void begin(const Project& project, const Folders& folders);
+    void keep_grids(const State& last);
+    void keep_weight(const State& last);
+    void keep_program(const State& last);
     void coarse(const Publish& publish, const Progress& progress);
     void exact(const Publish& publish, const Progress& progress);
     void carry_over(GridMethod method, const Progress& progress);
     void measure_uniform(int samples, const Progress& progress);
     void improve(GridMethod method, Effort effort, const Progress& progress);
+    void add_weight(const Progress& progress);
     void add_program_of_chosen(const Progress& progress);
+    void hold(GridMethod method, Held found);
 
-    [[nodiscard]] Held& held(GridMethod method) { return held_[static_cast<std::size_t>(method)]; }
-    [[nodiscard]] const GridInput& input() const { return source_->project.grid; }
-    [[nodiscard]] bool exactly(GridMethod method) { return held(method).exact; }
-    void hold(GridMethod method, Evaluation evaluation, bool exact);
+    [[nodiscard]] const Held& held(GridMethod method) const {
+        return now_.held[static_cast<std::size_t>(method)];
+    }
+    [[nodiscard]] const Project& project() const { return now_.source->project; }
+    [[nodiscard]] const GridInput& input() const { return project().grid; }
+    [[nodiscard]] const Workpiece& workpiece() const { return *now_.plan.workpiece; }
 
-    std::optional<Source> source_;
-    Plan plan_;
-    std::array<Held, 3> held_;
-    std::array<Held, 3> before_;                   ///< of a plan that is stale: their grids are a first guess
-    std::shared_ptr<const Evaluation> program_of_; ///< the evaluation that the program was made from
+    State now_;
+    HeldGrids before_; ///< the last ones that there were: a first guess for what has changed
 };
 
 } // namespace millwright::project

@@ -43,6 +43,22 @@ TEST(History, AStepThatChangesNothingIsNone) {
     EXPECT_EQ(history.undo_title(), "");
 }
 
+TEST(History, AnotherProjectIsAStepWithANumberOfItsOwn) {
+    History history(named("a"));
+    history.commit(named("b"), "Rename");
+    history.begin(named("b"), "Open"); // equal, and yet another
+    history.commit(named("c"), "Rename");
+    EXPECT_EQ(history.project_number(), 1);
+    history.undo();
+    EXPECT_EQ(history.undo_title(), "Open");
+    history.undo();
+    EXPECT_EQ(history.project_number(), 0);
+    EXPECT_EQ(history.current().name, "b");
+    history.begin(named("d"), "Open");
+    EXPECT_EQ(history.project_number(), 2);
+    EXPECT_EQ(history.redo_title(), "");
+}
+
 TEST(History, ADragIsOneStep) {
     History history(named("a"));
     history.commit(named("b"), "Drag", "point 3");

@@ -85,6 +85,8 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     EXPECT_EQ(feed->plan.optimised, before->plan.optimised);
     EXPECT_EQ(feed->plan.uniform, before->plan.uniform);
     EXPECT_NE(feed->plan.program, before->plan.program);
+    ASSERT_NE(before->plan.weight, nullptr);
+    EXPECT_EQ(feed->plan.weight, before->plan.weight);
     project.grid.elliptic.adaptation = 50.0;
     pipeline.request(project);
     pipeline.wait_idle();
@@ -92,6 +94,11 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     EXPECT_EQ(weight->plan.optimised, before->plan.optimised);
     EXPECT_NE(weight->plan.elliptic, before->plan.elliptic);
     EXPECT_EQ(weight->plan.program, feed->plan.program);
+    EXPECT_EQ(weight->plan.weight, before->plan.weight) << "LV does not change w";
+    project.grid.elliptic.weight = WeightSource::w1;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_NE(pipeline.latest()->plan.weight->values, before->plan.weight->values);
 }
 
 TEST_F(PipelineTest, TheLastOfManyRequestsWins) {

@@ -5,6 +5,7 @@
 #include "core/project/assets.h"
 #include "core/project/settings.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -109,6 +110,7 @@ TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
 }
 
 TEST(ProjectFile, NetsMustBeRectangularAndFinite) {
+    const test::WithoutTraps numbers_that_are_none;
     EXPECT_THAT(fault("[10, 10, 1]", "[10, 10]"),
                 HasSubstr("surface/patches[0]/points[0][0]: expected a list of 3, found 2"));
     EXPECT_THAT(fault("[10, 10, 1], ", ""), HasSubstr("expected a list of 3, found 4"));

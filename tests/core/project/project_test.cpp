@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/presets.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +42,7 @@ TEST(Project, FaultsNameTheFieldAndItsRange) {
 }
 
 TEST(Project, ANumberThatIsNoneIsAFault) {
+    const test::WithoutTraps numbers_that_are_none;
     Project project = project_from_preset("dome");
     project.program.feed_mm_per_min = nan;
     project.grid.elliptic.adaptation = std::numeric_limits<double>::infinity();

@@ -1,0 +1,59 @@
+#include "core/project/weight_map.h"
+
+#include "core/base/error.h"
+#include "core/grid/elliptic_adaptation.h"
+#include "core/project/grids.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+constexpr int raster = 97; // points a side: finer than the eye asks of a smooth field
+
+grid::WeightPtr
+weight_of_error(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+    const grid::EllipticAdaptationSettings settings{.direction = input.direction};
+    const grid::Grid uniform = grid::Grid::uniform(input.nu, input.nv);
+    const std::vector<grid::MoveError> moves =
+        grid::measure(workpiece.error_model(), uniform, input.direction, settings.sampling, progress);
+    return grid::weight_on(
+        uniform,
+        grid::scaled_weight(
+            grid::error_density(uniform, input.direction, moves), input.nu, input.nv, settings.error_weight));
+}
+
+/// `rows` x `columns` places spread evenly over the solver coordinates of the grid.
+WeightMap sampled(const grid::Weight& weight, const GridInput& input, int rows, int columns) {
+    std::vector<Vec2> places;
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const Vec2 uv(static_cast<double>(i) / (rows - 1), static_cast<double>(j) / (columns - 1));
+            places.push_back(uv.cwiseProduct(Vec2(input.nu - 1, input.nv - 1)));
+        }
+    }
+    WeightMap map{.rows = rows, .columns = columns, .values = std::vector<double>(places.size())};
+    weight.values(places, map.values);
+    const auto [least, largest] = std::ranges::minmax_element(map.values);
+    map.low = *least;
+    map.high = *largest;
+    return map;
+}
+
+} // namespace
+
+WeightMap weight_map(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+    grid::WeightPtr weight = chosen_weight(input);
+    if (weight == nullptr) {
+        weight = weight_of_error(input, workpiece, progress);
+    }
+    try {
+        return sampled(*weight, input, raster, raster);
+    } catch (const Error&) { // such as 1 / abs(u - 1/3): the grid may have no node there
+        return sampled(*weight, input, input.nu, input.nv);
+    }
+}
+
+} // namespace millwright::project
