@@ -2,6 +2,7 @@
 
 #include "core/project/assets.h"
 #include "core/project/recent_files.h"
+#include "core/project/recovery.h"
 #include "ui/panels/desktop.h"
 #include "ui/render/window_context.h"
 
@@ -17,22 +18,24 @@ std::string title_of(const actions::Workbench& now) {
     return name + (now.changed() ? " * - Millwright" : " - Millwright");
 }
 
-/// May the window close? Asks once where work would be lost.
-bool may_close(actions::Workshop& workshop) {
-    actions::Session& session = workshop.session();
-    if (!workshop.look().changed() || session.discard_agreed) {
-        return true;
+/// An event shows a frame or two late: what it asks for is carried out after drawing, and a menu is measured
+/// before it is shown.
+constexpr int frames_an_event = 3;
+
+/// Blocks until a frame is to be drawn; counts down `due` frames after an event.
+void wait_for_frame(render::WindowContext& window, const panels::Desktop& desktop, int& due) {
+    --due;
+    if (window.wait(due > 0 ? 0.0 : desktop.next_change().value_or(-1.0))) {
+        due = frames_an_event;
     }
-    session.discard_agreed = true;
-    session.quit_wanted = false;
-    actions::tell(session,
-                  widgets::Severity::warning,
-                  "There are unsaved changes. Save them (Ctrl+S), or close again to lose them.");
-    return false;
+    while (due <= 0 && !desktop.next_change()) {
+        due = window.wait(-1.0) ? frames_an_event : 0;
+    }
 }
 
 void run(render::WindowContext& window, actions::Workshop& workshop) {
     panels::Desktop desktop(window, workshop);
+    int due = frames_an_event;
     using Clock = std::chrono::steady_clock;
     Clock::time_point before = Clock::now();
     while (true) {
@@ -42,12 +45,15 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
         desktop.frame();
         window.present();
         window.set_title(title_of(workshop.look()));
-        if ((window.close_requested() || workshop.session().quit_wanted) && may_close(workshop)) {
+        if (window.close_requested()) {
+            window.keep_open();
+            workshop.run("file.quit");
+        }
+        if (workshop.session().quit) {
+            workshop.close();
             return;
         }
-        window.keep_open();
-        while (!window.wait(desktop.next_change().value_or(-1.0)) && !desktop.next_change()) {
-        }
+        wait_for_frame(window, desktop, due);
     }
 }
 
@@ -55,9 +61,11 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
 
 void run_workbench(const std::optional<std::filesystem::path>& project) {
     render::WindowContext window({});
-    actions::Workshop workshop({project::assets_folder(), "jobs", project::recent_files_place(), [&window] {
-                                    window.request_redraw();
-                                }});
+    actions::Workshop workshop({.assets = project::assets_folder(),
+                                .log_folder = "jobs",
+                                .settings = project::recent_files_place(),
+                                .recovery = project::recovery_place(),
+                                .wake = [&window] { window.request_redraw(); }});
     window.on_drop([&workshop](const std::vector<std::filesystem::path>& files) {
         actions::ActionQueue ask;
         ask.open_file(files.front());

@@ -42,7 +42,9 @@ void ActionQueue::show(std::function<void(Session&)> change) {
 }
 
 void ActionQueue::open_file(std::filesystem::path file) {
-    requests_.emplace_back([file = std::move(file)](Workshop& workshop) { workshop.open(file); });
+    requests_.emplace_back([file = std::move(file)](Workshop& workshop) {
+        workshop.leave("open " + file.filename().string(), [file](Workshop& free) { free.open(file); });
+    });
 }
 
 void ActionQueue::save_file(std::filesystem::path file) {

@@ -1,6 +1,7 @@
 // Everything a user can do, as objects: menu, key, palette, button, script and test all run the same one.
 #pragma once
 
+#include "core/project/history.h"
 #include "ui/actions/workbench.h"
 #include "ui/widgets/permission.h"
 
@@ -12,6 +13,8 @@
 
 namespace millwright::actions {
 
+class Workshop;
+
 struct ActionInfo {
     std::string_view id;       ///< "grid.adapt"; never changes once released: scripts use it
     std::string_view menu;     ///< "File", "Edit" ...; also the detail shown in the palette
@@ -21,6 +24,9 @@ struct ActionInfo {
     std::string_view icon;
 };
 
+/// The menu of actions that only answer a dialog: in no menu and not in the palette.
+inline constexpr std::string_view dialog_menu = "Dialog";
+
 /// What an action may lay hands on. Made by the workshop.
 struct Hands {
     project::History& history;
@@ -29,6 +35,7 @@ struct Hands {
     project::Pipeline& pipeline;
     JobRunner& jobs;
     const Workbench& now;
+    Workshop& workshop; ///< for whole files
 };
 
 class Action {
@@ -40,6 +47,8 @@ public:
     [[nodiscard]] virtual const ActionInfo& info() const = 0;
     /// Yes, or the sentence why not.
     [[nodiscard]] virtual widgets::Permission permission(const Workbench& now) const = 0;
+    /// Whether it is a switch that is on: ticked in the menu.
+    [[nodiscard]] virtual bool is_on(const Workbench&) const { return false; }
     /// Throws Error with what went wrong; the runner tells the person and leaves everything as it was.
     virtual void run(Hands& hands) const = 0;
 };
@@ -68,11 +77,11 @@ public:
     void end_step();
     /// A change of what is looked at.
     void show(std::function<void(Session&)> change);
-    /// Opens, or saves to, a chosen file.
+    /// Opens a chosen file, after asking what becomes of unsaved changes; saves to one.
     void open_file(std::filesystem::path file);
     void save_file(std::filesystem::path file);
 
-    using Request = std::function<void(class Workshop&)>;
+    using Request = std::function<void(Workshop&)>;
     [[nodiscard]] std::vector<Request> take();
 
 private:

@@ -6,9 +6,11 @@ Catalogue::Catalogue() {
     add_file_actions(actions_);
     add_edit_actions(actions_);
     add_view_actions(actions_);
+    add_layer_actions(actions_);
     add_grid_actions(actions_);
     add_playback_actions(actions_);
     add_machine_actions(actions_);
+    add_dialog_actions(actions_);
 }
 
 } // namespace millwright::actions

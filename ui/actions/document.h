@@ -1,17 +1,17 @@
-// The open file: where it is, what was last saved, and the files opened before.
+// What is being worked on as a file: where it is, and what stands there.
 #pragma once
 
-#include "core/project/history.h"
+#include "core/project/project.h"
 
 #include <filesystem>
-#include <vector>
 
 namespace millwright::actions {
 
 struct Document {
-    std::filesystem::path file;                ///< empty for a project never saved
-    project::Project saved;                    ///< as it stands on disk, or as it was made
-    std::vector<std::filesystem::path> recent; ///< newest first, at most 10
+    std::filesystem::path file; ///< empty for a project never saved
+    project::Project saved;     ///< as it stands on disk, or as it was made
+
+    friend bool operator==(const Document&, const Document&) = default;
 };
 
 } // namespace millwright::actions

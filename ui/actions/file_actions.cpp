@@ -1,6 +1,6 @@
 #include "core/base/files.h"
-#include "core/project/project_file.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -19,9 +19,7 @@ void save(Hands& hands) {
         ask_for(hands, FileQuestion::save_as);
         return;
     }
-    project::write_project(hands.history.current(), hands.document.file);
-    hands.document.saved = hands.history.current();
-    tell(hands.session, widgets::Severity::good, "Saved.", hands.document.file.string());
+    hands.workshop.save(std::filesystem::path(hands.document.file));
 }
 
 Permission has_listing(const Workbench& now) {
@@ -43,6 +41,13 @@ void write_program(Hands& hands) {
 } // namespace
 
 void add_file_actions(Actions& actions) {
+    add(actions,
+        {"file.new", "File", "New project", "Starts from the dome of the literature.", "Ctrl+N", icons::file},
+        always,
+        [](Hands& hands) {
+            hands.workshop.leave("start a new project",
+                                 [](Workshop& workshop) { workshop.new_from_preset("dome"); });
+        });
     add(actions,
         {"file.open", "File", "Open a project ...", "Opens a project file.", "Ctrl+O", icons::folder},
         always,
@@ -72,7 +77,10 @@ void add_file_actions(Actions& actions) {
     add(actions,
         {"file.quit", "File", "Quit", "Closes the workbench; a running job is stopped first.", "Ctrl+Q", ""},
         always,
-        [](Hands& hands) { hands.session.quit_wanted = true; });
+        [](Hands& hands) {
+            hands.workshop.leave("close Millwright",
+                                 [](Workshop& workshop) { workshop.session().quit = true; });
+        });
 }
 
 } // namespace millwright::actions

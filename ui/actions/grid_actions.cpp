@@ -31,6 +31,10 @@ template <GridMethod method> void start(Hands& hands) {
     hands.session.shown = method;
 }
 
+template <GridMethod method> bool is_chosen(const Workbench& now) {
+    return now.project.grid.method == method;
+}
+
 template <GridMethod method> void choose(Hands& hands) {
     project::Project draft = hands.history.current();
     draft.grid.method = method;
@@ -88,7 +92,8 @@ void add_grid_actions(Actions& actions) {
          "",
          ""},
         always,
-        choose<GridMethod::uniform>);
+        choose<GridMethod::uniform>,
+        is_chosen<GridMethod::uniform>);
     add(actions,
         {"grid.use_elliptic",
          "Grid",
@@ -97,7 +102,8 @@ void add_grid_actions(Actions& actions) {
          "",
          ""},
         always,
-        choose<GridMethod::elliptic>);
+        choose<GridMethod::elliptic>,
+        is_chosen<GridMethod::elliptic>);
     add(actions,
         {"grid.use_tracks",
          "Grid",
@@ -106,7 +112,8 @@ void add_grid_actions(Actions& actions) {
          "",
          ""},
         always,
-        choose<GridMethod::tracks>);
+        choose<GridMethod::tracks>,
+        is_chosen<GridMethod::tracks>);
     add(
         actions,
         {"work.cancel",

@@ -49,19 +49,21 @@ struct Session {
     viewport::ErrorScale error;
     bool four_views = false;
     Playback playback;
-    LowerTab lower_tab = LowerTab::plots;
+    std::array<LowerTab, workspace_count> lower_tabs{
+        LowerTab::plots, LowerTab::plots, LowerTab::plots, LowerTab::listing, LowerTab::listing};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
-    bool search_wanted = false; ///< open the palette in the next frame
-    bool fit_wanted = true;     ///< fit the view in the next frame
-    bool quit_wanted = false;
-    bool discard_agreed = false;          ///< the person has agreed to lose unsaved changes once
+    bool search_wanted = false;           ///< open the palette in the next frame
+    bool fit_wanted = true;               ///< fit the view in the next frame
+    bool quit = false;                    ///< nothing is in the way any more: close the window
     std::vector<widgets::Notice> notices; ///< to be shown; taken by the window
     std::vector<std::string> log;         ///< every notice, newest last
 
     [[nodiscard]] viewport::Layers& layers_now() { return layers[static_cast<std::size_t>(workspace)]; }
+    [[nodiscard]] LowerTab& lower_tab_now() { return lower_tabs[static_cast<std::size_t>(workspace)]; }
+    [[nodiscard]] LowerTab lower_tab_now() const { return lower_tabs[static_cast<std::size_t>(workspace)]; }
     [[nodiscard]] const viewport::Layers& layers_now() const {
         return layers[static_cast<std::size_t>(workspace)];
     }

@@ -10,6 +10,18 @@ template <Workspace workspace> void go(Hands& hands) {
     hands.session.workspace = workspace;
 }
 
+template <Workspace workspace> bool is_in(const Workbench& now) {
+    return now.session.workspace == workspace;
+}
+
+template <project::GridMethod method> bool is_shown(const Workbench& now) {
+    return now.session.shown == method;
+}
+
+template <bool PaneSizes::*pane> bool has_pane(const Workbench& now) {
+    return now.session.panes.*pane;
+}
+
 template <project::GridMethod method> void show(Hands& hands) {
     hands.session.shown = method;
 }
@@ -30,23 +42,28 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.design", "View", "Design", "Control points and surface.", "F2", ""},
         always,
-        go<Workspace::design>);
+        go<Workspace::design>,
+        is_in<Workspace::design>);
     add(actions,
         {"view.grid", "View", "Grid", "The grid and its adaptation.", "F3", ""},
         always,
-        go<Workspace::grid>);
+        go<Workspace::grid>,
+        is_in<Workspace::grid>);
     add(actions,
         {"view.toolpath", "View", "Toolpath", "The path and its error.", "F4", ""},
         always,
-        go<Workspace::toolpath>);
+        go<Workspace::toolpath>,
+        is_in<Workspace::toolpath>);
     add(actions,
         {"view.program", "View", "Program", "The G-code in step with the motion.", "F5", ""},
         always,
-        go<Workspace::program>);
+        go<Workspace::program>,
+        is_in<Workspace::program>);
     add(actions,
         {"view.machine", "View", "Machine", "The machine at work.", "F6", ""},
         always,
-        go<Workspace::machine>);
+        go<Workspace::machine>,
+        is_in<Workspace::machine>);
     add(actions,
         {"view.show_uniform",
          "View",
@@ -55,7 +72,8 @@ void add_view_actions(Actions& actions) {
          "",
          ""},
         is_there<GridMethod::uniform>,
-        show<GridMethod::uniform>);
+        show<GridMethod::uniform>,
+        is_shown<GridMethod::uniform>);
     add(actions,
         {"view.show_elliptic",
          "View",
@@ -64,7 +82,8 @@ void add_view_actions(Actions& actions) {
          "",
          ""},
         is_there<GridMethod::elliptic>,
-        show<GridMethod::elliptic>);
+        show<GridMethod::elliptic>,
+        is_shown<GridMethod::elliptic>);
     add(actions,
         {"view.show_tracks",
          "View",
@@ -73,31 +92,38 @@ void add_view_actions(Actions& actions) {
          "",
          ""},
         is_there<GridMethod::tracks>,
-        show<GridMethod::tracks>);
+        show<GridMethod::tracks>,
+        is_shown<GridMethod::tracks>);
     add(actions,
         {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
         always,
         [](Hands& hands) { hands.session.fit_wanted = true; });
-    add(actions,
+    add(
+        actions,
         {"view.four", "View", "Four views", "Top, front, right and free view side by side.", "Ctrl+4", ""},
         always,
-        [](Hands& hands) { hands.session.four_views = !hands.session.four_views; });
+        [](Hands& hands) { hands.session.four_views = !hands.session.four_views; },
+        [](const Workbench& now) { return now.session.four_views; });
     add(actions,
         {"view.outline", "View", "Outline pane", "Shows or hides the outline.", "", ""},
         always,
-        toggle_pane<&PaneSizes::outline_shown>);
+        toggle_pane<&PaneSizes::outline_shown>,
+        has_pane<&PaneSizes::outline_shown>);
     add(actions,
         {"view.inspector", "View", "Inspector pane", "Shows or hides the inspector.", "", ""},
         always,
-        toggle_pane<&PaneSizes::inspector_shown>);
+        toggle_pane<&PaneSizes::inspector_shown>,
+        has_pane<&PaneSizes::inspector_shown>);
     add(actions,
         {"view.lower", "View", "Lower pane", "Shows or hides plots, listing and log.", "", ""},
         always,
-        toggle_pane<&PaneSizes::lower_shown>);
-    add(actions,
+        toggle_pane<&PaneSizes::lower_shown>,
+        has_pane<&PaneSizes::lower_shown>);
+    add(
+        actions,
         {"view.theme",
          "View",
-         "Dark or light",
+         "Light theme",
          "Changes between the dark and the light theme.",
          "",
          icons::moon},
@@ -105,7 +131,8 @@ void add_view_actions(Actions& actions) {
         [](Hands& hands) {
             const bool dark = hands.session.theme == widgets::Theme::dark;
             hands.session.theme = dark ? widgets::Theme::light : widgets::Theme::dark;
-        });
+        },
+        [](const Workbench& now) { return now.session.theme == widgets::Theme::light; });
     add(actions,
         {"view.search",
          "View",

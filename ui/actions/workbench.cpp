@@ -1,6 +1,7 @@
 #include "ui/actions/workbench.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace millwright::actions {
 
@@ -62,6 +63,14 @@ double Workbench::time() const {
 int Workbench::block() const {
     const auto planned = trajectory();
     return planned ? planned->block_at(time()) : -1;
+}
+
+bool Workbench::at_machine() const {
+    if (!job.report) {
+        return false;
+    }
+    constexpr double same_moment = 1e-9; // s
+    return job.running || std::abs(session.playback.time - job.report->driver.planned_time) < same_moment;
 }
 
 std::optional<viewport::Moment> Workbench::moment() const {

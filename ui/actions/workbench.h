@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/project/pipeline.h"
+#include "core/project/recent_files.h"
+#include "core/project/recovery.h"
 #include "ui/actions/document.h"
 #include "ui/actions/job_runner.h"
 #include "ui/actions/session.h"
@@ -22,6 +24,11 @@ struct Workbench {
     JobView job;
     std::string undo_title, redo_title; ///< empty if there is nothing
     std::filesystem::path assets;
+    const project::RecentFiles& recent;
+    /// "open sine.json": waits until the person has said what becomes of unsaved changes; empty: nothing
+    /// does.
+    std::string leaving_to;
+    const std::vector<project::LeftBehind>& left_behind; ///< by programs that crashed; to be asked about
 
     /// Null-safe access to what is shown.
     [[nodiscard]] std::shared_ptr<const project::Evaluation> shown() const;
@@ -31,12 +38,18 @@ struct Workbench {
     [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
     /// Of the plan: why it stops short of a program; empty if it does not.
     [[nodiscard]] std::string failure() const;
+    /// Something is asked over everything else; only the machine listens to keys meanwhile.
+    [[nodiscard]] bool asks() const {
+        return session.question != FileQuestion::none || !leaving_to.empty() || !left_behind.empty();
+    }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// The block that is being executed, stepped or scrubbed, and where on the tool path that is. Follows the
     /// running job, else the playback.
     [[nodiscard]] std::optional<viewport::Moment> moment() const;
     [[nodiscard]] int block() const;   ///< -1 without a program
     [[nodiscard]] double time() const; ///< s of the trajectory
+    /// What moment() says is where the machine stands, not what the timeline would have it do.
+    [[nodiscard]] bool at_machine() const;
 };
 
 } // namespace millwright::actions

@@ -1,8 +1,6 @@
 #include "ui/actions/workshop.h"
 
 #include "core/base/error.h"
-#include "core/project/project_file.h"
-#include "core/project/recent_files.h"
 
 #include <algorithm>
 #include <utility>
@@ -29,8 +27,9 @@ void drop_lost_selection(Session& session, const project::Project& project) {
 
 Workshop::Workshop(WorkshopOptions options)
     : options_(std::move(options)), history_(starting_project()), session_(new_session()) {
-    document_.saved = history_.current();
-    guarded([this] { document_.recent = project::read_recent(options_.settings); });
+    documents_.push_back({{}, history_.current()});
+    guarded([this] { recent_ = project::read_recent(options_.settings); });
+    guarded([this] { start_autosave(); });
     const auto wake = options_.wake ? options_.wake : [] {};
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
@@ -42,19 +41,23 @@ Workshop::~Workshop() = default;
 Workbench Workshop::look() const {
     return {history_.current(),
             session_,
-            document_,
+            document(),
             pipeline_->latest(),
             pipeline_->adaptation(),
             pipeline_->activity(),
             jobs_->view(),
             history_.undo_title(),
             history_.redo_title(),
-            options_.assets};
+            options_.assets,
+            recent_,
+            leaving_ ? leaving_->to : std::string(),
+            left_behind_};
 }
 
 void Workshop::request_plan() {
     drop_lost_selection(session_, history_.current());
-    const auto folder = document_.file.empty() ? std::filesystem::path{} : document_.file.parent_path();
+    const auto& file = document().file;
+    const auto folder = file.empty() ? std::filesystem::path{} : file.parent_path();
     pipeline_->request(history_.current(), {folder, options_.assets});
 }
 
@@ -80,9 +83,12 @@ void Workshop::run(std::string_view id) {
         return;
     }
     const project::Project before = history_.current();
-    Hands hands{history_, session_, document_, *pipeline_, *jobs_, now};
+    const int number_before = history_.project_number();
+    Hands hands{history_, session_, document(), *pipeline_, *jobs_, now, *this};
     action.run(hands);
-    if (!(before == history_.current())) {
+    if (history_.project_number() != number_before) { // undo and redo go from file to file, too
+        look_at_another();
+    } else if (!(before == history_.current())) {
         request_plan();
     }
 }
@@ -91,6 +97,7 @@ void Workshop::perform(ActionQueue& asked) {
     for (const ActionQueue::Request& request : asked.take()) {
         guarded([&] { request(*this); });
     }
+    follow_autosave();
 }
 
 bool Workshop::advance(double seconds) {
@@ -101,6 +108,7 @@ bool Workshop::advance(double seconds) {
         return false;
     }
     const double before = playback.time;
+    follow_job();
     playback.time = std::clamp(playback.time, 0.0, trajectory->duration());
     if (playback.playing) {
         playback.time = std::min(playback.time + seconds * playback.speed, trajectory->duration());
@@ -109,45 +117,13 @@ bool Workshop::advance(double seconds) {
     return playback.time < before || playback.time > before;
 }
 
-void Workshop::open(const std::filesystem::path& file) {
-    project::Project opened = project::read_project(file);
-    history_.commit(opened, "Open " + file.filename().string());
-    history_.close_step();
-    document_.file = file;
-    document_.saved = std::move(opened);
-    document_.recent = project::with_recent(std::move(document_.recent), file);
-    session_.selected.clear();
-    session_.fit_wanted = true;
-    session_.playback = {};
-    session_.question = FileQuestion::none;
-    session_.shown = history_.current().grid.method;
-    request_plan();
-    if (!options_.settings.empty()) {
-        project::write_recent(document_.recent, options_.settings);
+/// So that the timeline stays where the machine came to rest.
+void Workshop::follow_job() {
+    const JobView job = jobs_->view();
+    if ((job.running || follows_job_) && job.report) {
+        session_.playback.time = job.report->driver.planned_time;
     }
-}
-
-void Workshop::save(const std::filesystem::path& file) {
-    project::write_project(history_.current(), file);
-    document_.file = file;
-    document_.saved = history_.current();
-    document_.recent = project::with_recent(std::move(document_.recent), file);
-    session_.question = FileQuestion::none;
-    tell(session_, widgets::Severity::good, "Saved.", file.string());
-    if (!options_.settings.empty()) {
-        project::write_recent(document_.recent, options_.settings);
-    }
-}
-
-void Workshop::new_from_preset(std::string_view preset_id) {
-    history_.commit(project::project_from_preset(preset_id), "New project");
-    history_.close_step();
-    document_.file.clear();
-    document_.saved = history_.current();
-    session_.selected.clear();
-    session_.fit_wanted = true;
-    session_.playback = {};
-    request_plan();
+    follows_job_ = job.running;
 }
 
 void Workshop::edit(const std::string& title,

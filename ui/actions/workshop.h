@@ -2,11 +2,16 @@
 // app builds it and hands it to the window. Everything that changes passes through perform().
 #pragma once
 
+#include "core/project/autosave.h"
 #include "ui/actions/action.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -14,7 +19,9 @@ struct WorkshopOptions {
     std::filesystem::path assets;     ///< what ships with the program
     std::filesystem::path log_folder; ///< of jobs
     std::filesystem::path settings;   ///< file of the recent files; empty: keep none
+    std::filesystem::path recovery;   ///< folder of the copies of unsaved work; empty: keep none
     std::function<void()> wake;       ///< from any thread: draw a frame
+    std::chrono::milliseconds autosave_interval = std::chrono::seconds(3); ///< between two copies
 };
 
 class Workshop {
@@ -22,6 +29,7 @@ public:
     explicit Workshop(WorkshopOptions options);
     Workshop(const Workshop&) = delete;
     Workshop& operator=(const Workshop&) = delete;
+    /// Leaves a copy of unsaved work behind unless close() was called.
     ~Workshop();
 
     [[nodiscard]] const Catalogue& catalogue() const { return catalogue_; }
@@ -35,10 +43,31 @@ public:
     /// Lets `seconds` of wall time pass for what plays. True if the picture changed.
     bool advance(double seconds);
 
-    /// Replaces the project by the file's. Throws Error; the open project then stays.
+    /// Replaces the project by the file's, whatever is unsaved; undo goes back. Throws Error; the open
+    /// project then stays.
     void open(const std::filesystem::path& file);
+    /// Throws Error; the old file then stays as it was. Goes on with what waited for it.
     void save(const std::filesystem::path& file);
     void new_from_preset(std::string_view preset_id);
+
+    /// Does `then` at once if nothing is unsaved, else after the person has answered. `to` goes on after
+    /// "before you": "open sine.json".
+    void leave(std::string to, ActionQueue::Request then);
+    /// The answers. Saving asks for a file where there is none yet, and goes on once it is saved.
+    void save_and_leave();
+    void discard_and_leave();
+    void stay();
+
+    /// Makes the newest work that was left behind the project. Throws Error if it cannot be read.
+    void recover();
+    /// Removes it.
+    void discard_left_behind();
+    /// Keeps it for the next start.
+    void leave_left_behind();
+
+    /// The good end: no copy of unsaved work stays.
+    void close();
+
     void edit(const std::string& title,
               const std::function<void(project::Project&)>& change,
               const std::string& merge_key);
@@ -49,16 +78,41 @@ public:
     void wait_idle();
 
 private:
+    /// Waits for an answer about unsaved changes.
+    struct Leaving {
+        std::string to;
+        ActionQueue::Request then;
+    };
+
+    [[nodiscard]] Document& document() {
+        return documents_[static_cast<std::size_t>(history_.project_number())];
+    }
+    [[nodiscard]] const Document& document() const {
+        return documents_[static_cast<std::size_t>(history_.project_number())];
+    }
+    [[nodiscard]] bool changed() const { return !(history_.current() == document().saved); }
+    void begin(project::Project other, const std::string& title, Document document);
+    void look_at_another();
+    void remember(const std::filesystem::path& file);
+    void start_autosave();
+    void follow_autosave();
     void request_plan();
+    void follow_job();
     void guarded(const std::function<void()>& action);
 
     WorkshopOptions options_;
     Catalogue catalogue_;
     project::History history_;
     Session session_;
-    Document document_;
+    std::vector<Document> documents_; ///< by project number of the history
+    project::RecentFiles recent_;
+    std::optional<Leaving> leaving_;
+    std::vector<project::LeftBehind> left_behind_;
+    std::optional<Document> kept_; ///< what the autosave was last told: the file, the unsaved state
+    std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<project::Pipeline> pipeline_;
     std::unique_ptr<JobRunner> jobs_;
+    bool follows_job_ = false; ///< a job was running when it was last looked at
 };
 
 } // namespace millwright::actions

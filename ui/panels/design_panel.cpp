@@ -191,7 +191,7 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
             }
         }
     }
-    ui.note("Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2");
+    ui.note("X, Y, Z in mm. Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2");
 }
 
 } // namespace millwright::panels

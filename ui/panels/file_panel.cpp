@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace millwright::panels {
 
@@ -12,13 +13,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_project(const fs::directory_entry& entry) {
-    return entry.path().extension() == ".json";
-}
+namespace icons = widgets::icons;
+using actions::FileQuestion;
+using widgets::Permission;
+using widgets::Rank;
 
-/// Folders first, then project files, both by name; hidden ones left out.
-std::vector<fs::path> listed(const fs::path& folder, std::string& fault) {
+constexpr std::string_view extension = ".json";
+constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
+
+struct Listed {
     std::vector<fs::path> folders, files;
+    std::string fault;
+};
+
+/// Folders and project files by name; hidden ones left out.
+Listed listed(const fs::path& folder) {
+    Listed result;
     std::error_code failure;
     for (const auto& entry : fs::directory_iterator(folder, failure)) {
         std::error_code unreadable;
@@ -26,109 +36,189 @@ std::vector<fs::path> listed(const fs::path& folder, std::string& fault) {
             continue;
         }
         if (entry.is_directory(unreadable)) {
-            folders.push_back(entry.path());
-        } else if (is_project(entry)) {
-            files.push_back(entry.path());
+            result.folders.push_back(entry.path());
+        } else if (entry.path().extension() == extension) {
+            result.files.push_back(entry.path());
         }
     }
-    fault = failure ? failure.message() : std::string();
-    std::sort(folders.begin(), folders.end());
-    std::sort(files.begin(), files.end());
-    folders.insert(folders.end(), files.begin(), files.end());
-    return folders;
+    result.fault = failure ? "This folder cannot be read: " + failure.message() : std::string();
+    std::sort(result.folders.begin(), result.folders.end());
+    std::sort(result.files.begin(), result.files.end());
+    return result;
 }
 
 fs::path starting_folder(const Workbench& now) {
     return now.document.file.empty() ? fs::current_path() : fs::absolute(now.document.file).parent_path();
 }
 
-} // namespace
-
-void FilePanel::enter(const fs::path& folder) {
-    folder_ = folder;
-    entries_ = listed(folder, fault_);
+fs::path home() {
+    const char* named = std::getenv("HOME");
+    return named != nullptr && *named != '\0' ? fs::path(named) : fs::path("/");
 }
 
-void FilePanel::choose(const fs::path& file, const Workbench& now, ActionQueue& ask) const {
-    if (now.session.question == actions::FileQuestion::open) {
-        ask.open_file(file);
-    } else {
-        ask.save_file(file);
-    }
+/// The end of a long path, which tells more than its beginning.
+std::string shortened(const fs::path& folder) {
+    const std::string whole = folder.string();
+    return whole.size() <= longest_folder ? whole
+                                          : "\u2026" + whole.substr(whole.size() - longest_folder + 1);
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code missing;
+    return fs::equivalent(a, b, missing);
+}
+
+} // namespace
+
+void FilePanel::begin(const Workbench& now) {
+    asked_ = now.session.question;
+    source_ = Source::folder;
+    enter(starting_folder(now));
+    name_ = now.document.file.empty() ? now.project.name + std::string(extension)
+                                      : now.document.file.filename().string();
+}
+
+void FilePanel::enter(const fs::path& folder) {
+    Listed found = listed(folder);
+    folder_ = folder;
+    folders_ = found.folders.size();
+    entries_ = std::move(found.folders);
+    entries_.insert(entries_.end(), found.files.begin(), found.files.end());
+    fault_ = std::move(found.fault);
+    chosen_.clear();
+}
+
+void FilePanel::show_recent(const Workbench& now) {
+    folders_ = 0;
+    entries_ = now.recent;
+    fault_.clear();
+    chosen_.clear();
 }
 
 void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (folder_.empty()) {
-        enter(starting_folder(now));
+    if (asked_ != now.session.question) {
+        begin(now);
     }
-    const bool opening = now.session.question == actions::FileQuestion::open;
-    ui.heading(opening ? "Open a project" : "Save the project as");
-    draw_folder(ui, now, ask);
+    const bool opening = asked_ == FileQuestion::open;
+    const auto dialog = ui.dialog("files", opening ? "Open a project" : "Save the project as", ui.px(620.0F));
+    if (!dialog) {
+        return;
+    }
+    draw_source(ui, now);
+    draw_entries(ui, now, ask);
     if (opening) {
-        draw_recent(ui, now, ask);
+        draw_open(ui, now, ask);
     } else {
-        if (const auto typed = ui.text_field("name", "File name", name_, "Ends in .json")) {
-            name_ = *typed;
-        }
-        const auto allowed =
-            name_.empty() ? widgets::Permission::refused("Type a file name first.") : widgets::Permission{};
-        if (ui.button("save", "Save", allowed, {widgets::icons::save, widgets::Rank::primary, 0.0F, {}})) {
-            fs::path file = folder_ / name_;
-            choose(file.has_extension() ? file : file.replace_extension(".json"), now, ask);
-        }
-    }
-    if (ui.button("cancel", "Cancel")) {
-        ask.show([](actions::Session& session) { session.question = actions::FileQuestion::none; });
+        draw_save(ui, now, ask);
     }
 }
 
-void FilePanel::draw_folder(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    ui.value("folder", "Folder", folder_.string());
-    if (ui.button("up", "Up", {}, {widgets::icons::back, widgets::Rank::quiet, 0.0F, "The folder above"})) {
+void FilePanel::draw_source(Ui& ui, const Workbench& now) {
+    const std::array<widgets::Option, 2> sources{
+        {{"folder", "Folder", icons::folder}, {"recent", "Recent", icons::timer}}};
+    if (asked_ == FileQuestion::open) {
+        if (const auto source = ui.tabs("source", static_cast<int>(source_), sources)) {
+            source_ = static_cast<Source>(*source);
+            source_ == Source::folder ? enter(folder_) : show_recent(now);
+        }
+    }
+    if (source_ == Source::recent) {
+        return;
+    }
+    const auto above =
+        folder_.has_relative_path() ? Permission{} : Permission::refused("There is no folder above.");
+    if (ui.icon_button("up", icons::back, "The folder above", above)) {
         enter(folder_.parent_path());
     }
-    if (!fault_.empty()) {
-        ui.text(fault_);
+    ui.beside();
+    if (ui.icon_button("home", icons::home, "Your home folder")) {
+        enter(home());
     }
-    constexpr std::array<widgets::Column, 2> columns{{{"Name", "", 3.0F, false}, {"", "", 1.0F, false}}};
+    ui.beside();
+    ui.words(shortened(folder_), widgets::Tone::muted);
+}
+
+void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
+    constexpr std::array<widgets::Column, 2> columns{{{"Name", "", 2.0F, false}, {"", "", 3.0F, false}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(entries_);
     view.cell = [this](std::ptrdiff_t row, int column) {
         const fs::path& entry = entries_[static_cast<std::size_t>(row)];
-        return column == 0 ? entry.filename().string() : std::string(entry.has_extension() ? "" : "folder");
+        if (column == 0) {
+            return entry.filename().string();
+        }
+        const bool is_folder = static_cast<std::size_t>(row) < folders_;
+        return source_ == Source::recent ? shortened(entry.parent_path())
+                                         : std::string(is_folder ? "folder" : "");
     };
     view.row_id = [this](std::ptrdiff_t row) {
-        return entries_[static_cast<std::size_t>(row)].filename().string();
+        const fs::path& entry = entries_[static_cast<std::size_t>(row)];
+        return source_ == Source::recent ? std::to_string(row) : entry.filename().string();
     };
-    view.height = ui.px(220.0F);
-    view.when_empty = "No project files here.";
-    if (const auto row = widgets::table(ui, "entries", view)) {
-        const fs::path chosen = entries_[static_cast<std::size_t>(*row)];
-        std::error_code unreadable;
-        if (fs::is_directory(chosen, unreadable)) {
-            enter(chosen);
-        } else if (now.session.question == actions::FileQuestion::open) {
-            choose(chosen, now, ask);
-        } else {
-            name_ = chosen.filename().string();
-        }
+    const auto chosen = std::find(entries_.begin(), entries_.end(), chosen_);
+    view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
+    view.height = ui.px(212.0F);
+    view.when_empty = fault_.empty() ? "No project files here." : std::string_view(fault_);
+    const auto row = widgets::table(ui, "entries", view);
+    if (!row) {
+        return;
+    }
+    const fs::path entry = entries_[static_cast<std::size_t>(*row)];
+    if (static_cast<std::size_t>(*row) < folders_) {
+        enter(entry);
+    } else if (asked_ == FileQuestion::open && entry == chosen_) { // the second click of two
+        ask.open_file(entry);
+    } else {
+        chosen_ = entry;
+        name_ = entry.filename().string();
     }
 }
 
-void FilePanel::draw_recent(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    if (now.document.recent.empty()) {
-        return;
+void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    ui.gap();
+    preview_.draw(ui, chosen_);
+    ui.gap();
+    const auto row = ui.row(2);
+    draw_cancel(ui, now, ask);
+    const auto allowed = chosen_.empty() ? Permission::refused("Choose a project first.") : Permission{};
+    const bool entered = ui.enter_pressed() && allowed.allowed;
+    if (ui.button("open", "Open", allowed, {icons::folder, Rank::primary, -1.0F, "Enter"}) || entered) {
+        ask.open_file(chosen_);
     }
-    const auto section = ui.section("recent", "Recent files");
-    if (!section) {
-        return;
+}
+
+fs::path FilePanel::file_to_save() const {
+    fs::path file = folder_ / name_;
+    return file.has_extension() ? file : file.replace_extension(extension);
+}
+
+void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (const auto typed = ui.text_field("name", "File name", name_, "Ends in .json")) {
+        name_ = *typed;
     }
-    int n = 0;
-    for (const fs::path& file : now.document.recent) {
-        const std::string id = "file" + std::to_string(++n);
-        if (ui.button(id, file.filename().string(), {}, {{}, widgets::Rank::quiet, -1.0F, file.string()})) {
-            choose(file, now, ask);
+    const fs::path file = file_to_save();
+    std::error_code unreadable;
+    const bool replaces =
+        !name_.empty() && fs::exists(file, unreadable) && !same_file(file, now.document.file);
+    ui.note(replaces ? file.filename().string() + " is there already and would be replaced." : " ");
+    const auto row = ui.row(2);
+    draw_cancel(ui, now, ask);
+    const auto allowed = name_.empty() ? Permission::refused("Type a file name first.") : Permission{};
+    if (ui.button("save",
+                  replaces ? "Replace" : "Save",
+                  allowed,
+                  {icons::save, replaces ? Rank::danger : Rank::primary, -1.0F, {}})) {
+        ask.save_file(file);
+    }
+}
+
+void FilePanel::draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const bool escaped = ui.escape_pressed() && !ui.is_typing();
+    if (ui.button("cancel", "Cancel", {}, {{}, Rank::normal, -1.0F, "Esc"}) || escaped) {
+        ask.show([](actions::Session& session) { session.question = FileQuestion::none; });
+        if (!now.leaving_to.empty()) { // the file was asked for to save what is unsaved
+            ask.run("unsaved.cancel");
         }
     }
 }

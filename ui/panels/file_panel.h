@@ -1,7 +1,9 @@
-// Choosing a file to open or to save to: the folder's project files, a field for the path.
+// Choosing a file to open or to save to: a folder's project files or the recent ones, with a preview, in a
+// dialog.
 #pragma once
 
 #include "ui/panels/panel.h"
+#include "ui/panels/project_preview.h"
 
 #include <filesystem>
 #include <string>
@@ -9,20 +11,35 @@
 
 namespace millwright::panels {
 
-class FilePanel final : public Panel {
+class FilePanel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    /// While session.question asks for a file.
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask);
+    /// The question is over: the next one begins anew.
+    void close() { asked_ = actions::FileQuestion::none; }
 
 private:
-    void enter(const std::filesystem::path& folder);
-    void draw_recent(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_folder(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void choose(const std::filesystem::path& file, const Workbench& now, ActionQueue& ask) const;
+    enum class Source { folder, recent };
 
-    std::filesystem::path folder_; ///< empty until the first draw
-    std::vector<std::filesystem::path> entries_;
-    std::string fault_; ///< why the folder cannot be read
-    std::string name_;  ///< typed for saving
+    void begin(const Workbench& now);
+    void enter(const std::filesystem::path& folder);
+    void show_recent(const Workbench& now);
+    void draw_source(Ui& ui, const Workbench& now);
+    void draw_entries(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_save(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    [[nodiscard]] std::filesystem::path file_to_save() const;
+
+    actions::FileQuestion asked_ = actions::FileQuestion::none;
+    Source source_ = Source::folder;
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> entries_; ///< folders first
+    std::size_t folders_ = 0;                    ///< that many of them
+    std::string fault_;                          ///< why the folder cannot be read
+    std::filesystem::path chosen_;               ///< of the entries; empty: none
+    std::string name_;                           ///< typed for saving
+    ProjectPreview preview_;
 };
 
 } // namespace millwright::panels

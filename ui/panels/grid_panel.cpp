@@ -98,16 +98,16 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         ui.value("rounds", "Round", fmt::format("{}", state->round));
         ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
         ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
-        ui.value("before", "Mean error before", length_text(state->start.mean), "mm");
-        ui.value("now", "Mean error now", length_text(state->now.mean), "mm");
-        ui.value("best", "Mean error best", length_text(state->of_best.mean), "mm");
-        ui.value("gain", "Gain", change_text(state->start.mean, state->of_best.mean));
+        ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
+        ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
+        ui.value("best", "To curve, best", length_text(state->of_best.mean), "mm");
+        ui.value("gain", "Change", change_text(state->start.mean, state->of_best.mean));
     }
     ui.note(status_text(*now.watched));
 }
 
 void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("tracks", "Track optimiser", false);
+    const auto section = ui.section("tracks", "Track optimiser");
     if (!section) {
         return;
     }
@@ -118,7 +118,7 @@ void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) cons
 }
 
 void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("elliptic", "Elliptic adaptation", false);
+    const auto section = ui.section("elliptic", "Elliptic adaptation");
     if (!section) {
         return;
     }
@@ -142,6 +142,12 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
             ask.edit("Change the weight's expression",
                      [t = *text](Project& p) { p.grid.elliptic.expression = t; });
         }
+    }
+    if (ui.toggle("show_weight",
+                  "Weight in the view",
+                  now.session.layers_now().weight,
+                  "Colours the surface by the weight, as the adaptation begins with it")) {
+        ask.run("view.layer_weight");
     }
     number_fields<project::EllipticInput>(
         ui, ask, project::elliptic_numbers(), input, [](Project& p) -> project::EllipticInput& {

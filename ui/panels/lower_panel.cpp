@@ -1,6 +1,7 @@
 #include "ui/panels/lower_panel.h"
 
 #include "core/base/text.h"
+#include "core/project/settings.h"
 #include "ui/panels/error_table.h"
 #include "ui/panels/path_series.h"
 #include "ui/widgets/icons.h"
@@ -55,11 +56,12 @@ void go_to_length(ActionQueue& ask,
 } // namespace
 
 void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const int tab = static_cast<int>(now.session.lower_tab);
+    const int tab = static_cast<int>(now.session.lower_tab_now());
     if (const auto chosen = ui.tabs("tabs", tab, tabs)) {
-        ask.show([t = static_cast<LowerTab>(*chosen)](actions::Session& session) { session.lower_tab = t; });
+        ask.show(
+            [t = static_cast<LowerTab>(*chosen)](actions::Session& session) { session.lower_tab_now() = t; });
     }
-    switch (now.session.lower_tab) {
+    switch (now.session.lower_tab_now()) {
     case LowerTab::plots:
         return draw_plots(ui, now, ask);
     case LowerTab::listing:
@@ -82,9 +84,12 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const ErrorOverPath before = error_over_path(*uniform);
     const ErrorOverPath after = error_over_path(*shown);
-    std::vector<widgets::Series> series{{"uniform grid", before.at, before.error, 0, false}};
+    const auto name = [](GridMethod method) {
+        return project::row_of(project::grid_methods(), method).label;
+    };
+    std::vector<widgets::Series> series{{name(GridMethod::uniform), before.at, before.error, 0, false}};
     if (shown != uniform) {
-        series.push_back({"shown grid", after.at, after.error, 0, true});
+        series.push_back({name(now.session.shown), after.at, after.error, 0, true});
     }
     widgets::PlotView view;
     view.x_label = "path length";
@@ -93,6 +98,10 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.y_unit = "mm";
     view.series = series;
     view.limit_y = now.session.error.limit;
+    const auto moment = now.moment();
+    if (moment && shown == now.evaluation(now.project.grid.method)) {
+        view.cursor_x = length_before(*shown, moment->move, moment->fraction);
+    }
     if (const auto x = widgets::line_plot(ui, "error", view)) {
         go_to_length(ask, now, *shown, *x);
     }

@@ -71,7 +71,8 @@ void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("position", "Position");
+    const auto section =
+        ui.section("position", now.at_machine() ? "Position of the machine" : "Position on the timeline");
     const auto moment = now.moment();
     if (!section || !now.plan || !now.plan->plan.workpiece) {
         return;

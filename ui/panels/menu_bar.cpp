@@ -1,6 +1,7 @@
 #include "ui/panels/menu_bar.h"
 
 #include "core/project/assets.h"
+#include "ui/panels/layer_list.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/menus.h"
 
@@ -38,13 +39,74 @@ std::string lower(std::string_view word) {
     return result;
 }
 
+constexpr float gap_to_stop = 12.0F; // from the search to the emergency stop
+constexpr float tools_width = 300.0F;
+constexpr float smallest_tabs = 490.0F;
+
+/// A line stands above these in their menu.
+bool begins_group(std::string_view id) {
+    constexpr std::array<std::string_view, 12> first{"file.save",
+                                                     "file.write_program",
+                                                     "file.quit",
+                                                     "edit.select_all",
+                                                     "edit.smooth",
+                                                     "view.show_uniform",
+                                                     "view.fit",
+                                                     "view.outline",
+                                                     "view.theme",
+                                                     "grid.play",
+                                                     "grid.use_uniform",
+                                                     "work.cancel"};
+    return std::find(first.begin(), first.end(), id) != first.end();
+}
+
 } // namespace
 
 void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    constexpr float left = 12.0F;
+    constexpr float top = 10.0F;
+    constexpr float tabs_above = 2.0F; // they are that much higher than the rest of the bar
+    ui.move_by(ui.px(left), ui.px(top));
     draw_menus(ui, now, ask);
     ui.beside();
-    if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), workspaces)) {
-        ask.show([w = static_cast<Workspace>(*chosen)](actions::Session& session) { session.workspace = w; });
+    ui.move_by(0.0F, -ui.px(tabs_above));
+    const float tools = ui.px(tools_width);
+    {
+        const auto width = ui.width(std::max(ui.rest().w - tools, ui.px(smallest_tabs)));
+        if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), workspaces)) {
+            ask.show(
+                [w = static_cast<Workspace>(*chosen)](actions::Session& session) { session.workspace = w; });
+        }
+    }
+    ui.beside();
+    ui.move_by(0.0F, ui.px(tabs_above));
+    if (ui.rest().w >= tools - ui.px(left)) {
+        draw_tools(ui, now, ask);
+    }
+}
+
+/// What is wanted often, by icon, and the way to everything else.
+void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    for (const std::string_view id : {"file.save", "edit.undo", "edit.redo"}) {
+        const actions::Action& action = catalogue_.find(id);
+        const actions::ActionInfo& info = action.info();
+        const std::string what = id == "edit.undo" && !now.undo_title.empty()   ? "Undo: " + now.undo_title
+                                 : id == "edit.redo" && !now.redo_title.empty() ? "Redo: " + now.redo_title
+                                                                                : std::string(info.title);
+        if (ui.icon_button(widget_id(id),
+                           info.icon,
+                           what + " (" + std::string(info.shortcut) + ")",
+                           action.permission(now))) {
+            ask.run(std::string(id));
+        }
+        ui.beside();
+    }
+    const auto width = ui.width(ui.rest().w - ui.px(gap_to_stop));
+    if (ui.button("search",
+                  "Search  Ctrl+K",
+                  {},
+                  {icons::search, widgets::Rank::normal, -1.0F, "Every action by a few letters"})) {
+        ask.run("view.search");
     }
 }
 
@@ -59,32 +121,50 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
         }
         for (const auto& action : catalogue_.all()) {
             const actions::ActionInfo& info = action->info();
-            if (info.menu == title &&
-                widgets::menu_item(
-                    ui, widget_id(info.id), info.title, info.shortcut, action->permission(now))) {
+            if (info.menu != title) {
+                continue;
+            }
+            if (info.id == "file.quit") {
+                draw_files(ui, now, ask);
+            }
+            if (begins_group(info.id)) {
+                widgets::menu_line(ui);
+            }
+            if (widgets::menu_item(ui,
+                                   widget_id(info.id),
+                                   info.title,
+                                   info.shortcut,
+                                   action->permission(now),
+                                   action->is_on(now))) {
                 ask.run(std::string(info.id));
             }
         }
-        if (title == "File") {
-            draw_samples(ui, now, ask);
+        if (title == "View") {
+            if (const auto layers = widgets::submenu(ui, "layers", "Layers")) {
+                layer_rows(ui, now, ask, catalogue_);
+            }
         }
     }
 }
 
-void MenuBar::draw_samples(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MenuBar::draw_files(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     widgets::menu_line(ui);
     for (const std::filesystem::path& sample : project::sample_projects(now.assets)) {
-        if (widgets::menu_item(ui, "sample_" + sample.stem().string(), "Sample: " + sample.stem().string())) {
+        const std::string name = sample.stem().string();
+        if (widgets::menu_item(ui, "sample_" + name, name, "sample")) {
             ask.open_file(sample);
         }
     }
-    if (now.document.recent.empty()) {
+    if (now.recent.empty()) {
         return;
     }
     widgets::menu_line(ui);
     int n = 0;
-    for (const std::filesystem::path& file : now.document.recent) {
-        if (widgets::menu_item(ui, "recent_" + std::to_string(++n), file.filename().string())) {
+    for (const std::filesystem::path& file : now.recent) {
+        if (widgets::menu_item(ui,
+                               "recent_" + std::to_string(++n),
+                               file.filename().string(),
+                               file.parent_path().filename().string())) {
             ask.open_file(file);
         }
     }

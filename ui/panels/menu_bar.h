@@ -1,4 +1,4 @@
-// The top bar: menus, the workspaces, search, the emergency stop, which is always in sight.
+// The top bar: menus, the workspaces, what is wanted often, search.
 #pragma once
 
 #include "ui/panels/panel.h"
@@ -12,7 +12,8 @@ public:
 
 private:
     void draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_samples(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_files(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
 };

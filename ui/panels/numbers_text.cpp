@@ -3,7 +3,10 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 
+#include <fmt/chrono.h>
+
 #include <cmath>
+#include <ctime>
 
 namespace millwright::panels {
 
@@ -14,6 +17,13 @@ std::string length_text(double mm) {
 
 std::string angle_text(double rad) {
     return std::isfinite(rad) ? fixed(to_degrees(rad), 2) : "-";
+}
+
+std::string date_time_text(std::int64_t time_s) {
+    const auto time = static_cast<std::time_t>(time_s);
+    std::tm local{};
+    return time_s > 0 && ::localtime_r(&time, &local) != nullptr ? fmt::format("{:%Y-%m-%d %H:%M}", local)
+                                                                 : "-";
 }
 
 std::string change_text(double before, double now) {

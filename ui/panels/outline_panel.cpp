@@ -63,7 +63,8 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.note(now.document.file.empty() ? "not saved yet" : now.document.file.filename().string());
     ui.gap();
     const std::vector<Row> rows = rows_of(now);
-    constexpr std::array<widgets::Column, 2> columns{{{"Stage", "", 1.0F, false}, {"", "", 1.0F, true}}};
+    constexpr std::array<widgets::Column, 2> columns{
+        {{"Stage", "", 1.0F, false}, {"mean error", "", 1.0F, true}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(rows);

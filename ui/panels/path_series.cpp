@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace millwright::panels {
 
@@ -12,10 +13,21 @@ ErrorOverPath error_over_path(const project::Evaluation& evaluation) {
     double length = 0.0;
     for (const toolpath::MoveDeviation& move : evaluation.field.moves) {
         series.at.push_back(length + 0.5 * move.length);
-        series.error.push_back(move.closest);
+        const bool cross = move.kind == toolpath::MoveKind::cross;
+        series.error.push_back(cross ? std::numeric_limits<double>::quiet_NaN() : move.closest);
         length += move.length;
     }
     return series;
+}
+
+double length_before(const project::Evaluation& evaluation, int move, double fraction) {
+    const auto& moves = evaluation.field.moves;
+    double length = 0.0;
+    for (int n = 0; n < move && n < static_cast<int>(moves.size()); ++n) {
+        length += moves[static_cast<std::size_t>(n)].length;
+    }
+    const bool inside = move >= 0 && move < static_cast<int>(moves.size());
+    return inside ? length + fraction * moves[static_cast<std::size_t>(move)].length : length;
 }
 
 TrajectorySeries series_over_way(const motion::Trajectory& trajectory,

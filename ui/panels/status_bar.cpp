@@ -25,20 +25,27 @@ std::string mouse_text(const std::optional<Vec3>& p) {
 } // namespace
 
 void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
+    constexpr float left = 12.0F;
+    constexpr float top = 5.0F;
+    constexpr float work_width = 460.0F;
+    constexpr float between = 18.0F;
+    ui.move_by(ui.px(left), ui.px(top));
     if (now.activity.busy) {
+        const auto width = ui.width(ui.px(work_width));
         if (ui.progress("work", now.activity.text, now.activity.fraction)) {
             ask.run("work.cancel");
         }
-        return;
+    } else {
+        ui.words(now.failure().empty() ? "Ready" : "No program: see the outline", widgets::Tone::muted);
     }
     const std::string file =
         now.document.file.empty() ? now.project.name : now.document.file.filename().string();
-    ui.note(fmt::format("{}     {}     {}     {}{}",
-                        now.failure().empty() ? "Ready" : "No program: see the outline",
-                        machine_state(now),
-                        mouse_text(under_mouse),
-                        file,
-                        now.changed() ? " (changed)" : ""));
+    for (const std::string& text :
+         {machine_state(now), mouse_text(under_mouse), file + (now.changed() ? " (not saved)" : "")}) {
+        ui.beside();
+        ui.move_by(ui.px(between), 0.0F);
+        ui.words(text, widgets::Tone::muted);
+    }
 }
 
 } // namespace millwright::panels

@@ -1,5 +1,8 @@
 #include "ui/panels/view_panel.h"
 
+#include "core/project/plan.h"
+#include "ui/panels/layer_list.h"
+
 #include <algorithm>
 #include <string>
 #include <variant>
@@ -46,6 +49,12 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
     }
 }
 
+/// The results are of the surface that the project has now: after another project was opened, not at once.
+bool shows_the_project(const Workbench& now) {
+    return now.plan && now.plan->plan.surface &&
+           *now.plan->plan.surface == project::surface_of(now.project.surface);
+}
+
 } // namespace
 
 viewport::Scene scene_of(const Workbench& now) {
@@ -61,6 +70,7 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.workpiece = plan.workpiece;
     scene.singular_points = plan.singular_points;
     scene.shown = now.shown();
+    scene.weight = plan.weight;
     scene.start = now.evaluation(project::GridMethod::uniform);
     if (now.watched && now.session.workspace == Workspace::grid) {
         scene.watched = now.watched->state;
@@ -84,7 +94,7 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
 }
 
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
-    if (now.session.fit_wanted && now.plan) {
+    if (now.session.fit_wanted && shows_the_project(now)) {
         view_.fit();
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
@@ -92,6 +102,7 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
     for (const viewport::ViewEvent& event : view_.draw(ui, place, scene_of(now))) {
         obey(event, now, ask);
     }
+    layer_button(ui, now, ask, catalogue_, view_.next_button());
 }
 
 } // namespace millwright::panels

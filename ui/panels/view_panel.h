@@ -10,6 +10,9 @@ namespace millwright::panels {
 
 class ViewPanel {
 public:
+    /// `catalogue` must outlive it.
+    explicit ViewPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+
     /// Into `place` of the current pane.
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place);
 
@@ -18,6 +21,7 @@ public:
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
+    const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
 };
 

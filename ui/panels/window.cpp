@@ -22,9 +22,10 @@ struct Window::Layout {
 
 namespace {
 
-constexpr float menu_height = 58.0F;
-constexpr float status_height = 44.0F;
+constexpr float menu_height = 46.0F;
+constexpr float status_height = 36.0F;
 constexpr float timeline_height = 92.0F;
+constexpr float emergency_width = 184.0F;
 constexpr float seam = 2.0F;
 constexpr float smallest_view = 240.0F;
 
@@ -33,7 +34,7 @@ constexpr float smallest_view = 240.0F;
 Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()) {}
+      machine_(workshop.catalogue()), dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
 
 Window::Layout
 Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
@@ -44,7 +45,7 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float left = sizes.outline_shown ? ui.px(sizes.outline) : 0.0F;
     const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
     const float lower = sizes.lower_shown ? ui.px(sizes.lower) : 0.0F;
-    const float emergency = ui.px(184.0F);
+    const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
     const float view_left = left > 0.0F ? left + s : 0.0F;
@@ -77,18 +78,12 @@ void Window::draw(Ui& ui, float width, float height) {
 
 void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     {
-        const auto pane = ui.pane("menu", place.menu);
+        const auto pane = ui.bare_pane("menu", place.menu);
         menu_bar_.draw(ui, now, ask_);
     }
     {
-        const auto pane = ui.pane("emergency", place.emergency);
-        action_button(ui,
-                      now,
-                      ask_,
-                      workshop_.catalogue(),
-                      "machine.emergency_stop",
-                      widgets::Rank::danger,
-                      "Emergency stop");
+        const auto pane = ui.bare_pane("emergency", place.emergency);
+        draw_emergency_stop(ui, now);
     }
     if (place.outline.w > 0.0F) {
         const auto pane = ui.pane("outline", place.outline, "Project");
@@ -110,15 +105,32 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
         const auto pane = ui.pane("lower", place.lower);
         lower_.draw(ui, now, ask_);
     }
-    const auto pane = ui.pane("status", place.status);
+    const auto pane = ui.bare_pane("status", place.status);
     status_bar(ui, now, ask_, view_.under_mouse());
 }
 
-void Window::draw_inspector(Ui& ui, const Workbench& now) {
-    if (now.session.question != actions::FileQuestion::none) {
-        files_.draw(ui, now, ask_);
-        return;
+/// Acts when the mouse goes down on it, whatever menu or dialog is open.
+void Window::draw_emergency_stop(Ui& ui, const Workbench& now) {
+    const actions::Action& stop = workshop_.catalogue().find("machine.emergency_stop");
+    const widgets::Permission permission = stop.permission(now);
+    ui.move_by(0.0F, ui.px(10.0F));
+    bool asked = false;
+    {
+        const auto width = ui.width(ui.px(emergency_width - 12.0F));
+        asked = ui.button("machine_emergency_stop",
+                          "Emergency stop",
+                          permission,
+                          {stop.info().icon, widgets::Rank::danger, -1.0F, stop.info().tip});
     }
+    const Rect button = ui.place("emergency/machine_emergency_stop").value_or(Rect{});
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool hit = io.MouseClicked[0] && button.contains({io.MousePos.x, io.MousePos.y});
+    if (asked || (hit && permission.allowed)) {
+        ask_.run("machine.emergency_stop");
+    }
+}
+
+void Window::draw_inspector(Ui& ui, const Workbench& now) {
     switch (now.session.workspace) {
     case Workspace::design:
         return design_.draw(ui, now, ask_);
@@ -182,10 +194,14 @@ void Window::draw_over(Ui& ui, const Workbench& now, float width, float height) 
         search_.open();
         ask_.show([](actions::Session& session) { session.search_wanted = false; });
     }
+    dialogs_.draw(ui, now, ask_);
     std::vector<widgets::SearchItem> items;
     std::vector<std::string> ids;
     for (const auto& action : workshop_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
+        if (info.menu == actions::dialog_menu) {
+            continue;
+        }
         ids.emplace_back(info.id);
         items.push_back({info.id, info.title, info.menu, info.shortcut, action->permission(now)});
     }
@@ -199,7 +215,7 @@ void Window::obey_shortcuts(const Workbench& now) {
     const ImGuiIO& io = ImGui::GetIO();
     for (const auto& action : workshop_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
-        if (info.shortcut.empty()) {
+        if (info.shortcut.empty() || (now.asks() && info.menu != "Machine")) {
             continue;
         }
         const actions::Shortcut keys = actions::shortcut(info.shortcut);

@@ -4,7 +4,7 @@
 
 #include "ui/actions/workshop.h"
 #include "ui/panels/design_panel.h"
-#include "ui/panels/file_panel.h"
+#include "ui/panels/dialogs.h"
 #include "ui/panels/grid_panel.h"
 #include "ui/panels/lower_panel.h"
 #include "ui/panels/machine_panel.h"
@@ -37,6 +37,7 @@ private:
     [[nodiscard]] Layout
     layout(const Ui& ui, const actions::Session& session, float width, float height) const;
     void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
+    void draw_emergency_stop(Ui& ui, const Workbench& now);
     void draw_inspector(Ui& ui, const Workbench& now);
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
     void draw_over(Ui& ui, const Workbench& now, float width, float height);
@@ -53,7 +54,7 @@ private:
     MachinePanel machine_;
     LowerPanel lower_;
     TimelinePanel timeline_;
-    FilePanel files_;
+    Dialogs dialogs_;
     ViewPanel view_;
     widgets::Toasts toasts_;
     widgets::Search search_;

@@ -42,26 +42,26 @@ Framebuffer::Framebuffer(const PixelSize& size, int samples) : size_(size) {
     const KeepFramebuffers keep;
     samples_ = std::clamp(samples, 1, std::max(gl_integer(GL_MAX_SAMPLES), 1));
     color_ = Texture(size, {}, Filter::linear);
-    depth_ = new_renderbuffer(GL_DEPTH24_STENCIL8, size, samples_);
+    depth_ = new_renderbuffer(GL_DEPTH24_STENCIL8, size, 1);
     resolved_ = new_framebuffer();
     glBindFramebuffer(GL_FRAMEBUFFER, resolved_.id());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
-    if (samples_ == 1) {
-        attach_depth(depth_);
-    }
+    attach_depth(depth_);
     check_complete();
     if (samples_ > 1) {
+        sampled_depth_ = new_renderbuffer(GL_DEPTH24_STENCIL8, size, samples_);
         sampled_color_ = new_renderbuffer(GL_RGBA8, size, samples_);
         sampled_ = new_framebuffer();
         glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, sampled_color_.id());
-        attach_depth(depth_);
+        attach_depth(sampled_depth_);
         check_complete();
     }
 }
 
-void Framebuffer::bind() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, samples_ > 1 ? sampled_.id() : resolved_.id());
+void Framebuffer::bind(Edges edges) const {
+    const bool sampled = samples_ > 1 && edges == Edges::smooth;
+    glBindFramebuffer(GL_FRAMEBUFFER, sampled ? sampled_.id() : resolved_.id());
     cover(size_);
 }
 

@@ -7,6 +7,12 @@
 
 namespace millwright::render {
 
+/// What is worth its time: while things move, `rough` costs a third where the processor draws.
+enum class Edges {
+    smooth, ///< all samples of the framebuffer
+    rough   ///< one sample a pixel
+};
+
 class Framebuffer {
 public:
     /// `samples` is lowered to what the driver can do. Throws Defect if the size has no area or is refused.
@@ -16,9 +22,10 @@ public:
     [[nodiscard]] int samples() const { return samples_; }
 
     /// Drawing goes here, the viewport covers all of it.
-    void bind() const;
+    void bind(Edges edges = Edges::smooth) const;
 
-    /// Brings the samples of each pixel together. To be called after drawing, before texture() or read().
+    /// Brings the samples of each pixel together. To be called after drawing with smooth edges, before
+    /// texture() or read().
     void resolve() const;
 
     /// The resolved colours, bottom row first.
@@ -33,6 +40,7 @@ private:
     Texture color_;
     GlHandle<FramebufferKind> resolved_;
     GlHandle<RenderbufferKind> depth_;
+    GlHandle<RenderbufferKind> sampled_depth_;
     GlHandle<RenderbufferKind> sampled_color_;
     GlHandle<FramebufferKind> sampled_;
 };

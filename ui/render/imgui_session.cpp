@@ -3,10 +3,14 @@
 #include "core/base/error.h"
 #include "ui/render/imgui_compat.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 #include <imgui_freetype.h>
+
+#include <utility>
 
 namespace millwright::render {
 
@@ -17,6 +21,7 @@ constexpr const char* glsl_version = "#version 330 core";
 } // namespace
 
 ImGuiSession::ImGuiSession(WindowContext& window) : ImGuiSession(window, window.handle()) {
+    keyboard_ = &window;
     expects(ImGui_ImplGlfw_InitForOpenGL(window_, true), "ImGui accepts the window");
 }
 
@@ -51,10 +56,34 @@ void ImGuiSession::begin_back_ends() {
     ImGui_ImplOpenGL3_NewFrame();
     if (window_ != nullptr) {
         ImGui_ImplGlfw_NewFrame();
+        show_quick_keys();
         return;
     }
     const PixelSize size = context_.framebuffer_size();
     ImGui::GetIO().DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
+}
+
+/// ImGui 1.86 looks at the keys once a frame. One that went down and up since the last is shown down in this.
+void ImGuiSession::show_quick_keys() {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto down = [this](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
+    if (!quick_keys_.empty()) {
+        for (const int key : std::exchange(quick_keys_, {})) {
+            io.KeysDown[key] = down(key);
+        }
+        io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
+        io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+        io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
+    }
+    for (const KeyPress& press : keyboard_->take_key_presses()) {
+        if (!io.KeysDown[press.key]) {
+            io.KeysDown[press.key] = true;
+            io.KeyCtrl = press.ctrl;
+            io.KeyShift = press.shift;
+            io.KeyAlt = press.alt;
+            quick_keys_.push_back(press.key);
+        }
+    }
 }
 
 void ImGuiSession::begin_frame() {

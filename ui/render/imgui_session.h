@@ -7,6 +7,8 @@
 #include "ui/render/offscreen_context.h"
 #include "ui/render/window_context.h"
 
+#include <vector>
+
 struct ImGuiContext;
 
 namespace millwright::render {
@@ -34,9 +36,12 @@ public:
 private:
     ImGuiSession(Context& context, GLFWwindow* window);
     void begin_back_ends();
+    void show_quick_keys();
 
     Context& context_;
     GLFWwindow* window_;
+    WindowContext* keyboard_ = nullptr; ///< null in memory
+    std::vector<int> quick_keys_;       ///< shown down in the last frame although they were up again
     ImGuiContext* imgui_;
 };
 

@@ -9,7 +9,7 @@ namespace millwright::render {
 
 ViewTarget::ViewTarget(int samples) : samples_(samples) {}
 
-void ViewTarget::begin(const PixelSize& size) {
+void ViewTarget::begin(const PixelSize& size, Edges edges) {
     const PixelSize wanted = {.width = std::max(size.width, 1), .height = std::max(size.height, 1)};
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
@@ -18,12 +18,15 @@ void ViewTarget::begin(const PixelSize& size) {
     if (!picture_ || picture_->size() != wanted) {
         picture_.emplace(wanted, samples_);
     }
-    picture_->bind();
+    edges_ = edges;
+    picture_->bind(edges);
 }
 
 void ViewTarget::end() {
     expects(picture_.has_value(), "a view's drawing has begun before it ends");
-    picture_->resolve();
+    if (edges_ == Edges::smooth) {
+        picture_->resolve();
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, bound_before_);
     cover(viewport_before_);
 }

@@ -16,7 +16,7 @@ public:
 
     /// Drawing goes here until end(). Memory is made anew only when the size changes; a size without area
     /// counts as one pixel.
-    void begin(const PixelSize& size);
+    void begin(const PixelSize& size, Edges edges = Edges::smooth);
 
     /// The picture is ready. Drawing goes back to what was bound before begin().
     void end();
@@ -32,6 +32,7 @@ public:
 
 private:
     int samples_;
+    Edges edges_ = Edges::smooth; ///< of the picture that was begun
     std::optional<Framebuffer> picture_;
     GlId bound_before_ = 0U;
     PixelSize viewport_before_;

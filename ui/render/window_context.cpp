@@ -72,6 +72,7 @@ GLFWwindow* opened_window(const WindowOptions& options) {
 struct Happened {
     std::atomic<bool> redraw = true; // a new window shows nothing yet
     std::vector<std::filesystem::path> dropped;
+    std::vector<KeyPress> presses;
 };
 
 Happened& happened_in(GLFWwindow* window) {
@@ -89,9 +90,20 @@ void dropped(GLFWwindow* window, int count, const char** files) {
     happened.redraw = true;
 }
 
+void key_changed(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
+    Happened& happened = happened_in(window);
+    happened.redraw = true;
+    if (action == GLFW_PRESS && key != GLFW_KEY_UNKNOWN) {
+        happened.presses.push_back({.key = key,
+                                    .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
+                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                    .alt = (mods & GLFW_MOD_ALT) != 0});
+    }
+}
+
 void listen(GLFWwindow* window, Happened& happened) {
     glfwSetWindowUserPointer(window, &happened);
-    glfwSetKeyCallback(window, redraw<int, int, int, int>);
+    glfwSetKeyCallback(window, key_changed);
     glfwSetCharCallback(window, redraw<unsigned int>);
     glfwSetMouseButtonCallback(window, redraw<int, int, int>);
     glfwSetCursorPosCallback(window, redraw<double, double>);
@@ -217,6 +229,11 @@ void WindowContext::set_title(const std::string& title) {
 
 void WindowContext::on_drop(DropListener listener) {
     parts_->on_drop = std::move(listener);
+}
+
+// NOLINTNEXTLINE(readability-make-member-function-const): it changes what the window remembers
+std::vector<KeyPress> WindowContext::take_key_presses() {
+    return std::exchange(parts_->happened.presses, {});
 }
 
 GLFWwindow* WindowContext::handle() const {

@@ -21,6 +21,14 @@ struct WindowOptions {
     Picture icon = {}; ///< empty for the system's own
 };
 
+/// A key going down, with GLFW's number, and what was held with it.
+struct KeyPress {
+    int key = 0;
+    bool ctrl = false;
+    bool shift = false;
+    bool alt = false;
+};
+
 /// One at a time in a program, on the main thread.
 class WindowContext final : public Context {
 public:
@@ -57,6 +65,9 @@ public:
 
     /// Called from wait() with the files that were dropped on the window.
     void on_drop(DropListener listener);
+
+    /// Keys that went down since the last call, also those that are up again.
+    [[nodiscard]] std::vector<KeyPress> take_key_presses();
 
     /// For the ImGui session; nobody else calls GLFW.
     [[nodiscard]] GLFWwindow* handle() const;

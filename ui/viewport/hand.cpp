@@ -29,6 +29,16 @@ bool editable(const Scene& scene) {
     return scene.layers.control_net && scene.surface;
 }
 
+/// A selection may be older than the surface.
+bool exists(const geometry::Surface& surface, const ControlPointId& id) {
+    const auto patch = static_cast<int>(id.patch);
+    if (patch < 0 || patch >= surface.patch_count()) {
+        return false;
+    }
+    const geometry::ControlNet& net = surface.patch(id.patch).net();
+    return id.i >= 0 && id.i < net.rows && id.j >= 0 && id.j < net.columns;
+}
+
 Vec3 position_of(const geometry::Surface& surface, const ControlPointId& id) {
     return surface.patch(id.patch).net().point(id.i, id.j);
 }
@@ -130,7 +140,7 @@ void Hand::hold(const HandInput& input, std::vector<ViewEvent>& events) {
     const bool moved = glm::length(pixel - pressed_->pixel) > still_px * input.view.content_scale;
     if (!drag_ && !box_ && moved && editable(input.scene)) {
         if (pressed_->point) {
-            begin_drag(input, events);
+            begin_drag(input, events); // nothing, if an edit from elsewhere has taken the point away
         } else {
             box_ = Box{.corner = pressed_->pixel, .opposite = pixel};
         }
@@ -149,6 +159,9 @@ void Hand::hold(const HandInput& input, std::vector<ViewEvent>& events) {
 
 void Hand::begin_drag(const HandInput& input, std::vector<ViewEvent>& events) {
     const Scene& scene = input.scene;
+    if (!exists(*scene.surface, *pressed_->point)) {
+        return;
+    }
     std::vector<ControlPointId> ids = scene.selected;
     if (!contains(ids, *pressed_->point)) {
         ids = {*pressed_->point};
@@ -157,8 +170,10 @@ void Hand::begin_drag(const HandInput& input, std::vector<ViewEvent>& events) {
     std::vector<MovedControlPoint> points;
     std::size_t grabbed = 0;
     for (const ControlPointId& id : ids) {
-        grabbed = id == *pressed_->point ? points.size() : grabbed;
-        points.push_back({.id = id, .position = position_of(*scene.surface, id)});
+        if (exists(*scene.surface, id)) {
+            grabbed = id == *pressed_->point ? points.size() : grabbed;
+            points.push_back({.id = id, .position = position_of(*scene.surface, id)});
+        }
     }
     drag_.emplace(std::move(points), grabbed, scene_from_workpiece(scene), pressed_->pixel);
 }
@@ -175,7 +190,7 @@ void Hand::take_back(std::vector<ViewEvent>& events) {
 void Hand::release(const HandInput& input, std::vector<ViewEvent>& events) {
     if (drag_) {
         events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = Stage::finished});
-    } else if (box_) {
+    } else if (box_ && editable(input.scene)) {
         std::vector<ControlPointId> found = control_points_in(*input.scene.surface,
                                                               scene_from_workpiece(input.scene),
                                                               input.view,
@@ -185,7 +200,7 @@ void Hand::release(const HandInput& input, std::vector<ViewEvent>& events) {
             found.insert(found.end(), input.scene.selected.begin(), input.scene.selected.end());
         }
         events.emplace_back(SelectControlPoints{.points = tidied(std::move(found))});
-    } else {
+    } else if (!box_) {
         click(input, events);
     }
     drag_.reset();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int cells_per_side = 48;
 constexpr int path_steps = 8;
-constexpr double loop_px = 160.0; // an actual path may lie this far from its move's chord and still be found
+constexpr double loop_to_error = 1.5; // an actual path may lie so many of its errors beside its move
 
 template <typename Use> void for_each_point(const geometry::Surface& surface, const Use& use) {
     for (int p = 0; p < surface.patch_count(); ++p) {
@@ -89,12 +89,19 @@ private:
         return seen ? std::optional(seen->pixel) : std::nullopt;
     }
 
+    /// Neither the surface over the move nor the actual path comes near the pixel.
     [[nodiscard]] bool far_away(int move) const {
         const auto& points = scene_.shown->toolpath.points;
         const auto from = static_cast<std::size_t>(move);
         const auto a = on_screen(points[from].pose.tip);
         const auto b = on_screen(points[from + 1].pose.tip);
-        return !a || !b || nearest_on(*a, *b, pixel_).distance > loop_px + 0.5 * glm::length(*b - *a);
+        if (!a || !b) {
+            return true;
+        }
+        const double error = scene_.layers.error_path ? scene_.shown->field.moves[from].param : 0.0;
+        const double pixel = render::pixel_length(view_, render::to_glm(s_T_w_ * points[from].pose.tip));
+        const double beside = 0.5 * glm::length(*b - *a) + loop_to_error * error / pixel;
+        return nearest_on(*a, *b, pixel_).distance > nearest_ + beside;
     }
 
     void look_along(int move, const std::vector<Vec3>& points) {

@@ -140,6 +140,7 @@ Scene scene_of(const project::Project& project, const project::Plan& plan, ViewK
             .shown = chosen ? chosen : plan.uniform,
             .start = plan.uniform,
             .watched = nullptr,
+            .weight = plan.weight,
             .now = std::nullopt,
             .selected = {},
             .error = {}};
@@ -172,7 +173,7 @@ render::Picture render_view(const project::Project& project,
         if (sheet.details) {
             const Pane first = drawn.front()->pane(sheet.signs, colors);
             draw_scale_bar(ui, first, drawn.front()->camera().pose().target);
-            draw_legend(ui, drawn.back()->pane(sheet.signs, colors), parts.back().scene);
+            draw_legends(ui, drawn.back()->pane(sheet.signs, colors), parts.back().scene);
             (void)axis_gizmo(ui, drawn.back()->pane(sheet.signs, colors));
         }
     });

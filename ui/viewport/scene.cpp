@@ -1,5 +1,6 @@
 #include "ui/viewport/scene.h"
 
+#include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
 
@@ -90,8 +91,8 @@ bool operator==(const Scene& a, const Scene& b) {
            std::ranges::equal(a.singular_points,
                               b.singular_points,
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
-           a.shown == b.shown && a.start == b.start && a.watched == b.watched && same(a.now, b.now) &&
-           a.selected == b.selected && a.error == b.error;
+           a.shown == b.shown && a.start == b.start && a.watched == b.watched && a.weight == b.weight &&
+           same(a.now, b.now) && a.selected == b.selected && a.error == b.error;
 }
 
 kinematics::AxisPositions axes_now(const Scene& scene) {
@@ -113,6 +114,25 @@ Frame scene_from_workpiece(const Scene& scene) {
     return scene.layers.machine && scene.workpiece
                ? kinematics::m_T_w(scene.workpiece->machine, axes_now(scene))
                : Frame::Identity();
+}
+
+SurfaceColors surface_colors(const Scene& scene) {
+    if (scene.layers.weight && scene.weight && scene.workpiece) {
+        return SurfaceColors::weight;
+    }
+    return scene.layers.error_surface && scene.shown && scene.workpiece ? SurfaceColors::error
+                                                                        : SurfaceColors::plain;
+}
+
+render::ColorScale weight_colors(const Scene& scene) {
+    expects(scene.weight != nullptr, "there is a weight to be coloured");
+    const project::WeightMap& weight = *scene.weight;
+    const bool constant = !(weight.high > weight.low); // its legend has a range all the same
+    const double above = constant ? std::max(std::abs(weight.low), 1.0) : 0.0;
+    return {.map = scene.error.map == render::ColorMap::viridis ? render::ColorMap::cividis
+                                                                : render::ColorMap::viridis,
+            .low = weight.low,
+            .high = weight.high + above};
 }
 
 render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit) {

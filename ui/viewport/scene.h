@@ -7,6 +7,7 @@
 #include "core/geometry/surface.h"
 #include "core/grid/improver.h"
 #include "core/project/evaluation.h"
+#include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
 #include "ui/render/color_map.h"
@@ -39,6 +40,7 @@ struct Layers {
     bool tool_axes = false;       ///< a hair along the tool at each path point
     bool error_path = false;      ///< the actual path, coloured by the error of each move
     bool error_surface = false;   ///< the surface, coloured by the errors around each place
+    bool weight = false;          ///< the surface, coloured by the weight of the elliptic functional
     bool singular_points = false; ///< of the machine on the surface
     bool machine = false;         ///< its bodies; the scene is then the machine's frame
     bool tool = false;            ///< the tool at `now`
@@ -87,6 +89,7 @@ struct Scene {
     std::shared_ptr<const project::Evaluation> start; ///< the grid it began with
     std::shared_ptr<const grid::ImproverState>
         watched; ///< an adaptation on its way; drawn in place of the grid
+    std::shared_ptr<const project::WeightMap> weight;
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     ErrorScale error;
@@ -100,6 +103,14 @@ struct Scene {
 
 /// Workpiece to machine coordinates with axes_now() where the machine is shown, else the identity.
 [[nodiscard]] Frame scene_from_workpiece(const Scene& scene);
+
+/// What gives the surface its colours: the topmost of the layers that are on and have their results.
+enum class SurfaceColors { plain, error, weight };
+[[nodiscard]] SurfaceColors surface_colors(const Scene& scene);
+
+/// The colours of the weight, from its least to its largest value; another map than that of the errors.
+/// Throws Defect without a weight.
+[[nodiscard]] render::ColorScale weight_colors(const Scene& scene);
 
 /// The colours of the errors of `shown`: from 0 to a round number not below twice their mean, unless the
 /// scene says otherwise. `over_limit` comes from the theme.

@@ -48,6 +48,7 @@ struct Viewport::State {
     std::size_t active = iso; ///< last worked in
     Arrangement arrangement = Arrangement::one;
     UnderMouse under_mouse;
+    widgets::Point next_button;
     bool dragging = false;
 
     std::vector<ViewEvent> draw_pane(const Frame3D& frame, std::size_t k, const Rect& place) {
@@ -77,7 +78,7 @@ struct Viewport::State {
             fit();
             changed = true;
         }
-        if (button("parallel", widgets::icons::eye, "Parallel lines stay parallel (P)", flat)) {
+        if (button("parallel", widgets::icons::projection, "Parallel lines stay parallel (P)", flat)) {
             set_projection(flat ? Projection::perspective : Projection::orthographic);
             changed = true;
         }
@@ -88,6 +89,7 @@ struct Viewport::State {
         if (changed) {
             ui.change_in(0.0);
         }
+        next_button = {at.x, at.y};
     }
 
     void arrange(Arrangement wanted) {
@@ -174,6 +176,10 @@ void Viewport::set_camera(const render::Camera& camera) {
 
 const UnderMouse& Viewport::under_mouse() const {
     return state_->under_mouse;
+}
+
+widgets::Point Viewport::next_button() const {
+    return state_->next_button;
 }
 
 bool Viewport::dragging() const {

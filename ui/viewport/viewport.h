@@ -49,6 +49,8 @@ public:
 
     /// As of the last draw(); for the status bar.
     [[nodiscard]] const UnderMouse& under_mouse() const;
+    /// Upper left corner of one more button below those of the view, as of the last draw().
+    [[nodiscard]] widgets::Point next_button() const;
     /// Control points are being dragged.
     [[nodiscard]] bool dragging() const;
 

@@ -1,6 +1,7 @@
 #include "ui/widgets/canvas.h"
 
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,7 @@ Canvas canvas(Ui& ui, std::string_view id, const Rect& place, std::uintptr_t tex
                                             ImGuiButtonFlags_MouseButtonMiddle;
     ImGui::InvisibleButton(own.c_str(), {std::max(place.w, 1.0F), std::max(place.h, 1.0F)}, any_button);
     ImGui::SetItemAllowOverlap(); // legends and buttons on the picture come later and win
+    keep_wheel();
     const std::string& on_top = ui.state().under_mouse_before;
     const bool hovered = ImGui::IsItemHovered() && (on_top.empty() || on_top == own);
     if (ImGui::IsItemHovered()) {

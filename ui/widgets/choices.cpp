@@ -11,6 +11,7 @@ namespace millwright::widgets {
 namespace {
 
 constexpr double disabled_opacity = 0.45;
+constexpr float between_rows = 2.0F;
 
 std::string with_icon(const Option& option) {
     return option.icon.empty() ? std::string(option.label)
@@ -51,21 +52,31 @@ std::optional<int> popup_rows(Ui& ui, const std::string& own, int now, std::span
     return chosen;
 }
 
-float popup_width(const Ui& ui, float at_least, std::span<const Option> options) {
-    float width = at_least;
+/// The list below its field, above it where there is more room; it scrolls if it is too long for both.
+Rect popup_place(const Ui& ui, const Rect& field, std::span<const Option> options) {
+    float width = field.w;
     for (const Option& option : options) {
-        width = std::max(width, text_width(ui.look().fonts.text, with_icon(option)) + ui.px(32.0F));
+        width = std::max(width, text_width(ui.look().fonts.text, with_icon(option)) + ui.px(40.0F));
     }
-    return width;
+    const float away = ui.px(2.0F);
+    const auto rows = static_cast<float>(options.size());
+    const float wanted = rows * ui.px(gaps::row) + (rows - 1.0F) * between_rows + 2.0F * ui.px(gaps::tiny);
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float below = window.y - field.bottom() - 2.0F * away;
+    const float above = field.y - 2.0F * away;
+    const bool opens_up = wanted > below && above > below;
+    const float height = std::ceil(std::min(wanted, std::max(opens_up ? above : below, ui.px(gaps::row))));
+    const float x = std::clamp(field.x, 0.0F, std::max(0.0F, window.x - width));
+    return {x, opens_up ? field.y - away - height : field.bottom() + away, width, height};
 }
 
 struct PopupFrame {
-    PopupFrame(Ui& ui, const Rect& below, float width) {
+    PopupFrame(const Ui& ui, const Rect& place) {
         const float pad = ui.px(gaps::tiny);
-        ImGui::SetNextWindowPos({below.x, below.bottom() + ui.px(2.0F)});
-        ImGui::SetNextWindowSize({width, 0.0F});
+        ImGui::SetNextWindowPos(upper_left(place));
+        ImGui::SetNextWindowSize({place.w, place.h});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
-        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, between_rows});
     }
     PopupFrame(const PopupFrame&) = delete;
     PopupFrame& operator=(const PopupFrame&) = delete;
@@ -126,7 +137,7 @@ std::optional<int> Ui::choice(std::string_view id,
     if (!ImGui::IsPopupOpen(own.c_str())) {
         return std::nullopt;
     }
-    const PopupFrame frame(*this, field, popup_width(*this, field.w, options));
+    const PopupFrame frame(*this, popup_place(*this, field, options));
     std::optional<int> chosen;
     if (ImGui::BeginPopup(own.c_str())) {
         chosen = popup_rows(*this, own, now, options);

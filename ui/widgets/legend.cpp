@@ -59,7 +59,8 @@ bool legend(Ui& ui, std::string_view id, const Rect& place, const LegendView& vi
     draw_text(ui, ui.look().fonts.strong, {inside.x, inside.y, inside.w, line}, colours.text, view.title);
     draw_text(
         ui, ui.look().fonts.small, {inside.x, inside.y + line, inside.w, line}, colours.muted, view.unit);
-    Rect bar{inside.x, inside.y + 2.0F * line + ui.px(6.0F), ui.px(14.0F), 0.0F};
+    const float words = view.unit.empty() ? line : 2.0F * line;
+    Rect bar{inside.x, inside.y + words + ui.px(6.0F), ui.px(14.0F), 0.0F};
     if (view.over) {
         const Rect swatch{bar.x, bar.y, bar.w, ui.px(10.0F)};
         fill(swatch, *view.over, ui.px(2.0F));

@@ -14,7 +14,7 @@ using ColourMap = std::function<Colour(double)>;
 
 struct LegendView {
     std::string_view title = {};
-    std::string_view unit = {};
+    std::string_view unit = {}; ///< empty for a number without one
     double low = 0.0;
     double high = 1.0;
     ColourMap map = {};

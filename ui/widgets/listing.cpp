@@ -1,6 +1,7 @@
 #include "ui/widgets/listing.h"
 
 #include "core/base/error.h"
+#include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/rows.h"
 
 #include <algorithm>
@@ -106,6 +107,9 @@ std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const Listing
     const Rows rows(ui, own, box, view.lines, row_height);
     const Rect inside{box.x, box.y, rows.row(0).w, box.h};
     const Press now = press(ui, own + "/lines", inside);
+    if (rows.scrolls()) {
+        keep_wheel();
+    }
     const float digits = text_width(ui.look().fonts.mono, std::to_string(view.lines));
     std::optional<std::ptrdiff_t> clicked;
     for (std::ptrdiff_t i = rows.first(); i < rows.end(); ++i) {

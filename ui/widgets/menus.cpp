@@ -3,6 +3,7 @@
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -11,10 +12,25 @@ namespace millwright::widgets {
 namespace {
 
 constexpr float menu_width = 290.0F;
+constexpr float switches_width = 220.0F;
+constexpr float mark_width = 30.0F; // left of the words: a tick or an eye
 
-Guard begin_list(Ui& ui, std::string_view id, const std::string& popup) {
+/// Moves the list that was just begun up as far as its last rows need. ImGui knows its height before it is
+/// seen.
+void keep_on_screen(const Ui& ui) {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const float lowest = ImGui::GetIO().DisplaySize.y - ui.px(gaps::tiny) - ImGui::GetWindowSize().y;
+    if (corner.y > lowest) {
+        ImGui::SetWindowPos({corner.x, std::max(lowest, 0.0F)});
+    }
+}
+
+enum class Stay { open, close };
+
+Guard begin_list(
+    Ui& ui, std::string_view id, const std::string& popup, float width = menu_width, Stay stay = Stay::open) {
     const float pad = ui.px(gaps::tiny);
-    ImGui::SetNextWindowSize({ui.px(menu_width), 0.0F});
+    ImGui::SetNextWindowSize({ui.px(width), 0.0F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});
     const bool open = ImGui::BeginPopup(popup.c_str());
@@ -23,6 +39,10 @@ Guard begin_list(Ui& ui, std::string_view id, const std::string& popup) {
         ImGui::PopStyleVar(2);
         return {ui, [](Ui& with) { with.state().places.leave(); }, false};
     }
+    if (stay == Stay::close || ui.escape_pressed()) {
+        ImGui::CloseCurrentPopup();
+    }
+    keep_on_screen(ui);
     return {ui, [](Ui& with) {
                 ImGui::EndPopup();
                 ImGui::PopStyleVar(2);
@@ -59,6 +79,45 @@ Guard menu(Ui& ui, std::string_view id, std::string_view label) {
     return begin_list(ui, id, popup);
 }
 
+Guard submenu(Ui& ui, std::string_view id, std::string_view label) {
+    const std::string own = ui.path(id);
+    const std::string popup = own + "@menu";
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const ImVec2 size = ImGui::GetWindowSize();
+    Rect row;
+    {
+        const Slot slot(ui, 0.0F, ui.px(gaps::row));
+        row = slot.rect();
+        const Press now = press(ui, own, row);
+        const Palette& colours = ui.colours();
+        const bool open = ImGui::IsPopupOpen(popup.c_str());
+        fill(row, now.hovered || now.focused || open ? colours.hover : Colour{0}, ui.px(gaps::rounding));
+        const float tick = ui.px(mark_width);
+        const Rect words{row.x + tick, row.y, row.w - 2.0F * tick, row.h};
+        draw_text(ui, ui.look().fonts.text, words, colours.text, label);
+        const Rect arrow{row.right() - tick, row.y, tick, row.h};
+        draw_text(ui, ui.look().fonts.small, arrow, colours.muted, icons::chevron_right, Align::centre);
+        if (now.clicked || (now.hovered && !open)) {
+            ImGui::OpenPopup(popup.c_str());
+        }
+    }
+    ImGui::SetNextWindowPos({corner.x + size.x, row.y - ui.px(gaps::tiny)});
+    const bool in_menu = ImGui::IsMouseHoveringRect(corner, {corner.x + size.x, corner.y + size.y}, false);
+    const bool on_row = ImGui::IsMouseHoveringRect(upper_left(row), lower_right(row), false);
+    return begin_list(ui, id, popup, switches_width, in_menu && !on_row ? Stay::close : Stay::open);
+}
+
+Guard menu_button(Ui& ui, std::string_view id, std::string_view icon, std::string_view tip) {
+    const std::string popup = ui.path(id) + "@menu";
+    const bool open = ImGui::IsPopupOpen(popup.c_str());
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    if (ui.icon_button(id, icon, tip, {}, open)) {
+        ImGui::OpenPopup(popup.c_str());
+    }
+    ImGui::SetNextWindowPos({corner.x - ui.px(switches_width + gaps::tiny), corner.y});
+    return begin_list(ui, id, popup, switches_width);
+}
+
 Guard context_menu(Ui& ui, std::string_view id, const Rect& place) {
     const std::string popup = ui.path(id) + "@menu";
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right) && ImGui::IsWindowHovered() &&
@@ -80,7 +139,7 @@ bool menu_item(Ui& ui,
     const Palette& colours = ui.colours();
     const double opacity = now.enabled ? 1.0 : 0.45;
     fill(row, now.hovered || now.focused ? colours.hover : Colour{0}, ui.px(gaps::rounding));
-    const float tick = ui.px(26.0F);
+    const float tick = ui.px(mark_width);
     if (is_on) {
         draw_text(ui,
                   ui.look().fonts.small,
@@ -97,6 +156,33 @@ bool menu_item(Ui& ui,
     if (now.clicked) {
         ImGui::CloseCurrentPopup();
     }
+    return now.clicked;
+}
+
+bool menu_eye(Ui& ui,
+              std::string_view id,
+              std::string_view label,
+              bool is_on,
+              std::string_view tip,
+              const Permission& permission) {
+    const Slot slot(ui, 0.0F, ui.px(gaps::row));
+    const Rect& row = slot.rect();
+    const Press now = press(ui, ui.path(id), row, permission, tip);
+    const Palette& colours = ui.colours();
+    const double opacity = now.enabled ? 1.0 : 0.45;
+    fill(row, now.hovered || now.focused ? colours.hover : Colour{0}, ui.px(gaps::rounding));
+    const float eye = ui.px(mark_width);
+    draw_text(ui,
+              ui.look().fonts.text,
+              {row.x, row.y, eye, row.h},
+              faded(is_on ? colours.accent : colours.muted, opacity),
+              is_on ? icons::eye : icons::eye_off,
+              Align::centre);
+    draw_text(ui,
+              ui.look().fonts.text,
+              {row.x + eye, row.y, row.w - eye - ui.px(8.0F), row.h},
+              faded(is_on ? colours.text : colours.muted, opacity),
+              label);
     return now.clicked;
 }
 

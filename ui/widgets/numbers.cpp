@@ -5,6 +5,7 @@
 #include "ui/widgets/arithmetic.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/edit.h"
+#include "ui/widgets/internal/scrub.h"
 #include "ui/widgets/ui.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ bool reset_button(Ui& ui, const std::string& path, const Rect& field, const Fiel
     const Rect place{field.right() - ui.px(7.0F) - unit - width, field.y, width, field.h};
     const std::string tip = "Back to " + fixed(info.default_value, info.decimals) +
                             (info.unit.empty() ? "" : " " + std::string(info.unit));
-    const Press now = press(ui, path + ".reset", place, {}, tip);
+    const Press now = press(ui, path + ".reset", place, {}, tip, Reach::mouse);
     const Colour colour = now.hovered ? ui.colours().accent : faded(ui.colours().muted, 0.8);
     draw_text(ui, ui.look().fonts.small, place, colour, icons::reset, Align::centre);
     return now.clicked;
@@ -95,14 +96,27 @@ std::optional<double> number_row(Ui& ui, const NumberRow& row) {
     const Rect field = labelled(ui, row.path, slot.rect(), row.label, row.info.tip, enabled);
     const bool can_reset =
         enabled && std::isfinite(row.info.default_value) && !exactly_equal(row.value, row.info.default_value);
-    const std::string shown = fixed(row.value, row.info.decimals);
+    std::optional<double> committed;
+    double now = row.value;
+    if (!row.label.empty()) {
+        const float label_width = field.x - slot.rect().x - ui.px(gaps::small);
+        const Scrubbed dragged = scrub(ui,
+                                       {.path = row.path,
+                                        .label = {slot.rect().x, field.y, label_width, field.h},
+                                        .value = row.value,
+                                        .step = step_of(row.info),
+                                        .info = row.info,
+                                        .permission = row.permission});
+        committed = dragged.committed;
+        now = dragged.shown.value_or(row.value);
+    }
+    const std::string shown = fixed(now, row.info.decimals);
     EditBox box = number_box(row.info, shown, row.evaluated, row.smallest_step);
     box.path = row.path;
     box.rect = field;
     box.font = ui.look().fonts.text;
     box.permission = row.permission;
     box.room = can_reset ? ui.px(reset_width) : 0.0F;
-    std::optional<double> committed;
     if (const auto text = edit_box(ui, box)) {
         committed = row.evaluated(*text, row.info).value;
     }

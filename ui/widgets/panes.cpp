@@ -11,7 +11,8 @@ namespace {
 
 constexpr ImGuiWindowFlags pane_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                         ImGuiWindowFlags_NoSavedSettings |
-                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                        ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                        ImGuiWindowFlags_NoNavFocus; // ImGui's Ctrl+Tab list shows bare ids
 
 void end_pane(Ui& ui) {
     ImGui::End();
@@ -107,13 +108,15 @@ Guard Ui::dialog(std::string_view id, std::string_view title, float width) {
     ImGui::SetNextWindowSize({width, 0.0F});
     const float pad = 1.5F * px(gaps::pad);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6.0F));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
     if (!ImGui::IsPopupOpen(own.c_str())) {
         ImGui::OpenPopup(own.c_str());
     }
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
     const bool open = ImGui::BeginPopupModal(own.c_str(), nullptr, flags);
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(3);
     state_->places.enter(id);
     if (!open) {
         return {*this, [](Ui& ui) { ui.state().places.leave(); }, false};

@@ -47,7 +47,7 @@ std::optional<float> splitter(Ui& ui, std::string_view id, const SplitterView& v
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
     ImGui::Begin(own.c_str(), nullptr, flags);
-    const Press now = press(ui, own, grab);
+    const Press now = press(ui, own, grab, {}, {}, Reach::mouse);
     if (now.hovered || now.held) {
         ImGui::SetMouseCursor(is_upright(view.side) ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
     }

@@ -1,6 +1,7 @@
 #include "ui/widgets/table.h"
 
 #include "core/base/error.h"
+#include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/rows.h"
 
 #include <algorithm>
@@ -69,6 +70,9 @@ void draw_cells(
 bool draw_row(Ui& ui, const std::string& own, const Rows& rows, const TableView& view, std::ptrdiff_t index) {
     const std::string path = own + "/" + view.row_id(index);
     const Press now = press(ui, path, rows.row_in_sight(index));
+    if (rows.scrolls()) {
+        keep_wheel();
+    }
     const Rect row = rows.row(index);
     if (index == view.chosen) {
         fill(row, ui.colours().selection);

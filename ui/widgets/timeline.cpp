@@ -162,22 +162,31 @@ std::optional<TimelineAsk> track(Ui& ui, const TimelineView& view) {
     return moves ? std::optional(TimelineAsk{Kind::scrub, mouse}) : std::nullopt;
 }
 
+/// Names the series at the right; without their units where there is little room: the tip on the track has
+/// them.
 void draw_key(Ui& ui, std::span<const TimelineSeries> series) {
     const ImFont* font = ui.look().fonts.small;
     const Slot slot(ui, 0.0F, ui.px(gaps::row));
+    const float swatch = ui.px(12.0F);
+    const float space = ui.px(14.0F);
+    std::vector<std::string> words;
+    float needed = 0.0F;
+    for (const TimelineSeries& one : series) {
+        words.push_back(fmt::format("{} ({})", one.label, one.unit));
+        needed += text_width(font, words.back()) + swatch + ui.px(5.0F) + space;
+    }
     float right = slot.rect().right();
     for (std::size_t i = series.size(); i-- > 0;) {
-        const std::string words = fmt::format("{} ({})", series[i].label, series[i].unit);
-        const float width = text_width(font, words);
-        const float swatch = ui.px(12.0F);
+        const std::string text = needed - space > slot.rect().w ? std::string(series[i].label) : words[i];
+        const float width = text_width(font, text);
         const float x = right - width - swatch - ui.px(5.0F);
         if (x < slot.rect().x) {
-            break; // no room: the tip on the track names them too
+            break;
         }
-        draw_text(ui, font, {right - width, slot.rect().y, width, slot.rect().h}, ui.colours().muted, words);
+        draw_text(ui, font, {right - width, slot.rect().y, width, slot.rect().h}, ui.colours().muted, text);
         const float y = std::round(slot.rect().centre().y) - ui.px(1.5F);
         fill({x, y, swatch, ui.px(3.0F)}, series_colour(ui.colours(), series, i), ui.px(1.5F));
-        right = x - ui.px(14.0F);
+        right = x - space;
     }
 }
 

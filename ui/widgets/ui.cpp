@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
 
 #include <algorithm>
@@ -51,6 +52,11 @@ Ui::Ui(Look look) : look_(look), state_(std::make_unique<State>()) {
 Ui::~Ui() = default;
 
 void Ui::begin_frame() {
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    io.ConfigInputTextCursorBlink = false; // an idle window is not drawn again
+    show_keyboard_on_tab();
+    ImGui::GetBackgroundDrawList()->AddRectFilled({0.0F, 0.0F}, io.DisplaySize, colours().window);
     state_->places.clear();
     state_->under_mouse_before = std::exchange(state_->under_mouse, {});
     state_->hints.clear();
@@ -92,6 +98,22 @@ std::optional<double> Ui::next_change() const {
 void Ui::change_in(double seconds) {
     const double at = ImGui::GetTime() + seconds;
     state_->change_at = state_->change_at ? std::min(*state_->change_at, at) : at;
+}
+
+bool Ui::is_typing() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+bool Ui::escape_pressed() const {
+    return key_pressed(ImGuiKey_Escape);
+}
+
+bool Ui::enter_pressed() const {
+    return key_pressed(ImGuiKey_Enter) || key_pressed(ImGuiKey_KeyPadEnter);
+}
+
+void Ui::focus_pane(std::string_view path) {
+    ImGui::SetWindowFocus(std::string(path).c_str());
 }
 
 Guard Ui::scope(std::string_view id) {

@@ -103,6 +103,14 @@ public:
     /// What did not fit its place in this frame and ends in an ellipsis: for the tests of the layout.
     [[nodiscard]] std::span<const std::string> cut_texts() const;
 
+    // ---- the keyboard
+    /// A text field has it: letters are not shortcuts now.
+    [[nodiscard]] bool is_typing() const;
+    [[nodiscard]] bool escape_pressed() const;
+    [[nodiscard]] bool enter_pressed() const;
+    /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
+    void focus_pane(std::string_view path);
+
     // ---- panes and order (panes.cpp)
     /// A fixed part of the window with its own scroll bar; enters the scope `id`. `title` may be empty.
     Guard pane(std::string_view id, const Rect& rect, std::string_view title = {});

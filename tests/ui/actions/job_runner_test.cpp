@@ -14,7 +14,11 @@ class WorkshopOnDisk : public ::testing::Test {
 protected:
     WorkshopOnDisk()
         : folder_(fs::temp_directory_path() / ("workshop_" + std::to_string(::getpid()))),
-          workshop_({"assets", folder_ / "jobs", {}, [] {}}) {
+          workshop_({.assets = "assets",
+                     .log_folder = folder_ / "jobs",
+                     .settings = {},
+                     .recovery = {},
+                     .wake = [] {}}) {
         workshop_.wait_idle();
     }
     ~WorkshopOnDisk() override { fs::remove_all(folder_); }
@@ -33,6 +37,7 @@ TEST_F(WorkshopOnDisk, HoldsResumesAndStopsAJob) {
     while (workshop_.look().job.running && state() != machine::DriverState::running) {
         std::this_thread::yield();
     }
+    workshop_.advance(0.01);
     workshop_.run("machine.hold");
     while (workshop_.look().job.running && state() != machine::DriverState::holding) {
         std::this_thread::yield();
@@ -44,6 +49,16 @@ TEST_F(WorkshopOnDisk, HoldsResumesAndStopsAJob) {
     ASSERT_TRUE(outcome.has_value());
     EXPECT_EQ(outcome->end, machine::JobEnd::stopped);
     EXPECT_LT(outcome->executed_blocks, outcome->blocks);
+
+    // The timeline stays where the machine stands, until somebody moves it.
+    workshop_.advance(0.01);
+    const auto moment = workshop_.look().moment();
+    ASSERT_TRUE(moment.has_value());
+    EXPECT_TRUE(workshop_.look().at_machine());
+    EXPECT_LT((moment->axes - outcome->position).cwiseAbs().maxCoeff(), 1e-6);
+    workshop_.session().playback.time = 0.0;
+    workshop_.advance(0.01);
+    EXPECT_FALSE(workshop_.look().at_machine());
 }
 
 TEST_F(WorkshopOnDisk, AJobThatCannotBeLoggedDoesNotStart) {

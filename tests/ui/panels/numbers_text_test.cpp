@@ -22,5 +22,11 @@ TEST(NumbersText, NamesAChangeWithItsSign) {
     EXPECT_EQ(change_text(0.0, 3.0), "-");
 }
 
+TEST(NumbersText, ADateHasTheFormOfTheStandardAndNoDateIsADash) {
+    EXPECT_EQ(date_time_text(1'000'000'000).substr(0, 8), "2001-09-"); // the 8th or 9th, by the time zone
+    EXPECT_EQ(date_time_text(1'000'000'000).size(), 16U);
+    EXPECT_EQ(date_time_text(0), "-");
+}
+
 } // namespace
 } // namespace millwright::panels

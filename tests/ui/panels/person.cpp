@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+
 namespace millwright::test {
 
 namespace {
@@ -19,9 +21,12 @@ std::filesystem::path fresh_folder() {
 
 } // namespace
 
-Person::Person(const render::PixelSize& screen)
-    : folder_(fresh_folder()), context_(screen),
-      workshop_({"assets", folder_ / "jobs", folder_ / "recent.json", [] {}}) {
+Person::Person(const render::PixelSize& screen, const std::filesystem::path& recovery)
+    : folder_(fresh_folder()), context_(screen), workshop_({.assets = "assets",
+                                                            .log_folder = folder_ / "jobs",
+                                                            .settings = folder_ / "recent.json",
+                                                            .recovery = recovery,
+                                                            .wake = [] {}}) {
     desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);
     wait_idle();
 }
@@ -125,6 +130,12 @@ render::Picture Person::picture() {
     render::Picture picture = context_.read_back();
     context_.present();
     return picture;
+}
+
+void Person::keep(const std::string& name) {
+    if (const char* folder = std::getenv("MILLWRIGHT_PICTURES")) {
+        render::write_png(picture(), std::filesystem::path(folder) / (name + ".png"));
+    }
 }
 
 } // namespace millwright::test

@@ -13,7 +13,9 @@ namespace millwright::test {
 
 class Person {
 public:
-    explicit Person(const render::PixelSize& screen = {1280, 800});
+    /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty.
+    explicit Person(const render::PixelSize& screen = {1280, 800},
+                    const std::filesystem::path& recovery = {});
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
     ~Person();
@@ -41,6 +43,8 @@ public:
     void fill_in(std::string_view path, std::string_view text);
 
     [[nodiscard]] render::Picture picture();
+    /// For people: the picture as NAME.png in $MILLWRIGHT_PICTURES where it is set.
+    void keep(const std::string& name);
     [[nodiscard]] std::filesystem::path folder() const { return folder_; }
 
 private:

@@ -50,5 +50,17 @@ TEST(ViewPanel, AMoveThatWasClickedIsWhereTheTimelineGoes) {
     EXPECT_NEAR(moment->fraction, 0.5, 1e-6);
 }
 
+TEST(ViewPanel, FitsAnotherProjectOnceItsOwnSurfaceIsThere) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    person.open("assets/projects/two-bell.json");
+    const widgets::Rect view = person.place("view");
+    for (const char* corner :
+         {"control_point(0,0)", "control_point(0,2)", "control_point(4,0)", "control_point(4,2)"}) {
+        const widgets::Point at = person.place(std::string("view/") + corner).centre();
+        EXPECT_TRUE(view.contains(at)) << corner;
+    }
+}
+
 } // namespace
 } // namespace millwright::panels

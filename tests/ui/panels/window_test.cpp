@@ -7,6 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+
 namespace millwright::panels {
 namespace {
 
@@ -16,30 +20,48 @@ using test::Person;
 
 constexpr const char* dome = "assets/projects/dome.json";
 
-class EveryWorkspace : public ::testing::TestWithParam<Workspace> {};
-
-TEST_P(EveryWorkspace, ShowsItsPanesWithoutCuttingAnyTextAt1280x800) {
-    Person person;
-    person.open(dome);
-    person.workshop().session().workspace = GetParam();
-    person.frames(3);
+std::string cut_texts(Person& person) {
     std::string cut;
     for (const std::string& text : person.desktop().ui().cut_texts()) {
         cut += "'" + text + "' ";
     }
-    EXPECT_EQ(cut, "");
-    for (const char* path : {"menu/file", "emergency/machine_emergency_stop", "timeline/timeline/play"}) {
-        EXPECT_TRUE(person.sees(path)) << path;
+    return cut;
+}
+
+struct Screen {
+    render::PixelSize size;
+    widgets::Theme theme;
+    const char* name;
+};
+
+constexpr std::array screens{Screen{{1280, 800}, widgets::Theme::dark, "1280-dark"},
+                             Screen{{1280, 800}, widgets::Theme::light, "1280-light"},
+                             Screen{{1600, 1000}, widgets::Theme::dark, "1600-dark"},
+                             Screen{{1600, 1000}, widgets::Theme::light, "1600-light"}};
+
+class EveryScreen : public ::testing::TestWithParam<Screen> {};
+
+TEST_P(EveryScreen, ShowsItsPanesInEveryWorkspaceWithoutCuttingAnyText) {
+    Person person(GetParam().size);
+    person.workshop().session().theme = GetParam().theme;
+    person.open(dome);
+    for (const char* workspace : {"design", "grid", "toolpath", "program", "machine"}) {
+        person.workshop().run(std::string("view.") + workspace);
+        person.frames(3);
+        EXPECT_EQ(cut_texts(person), "") << workspace;
+        for (const char* path :
+             {"menu/file", "emergency/machine_emergency_stop", "timeline/timeline/play", "view/layers"}) {
+            EXPECT_TRUE(person.sees(path)) << path;
+        }
+        person.keep(std::string("window-") + workspace + "-" + GetParam().name);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         EveryWorkspace,
-                         ::testing::Values(Workspace::design,
-                                           Workspace::grid,
-                                           Workspace::toolpath,
-                                           Workspace::program,
-                                           Workspace::machine));
+INSTANTIATE_TEST_SUITE_P(All, EveryScreen, ::testing::ValuesIn(screens), [](const auto& screen) {
+    std::string name = screen.param.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
 
 TEST(Workbench, ChangesWorkspaceByATab) {
     Person person;
@@ -47,6 +69,20 @@ TEST(Workbench, ChangesWorkspaceByATab) {
     EXPECT_EQ(person.workshop().session().workspace, Workspace::grid);
     person.press_key(render::Key::f6);
     EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+}
+
+TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
+    Person person;
+    person.open(dome);
+    person.press_key(render::Key::f5);
+    EXPECT_TRUE(person.sees("lower/listing"));
+    person.press_key(render::Key::f2);
+    EXPECT_TRUE(person.sees("lower/error"));
+    person.click("lower/tabs/compare");
+    person.press_key(render::Key::f5);
+    EXPECT_TRUE(person.sees("lower/listing"));
+    person.press_key(render::Key::f2);
+    EXPECT_TRUE(person.sees("lower/compare"));
 }
 
 TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {

@@ -2,9 +2,13 @@
 
 #include "core/base/error.h"
 #include "ui/render/offscreen_context.h"
+#include "ui/render/program.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 
 namespace millwright::render {
 namespace {
@@ -28,6 +32,47 @@ TEST(ViewTarget, GivesTheDrawingBackToWhatWasBound) {
     glGetIntegerv(GL_VIEWPORT, viewport);
     EXPECT_EQ(viewport[2], 10);
     EXPECT_EQ(viewport[3], 6);
+}
+
+/// Left of the line through the corners white, right of it black: edges that are smooth have greys.
+int greys(Edges edges) {
+    const OffscreenContext context({4, 4});
+    const Program program("#version 330 core\n"
+                          "void main() {\n"
+                          "    vec2 corner[3] = vec2[](vec2(-1.0), vec2(-1.0, 1.0), vec2(0.9, 1.0));\n"
+                          "    gl_Position = vec4(corner[gl_VertexID], 0.0, 1.0);\n"
+                          "}\n",
+                          "#version 330 core\n"
+                          "out vec4 color;\n"
+                          "void main() { color = vec4(1.0); }\n");
+    const VertexArray nothing;
+    ViewTarget target(4);
+    target.begin({40, 30}, edges);
+    clear(0.0F, 0.0F, 0.0F);
+    program.use();
+    glBindVertexArray(nothing.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    target.end();
+    const Picture picture = target.read();
+    return static_cast<int>(
+        std::ranges::count_if(picture.pixels, [](const Pixel& p) { return p[0] > 0 && p[0] < 255; }));
+}
+
+TEST(ViewTarget, HasSmoothEdgesUnlessRoughOnesWillDo) {
+    EXPECT_GT(greys(Edges::smooth), 20);
+    EXPECT_EQ(greys(Edges::rough), 0);
+}
+
+TEST(ViewTarget, ShowsWhatWasDrawnLastWhicheverEdgesItHad) {
+    const OffscreenContext context({4, 4});
+    ViewTarget target(4);
+    const std::array<Edges, 3> order{Edges::smooth, Edges::rough, Edges::smooth};
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        target.begin({6, 6}, order[k]);
+        clear(static_cast<float>(k) / 2.0F, 1.0F, 0.0F);
+        target.end();
+        EXPECT_NEAR(target.read().at(3, 3)[0], 127.5 * static_cast<double>(k), 1.0);
+    }
 }
 
 TEST(ViewTarget, KeepsItsTextureUntilTheSizeChanges) {

@@ -48,7 +48,6 @@ Stage::Stage(Draw draw, const Screen& screen)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.DisplaySize = {screen.width, screen.height};
-    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.MousePos = {-1.0F, -1.0F};
     map_keys(io);
@@ -64,30 +63,29 @@ Stage::~Stage() {
     ImGui::DestroyContext(context_);
 }
 
-void Stage::frames(int count) {
+void Stage::draw_frame(float seconds) {
     ImGui::SetCurrentContext(context_);
+    ImGui::GetIO().DeltaTime = seconds;
+    ImGui::NewFrame();
+    ui_->begin_frame();
+    try {
+        draw_(*ui_);
+    } catch (...) {
+        ImGui::EndFrame();
+        throw;
+    }
+    ui_->end_frame();
+    ImGui::Render();
+}
+
+void Stage::frames(int count) {
     for (int i = 0; i < count; ++i) {
-        ImGui::GetIO().DeltaTime = frame_time;
-        ImGui::NewFrame();
-        ui_->begin_frame();
-        try {
-            draw_(*ui_);
-        } catch (...) {
-            ImGui::EndFrame();
-            throw;
-        }
-        ui_->end_frame();
-        ImGui::Render();
+        draw_frame(frame_time);
     }
 }
 
 void Stage::wait(double seconds) {
-    ImGui::GetIO().DeltaTime = static_cast<float>(seconds);
-    ImGui::NewFrame();
-    ui_->begin_frame();
-    draw_(*ui_);
-    ui_->end_frame();
-    ImGui::Render();
+    draw_frame(static_cast<float>(seconds));
 }
 
 Rect Stage::place(std::string_view path) {

@@ -63,6 +63,8 @@ public:
     void save_picture(const std::filesystem::path& png);
 
 private:
+    void draw_frame(float seconds);
+
     Draw draw_;
     Screen screen_;
     ImGuiContext* context_ = nullptr;

@@ -1,27 +1,353 @@
+#include "core/kinematics/forward.h"
+#include "core/toolpath/actual_trajectory.h"
 #include "tests/ui/viewport/scenes.h"
 #include "tests/ui/viewport/studio.h"
+#include "ui/render/convert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace millwright::viewport {
 namespace {
 
 using render::Picture;
+using render::Pixel;
 
-class Look : public test::Studio {
-protected:
-    Look() : Studio({1280, 800}) {}
+constexpr int step = 1; // of 255: rounding of colours on their way through the shaders
+
+struct Spot {
+    int x = 0;
+    int y = 0;
 };
 
-TEST_F(Look, AtEverything) {
-    for (const auto& part :
-         {test::Part{"dome", "rotary-tilt-listing", 20}, test::Part{"two-bell", "ac-table", 20}}) {
-        for (int k = 0; k < view_kind_count; ++k) {
-            const auto kind = static_cast<ViewKind>(k);
-            Scene scene = test::scene_of(part, kind);
-            if (kind == ViewKind::machine || kind == ViewKind::toolpath) {
-                scene.now = test::half_way(scene);
+class LayersTest : public test::Studio {
+protected:
+    LayersTest() : Studio({640, 480}) {}
+
+    static Scene only(Scene scene, const Layers& layers) {
+        scene.layers = layers;
+        return scene;
+    }
+
+    static Spot spot(const render::View& view, const Vec3& place) {
+        const auto seen = render::project(view, render::to_glm(place)).value();
+        return {static_cast<int>(seen.pixel.x), static_cast<int>(seen.pixel.y)};
+    }
+
+    static bool is(const Pixel& pixel, const glm::vec3& color) {
+        for (int k = 0; k < 3; ++k) {
+            const long wanted = std::lround(255.0F * color[k]);
+            if (std::abs(wanted - static_cast<long>(pixel[static_cast<std::size_t>(k)])) > step) {
+                return false;
             }
-            keep(picture(scene, look_at(scene)), part.preset + "-" + std::string(id(kind)));
         }
+        return true;
+    }
+
+    /// The colour stands somewhere within `reach` pixels.
+    static bool shows(const Picture& picture, const Spot& at, const glm::vec3& color, int reach = 2) {
+        for (int y = std::max(at.y - reach, 0); y <= std::min(at.y + reach, picture.size.height - 1); ++y) {
+            for (int x = std::max(at.x - reach, 0); x <= std::min(at.x + reach, picture.size.width - 1);
+                 ++x) {
+                if (is(picture.at(x, y), color)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    const render::ViewColors colors = render::view_colors(render::Theme::dark);
+};
+
+constexpr Layers nothing{.surface = false, .floor = false, .origin = false};
+
+TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
+    const Scene all = test::scene_of(test::two_bell, ViewKind::design);
+    const Scene scene = only(all, {.floor = false, .origin = false});
+    const render::View view = look_at(scene);
+    const Picture with = picture(scene, view);
+    const Picture without = picture(only(all, nothing), view);
+    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    EXPECT_NE(with.at(middle.x, middle.y), without.at(middle.x, middle.y));
+    EXPECT_EQ(with.at(3, 3), without.at(3, 3));
+    EXPECT_EQ(with.at(636, 476), without.at(636, 476));
+}
+
+TEST_F(LayersTest, FollowsAnotherSurface) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::design), {.floor = false});
+    const render::View view = look_at(scene);
+    const Picture before = picture(scene, view);
+    EXPECT_EQ(picture(scene, view), before);
+    geometry::ControlNet net = scene.surface->patch(geometry::PatchId{0}).net();
+    net.point(2, 1).z() += 40.0;
+    scene.surface = std::make_shared<const geometry::Surface>(
+        scene.surface->with_patch(geometry::PatchId{0}, geometry::BezierPatch(net)));
+    EXPECT_NE(picture(scene, view), before);
+}
+
+TEST_F(LayersTest, HandlesStandAtTheControlPoints) {
+    Scene scene = test::scene_of(test::dome, ViewKind::design);
+    const geometry::ControlNet& net = scene.surface->patch(geometry::PatchId{0}).net();
+    scene.selected = {{.i = 2, .j = 1}};
+    const render::View view = look_at(scene);
+    const Picture seen = picture(scene, view);
+    EXPECT_TRUE(shows(seen, spot(view, net.point(1, 1)), colors.handle));
+    EXPECT_TRUE(shows(seen, spot(view, net.point(2, 1)), colors.selected));
+    EXPECT_FALSE(shows(seen, spot(view, net.point(1, 1)), colors.selected));
+}
+
+TEST_F(LayersTest, TheHandleUnderTheMouseIsRinged) {
+    const Scene scene = test::scene_of(test::dome, ViewKind::design);
+    const Vec3 point = scene.surface->patch(geometry::PatchId{0}).net().point(1, 1);
+    const render::View view = look_at(scene);
+    const Spot at = spot(view, point);
+    EXPECT_FALSE(shows(picture(scene, view), at, colors.accent, 8));
+    EXPECT_TRUE(shows(
+        picture(scene, view, {.point = ControlPointId{.i = 1, .j = 1}, .move = {}}), at, colors.accent, 8));
+}
+
+TEST_F(LayersTest, ANetThatHasBecomeSmallerHighlightsNothing) {
+    const Scene scene = test::scene_of(test::dome, ViewKind::design);
+    const render::View view = look_at(scene);
+    const Picture plain = picture(scene, view);
+    EXPECT_EQ(picture(scene, view, {.point = ControlPointId{.i = 9, .j = 1}, .move = {}}), plain);
+    EXPECT_EQ(picture(scene, view, {.point = ControlPointId{.patch = geometry::PatchId{3}}, .move = {}}),
+              plain);
+}
+
+TEST_F(LayersTest, GridNodesLieOnTheSurface) {
+    const Scene scene =
+        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture seen = picture(scene, view);
+    const grid::Grid& grid = scene.shown->outcome.grid;
+    for (const auto& [i, j] : {std::pair{3, 4}, std::pair{7, 2}, std::pair{9, 9}}) {
+        const Vec2& uv = grid.node(i, j);
+        EXPECT_TRUE(
+            shows(seen, spot(view, scene.workpiece->patch.position(uv.x(), uv.y())), colors.handle, 1));
+    }
+}
+
+TEST_F(LayersTest, AnAdaptationOnItsWayTakesThePlaceOfTheGrid) {
+    Scene scene =
+        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene, render::StandardView::top);
+    const grid::Grid bent = test::bent_grid(12);
+    scene.watched = std::make_shared<const grid::ImproverState>(grid::ImproverState{
+        .current = bent.array(), .best = bent, .start = {}, .now = {}, .of_best = {}, .note = {}});
+    const Picture seen = picture(scene, view);
+    const Vec2& uv = bent.node(3, 4);
+    EXPECT_TRUE(shows(seen, spot(view, scene.workpiece->patch.position(uv.x(), uv.y())), colors.handle, 1));
+}
+
+/// The surface over the middle of a move.
+Vec3 middle_of(const Scene& scene, std::size_t move) {
+    const auto& points = scene.shown->toolpath.points;
+    const Vec2 uv = 0.5 * (points[move].origin.uv + points[move + 1].origin.uv);
+    return scene.workpiece->patch.position(uv.x(), uv.y());
+}
+
+TEST_F(LayersTest, ThePathRunsOverTheSurfaceBetweenItsPoints) {
+    const Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
+                             {.toolpath = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture seen = picture(scene, view);
+    for (const std::size_t move : {25U, 50U, 100U}) {
+        EXPECT_TRUE(shows(seen, spot(view, middle_of(scene, move)), colors.path)) << move;
+    }
+}
+
+/// How much of the part's middle has the colour of the path instead of the surface's, 0 to 1, by blue.
+double covered(const Picture& with, const Picture& without, const Spot& middle, float path_blue, int reach) {
+    double moved = 0.0;
+    double whole = 0.0;
+    for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
+        for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
+            moved += std::abs(static_cast<double>(with.at(x, y)[2]) - without.at(x, y)[2]);
+            whole += std::abs(255.0 * static_cast<double>(path_blue) - without.at(x, y)[2]);
+        }
+    }
+    return moved / whole;
+}
+
+TEST_F(LayersTest, ThePathLeavesTheSurfaceToBeSeenHoweverSmallThePart) {
+    const Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
+                             {.toolpath = true, .floor = false, .origin = false});
+    const Scene bare = only(scene, {.floor = false, .origin = false});
+    (void)look_at(scene);
+    const render::Camera far = render::Camera()
+                                   .seen_from(render::StandardView::top)
+                                   .fitted(view().outline(), render::aspect(size()))
+                                   .zoomed(12.0, {320.0, 240.0}, size()); // tracks are about 3 px apart
+    const render::View seen = far.view(size(), view().depth_range());
+    const Spot middle = spot(seen, scene.workpiece->patch.position(0.5, 0.5));
+    const double part = covered(picture(scene, seen), picture(bare, seen), middle, colors.path.b, 8);
+    EXPECT_GT(part, 0.1);
+    EXPECT_LT(part, 0.5);
+}
+
+TEST_F(LayersTest, WhatIsStillToComeIsDim) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
+                       {.toolpath = true, .floor = false, .origin = false});
+    scene.now = Moment{.axes = scene.shown->axes.positions[60], .move = 60};
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture seen = picture(scene, view);
+    EXPECT_TRUE(shows(seen, spot(view, middle_of(scene, 50)), colors.path));
+    EXPECT_FALSE(shows(seen, spot(view, middle_of(scene, 80)), colors.path));
+    scene.now->move = -1; // not begun: all of it is shown as it will be
+    EXPECT_TRUE(shows(picture(scene, view), spot(view, middle_of(scene, 80)), colors.path));
+}
+
+/// Where the machine really is half way through a move.
+Vec3 actual_middle_of(const Scene& scene, std::size_t move) {
+    const auto& positions = scene.shown->axes.positions;
+    return toolpath::actual_pose(scene.workpiece->machine, positions[move], positions[move + 1], 0.5).tip;
+}
+
+TEST_F(LayersTest, TheActualPathHasTheColourOfItsError) {
+    const Scene scene = only(test::scene_of(test::two_bell, ViewKind::error),
+                             {.error_path = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture seen = picture(scene, view);
+    const render::ColorScale scale = error_colors(scene, colors.over_limit);
+    for (const std::size_t move : {17U, 50U, 101U}) {
+        const double error = scene.shown->field.moves[move].closest;
+        EXPECT_TRUE(shows(seen, spot(view, actual_middle_of(scene, move)), color_of(scale, error), 1))
+            << move;
+    }
+}
+
+TEST_F(LayersTest, WhatIsOverTheToleranceHasTheSignalColour) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::error),
+                       {.error_path = true, .floor = false, .origin = false});
+    scene.error.limit = 1e-5;
+    const render::View view = look_at(scene, render::StandardView::top);
+    EXPECT_TRUE(shows(picture(scene, view), spot(view, actual_middle_of(scene, 50)), colors.over_limit));
+    scene.error.limit = 1e3;
+    EXPECT_FALSE(shows(picture(scene, view), spot(view, actual_middle_of(scene, 50)), colors.over_limit));
+}
+
+TEST_F(LayersTest, TheSurfaceCanCarryTheErrors) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::error), {.floor = false, .origin = false});
+    const render::View view = look_at(scene);
+    const Picture plain = picture(scene, view);
+    scene.layers.error_surface = true;
+    const Picture colored = picture(scene, view);
+    test::keep(colored, "layers-error-surface");
+    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    EXPECT_NE(plain.at(middle.x, middle.y), colored.at(middle.x, middle.y));
+    EXPECT_EQ(plain.at(3, 3), colored.at(3, 3));
+}
+
+/// A weight that grows from 1 at u = 0 to 3 at u = 1.
+std::shared_ptr<const project::WeightMap> ramp() {
+    return std::make_shared<const project::WeightMap>(
+        project::WeightMap{.rows = 2, .columns = 2, .values = {1.0, 1.0, 3.0, 3.0}, .low = 1.0, .high = 3.0});
+}
+
+TEST_F(LayersTest, TheWeightColoursTheSurfaceByItsValue) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::grid), {.floor = false, .origin = false});
+    scene.weight = ramp();
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture plain = picture(scene, view);
+    scene.layers.weight = true;
+    const Picture seen = picture(scene, view);
+    const auto yellow = [&](double u) {
+        const Spot at = spot(view, scene.workpiece->patch.position(u, 0.5));
+        const Pixel& pixel = seen.at(at.x, at.y);
+        EXPECT_NE(pixel, plain.at(at.x, at.y));
+        return static_cast<int>(pixel[0]) - static_cast<int>(pixel[2]); // cividis goes from blue to yellow
+    };
+    EXPECT_LT(yellow(0.1), yellow(0.5));
+    EXPECT_LT(yellow(0.5), yellow(0.9));
+    EXPECT_LT(yellow(0.1), 0);
+    EXPECT_GT(yellow(0.9), 0);
+}
+
+TEST_F(LayersTest, AWeightOrAnErrorThatIsNotThereLeavesTheSurfaceAsItIs) {
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::grid), {.floor = false, .origin = false});
+    scene.shown = nullptr;
+    const render::View view = look_at(scene);
+    const Picture plain = picture(scene, view);
+    scene.layers.weight = scene.layers.error_surface = true;
+    EXPECT_EQ(picture(scene, view), plain);
+}
+
+TEST_F(LayersTest, SingularPointsAreRinged) {
+    const Scene scene = only(test::scene_of(test::dome, ViewKind::grid),
+                             {.singular_points = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene, render::StandardView::top);
+    const Picture seen = picture(scene, view);
+    ASSERT_FALSE(scene.singular_points.empty());
+    for (const toolpath::SingularPoint& point : scene.singular_points) {
+        EXPECT_TRUE(shows(seen, spot(view, point.position), colors.selected, 9)) << point.uv.transpose();
+    }
+}
+
+TEST_F(LayersTest, TheToolStandsOnItsTip) {
+    Scene scene = only(test::scene_of(test::dome, ViewKind::toolpath),
+                       {.surface = true, .tool = true, .floor = false, .origin = false});
+    const render::View view = look_at(scene);
+    const Picture without = picture(scene, view);
+    scene.now = test::half_way(scene);
+    const Picture with = picture(scene, view);
+    const geometry::ToolPose pose = kinematics::forward(scene.workpiece->machine, scene.now->axes);
+    const Spot in_tool = spot(view, pose.tip + 12.0 * pose.axis);
+    const Spot below = spot(view, pose.tip - 6.0 * pose.axis);
+    EXPECT_NE(with.at(in_tool.x, in_tool.y), without.at(in_tool.x, in_tool.y));
+    EXPECT_EQ(with.at(below.x, below.y), without.at(below.x, below.y));
+}
+
+TEST_F(LayersTest, TheMachineStandsWhereItsAxesAre) {
+    Scene scene = test::scene_of(test::two_bell, ViewKind::machine);
+    scene.now = test::half_way(scene);
+    const render::View view = look_at(scene);
+    const Picture here = picture(scene, view);
+    scene.now->axes[0] += 80.0;
+    EXPECT_NE(picture(scene, view), here);
+    scene.now->axes[0] -= 80.0;
+    EXPECT_EQ(picture(scene, view), here);
+}
+
+TEST_F(LayersTest, ThePartOnTheTableTurnsWithIt) {
+    Scene scene = test::scene_of(test::two_bell, ViewKind::machine);
+    scene.now = test::half_way(scene);
+    const Vec3 middle = scene.workpiece->patch.position(0.5, 0.5);
+    const Frame m_T_w = kinematics::m_T_w(scene.workpiece->machine, scene.now->axes);
+    const render::View view = look_at(scene);
+    Scene bare = scene;
+    bare.layers = {.surface = false, .machine = true, .floor = false, .origin = false};
+    const Spot at = spot(view, m_T_w * middle);
+    EXPECT_NE(picture(scene, view).at(at.x, at.y), picture(bare, view).at(at.x, at.y));
+}
+
+TEST_F(LayersTest, AllOfTheOutlineIsInTheFittedView) {
+    for (const ViewKind kind : {ViewKind::design, ViewKind::error, ViewKind::machine}) {
+        const Scene scene = test::scene_of(test::two_bell, kind);
+        const render::View view = look_at(scene);
+        for (const glm::dvec3& point : this->view().outline()) {
+            const auto seen = render::project(view, point);
+            ASSERT_TRUE(seen);
+            EXPECT_TRUE(seen->pixel.x > 0.0 && seen->pixel.x < 640.0 && seen->pixel.y > 0.0 &&
+                        seen->pixel.y < 480.0);
+            EXPECT_TRUE(seen->depth > 0.0 && seen->depth < 1.0);
+        }
+    }
+}
+
+TEST_F(LayersTest, AnEmptySceneIsOnlyItsGround) {
+    const Scene empty;
+    const render::View view = render::Camera().view(size(), {});
+    const Picture seen = picture(empty, view);
+    Scene hidden;
+    hidden.layers = nothing;
+    EXPECT_EQ(seen, picture(hidden, view));
+    for (int k = 0; k < view_kind_count; ++k) {
+        Scene scene;
+        scene.layers = layers_of(static_cast<ViewKind>(k));
+        EXPECT_EQ(picture(scene, view), seen) << k;
     }
 }
 

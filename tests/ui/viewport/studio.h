@@ -16,6 +16,13 @@
 
 namespace millwright::test {
 
+/// For people: written to $MILLWRIGHT_PICTURES where it is set.
+inline void keep(const render::Picture& picture, const std::string& name) {
+    if (const char* folder = std::getenv("MILLWRIGHT_PICTURES")) {
+        render::write_png(picture, std::filesystem::path(folder) / (name + ".png"));
+    }
+}
+
 class Studio : public ::testing::Test {
 protected:
     explicit Studio(const render::PixelSize& size = {320, 240}) : size_(size), context_(size) {}
@@ -27,7 +34,7 @@ protected:
                                        render::StandardView side = render::StandardView::iso) {
         view_.update(scene);
         const render::Camera camera =
-            render::Camera().seen_from(side).fitted(view_.content(), render::aspect(size_));
+            render::Camera().seen_from(side).fitted(view_.outline(), render::aspect(size_));
         return camera.view(size_, view_.depth_range());
     }
 
@@ -43,13 +50,6 @@ protected:
 
     [[nodiscard]] const viewport::SceneView& view() const { return view_; }
     [[nodiscard]] const render::PixelSize& size() const { return size_; }
-
-    /// For people: written to $MILLWRIGHT_PICTURES where it is set.
-    static void keep(const render::Picture& picture, const std::string& name) {
-        if (const char* folder = std::getenv("MILLWRIGHT_PICTURES")) {
-            render::write_png(picture, std::filesystem::path(folder) / (name + ".png"));
-        }
-    }
 
 private:
     render::PixelSize size_;

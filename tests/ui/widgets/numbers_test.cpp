@@ -162,6 +162,27 @@ TEST_F(NumberField, ResetPutsTheDefaultBackAndIsGoneThen) {
     EXPECT_FALSE(stage.ui().place("tool/radius.reset").has_value());
 }
 
+TEST_F(NumberField, DraggingTheLabelStepsAndCommitsOnceWhenLetGo) {
+    const Point label = stage.place("tool/radius.label").centre();
+    stage.drag(label, {label.x + 40.0F, label.y + 100.0F}, 10);
+    ASSERT_EQ(committed.size(), 1U);
+    EXPECT_NEAR(radius, 7.0, 1e-12); // a step of 0.1 every 4 px
+    stage.drag(label, {label.x - 10000.0F, label.y}, 2);
+    EXPECT_DOUBLE_EQ(radius, radius_info.min);
+}
+
+TEST_F(NumberField, EscEndsDraggingTheLabel) {
+    const Point label = stage.place("tool/radius.label").centre();
+    stage.move(label);
+    stage.frames();
+    stage.press();
+    stage.move({label.x + 40.0F, label.y});
+    stage.key(Key::escape);
+    stage.move({label.x + 80.0F, label.y});
+    stage.release();
+    EXPECT_TRUE(committed.empty());
+}
+
 TEST_F(NumberField, AFractionIsNoWholeNumber) {
     stage.fill_in("tool/nodes", "2.5");
     stage.key(Key::enter);

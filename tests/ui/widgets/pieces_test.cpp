@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -223,6 +224,73 @@ TEST_F(Menus, TheMouseOpensTheNeighbourOfAnOpenMenu) {
     EXPECT_FALSE(stage.ui().place("bar/file/open").has_value());
 }
 
+TEST_F(Menus, EscapeClosesAMenu) {
+    stage.click("bar/file");
+    stage.frames(2);
+    stage.key(test::Key::escape);
+    stage.frames(2);
+    EXPECT_FALSE(stage.ui().place("bar/file/open").has_value());
+}
+
+class Lists : public testing::Test {
+protected:
+    bool on = false;
+    Stage stage{[this](Ui& ui) {
+        const auto pane = ui.pane("bar", whole);
+        if (const auto file = menu(ui, "file", "File")) {
+            menu_item(ui, "open", "Open ...");
+            if (const auto more = submenu(ui, "more", "More")) {
+                on = menu_eye(ui, "floor", "Floor", on) ? !on : on;
+                for (int n = 0; n < 18; ++n) {
+                    menu_item(ui, std::to_string(n), "Item");
+                }
+            }
+        }
+        ui.move_by(500.0F, 300.0F);
+        if (const auto list = menu_button(ui, "eye", icons::eye, "Show and hide")) {
+            on = menu_eye(ui, "floor", "Floor", on) ? !on : on;
+        }
+    }};
+
+    void SetUp() override { stage.frames(2); }
+};
+
+TEST_F(Lists, AListInAMenuOpensUnderTheMouseAndClosesWhenItGoesToAnotherRow) {
+    stage.click("bar/file");
+    stage.frames(2);
+    stage.move(stage.place("bar/file/more").centre());
+    stage.frames(3);
+    ASSERT_TRUE(stage.ui().place("bar/file/more/floor").has_value());
+    stage.move(stage.place("bar/file/more/floor").centre());
+    stage.frames(3);
+    EXPECT_TRUE(stage.ui().place("bar/file/more/floor").has_value());
+    stage.move(stage.place("bar/file/open").centre());
+    stage.frames(3);
+    EXPECT_FALSE(stage.ui().place("bar/file/more/floor").has_value());
+    EXPECT_TRUE(stage.ui().place("bar/file/open").has_value());
+}
+
+TEST_F(Lists, ALongListStaysOnTheScreen) {
+    stage.click("bar/file");
+    stage.frames(2);
+    stage.move(stage.place("bar/file/more").centre());
+    stage.frames(3);
+    EXPECT_GE(stage.place("bar/file/more/floor").y, 0.0F);
+    EXPECT_LE(stage.place("bar/file/more/17").bottom(), whole.bottom());
+}
+
+TEST_F(Lists, AnEyeSwitchesAndTheListStaysForTheNext) {
+    stage.click("bar/eye");
+    stage.frames(3);
+    EXPECT_LT(stage.place("bar/eye/floor").right(), stage.place("bar/eye").x + 1.0F);
+    stage.click("bar/eye/floor");
+    EXPECT_TRUE(on);
+    stage.frames(2);
+    stage.click("bar/eye/floor");
+    EXPECT_FALSE(on);
+    EXPECT_TRUE(stage.ui().place("bar/eye/floor").has_value());
+}
+
 class CanvasTest : public testing::Test {
 protected:
     Canvas last;
@@ -325,6 +393,135 @@ TEST(Keyboard, SpacePressesWhatTheArrowsReached) {
     stage.frames(2);
     EXPECT_EQ(first, 1);
     EXPECT_EQ(second, 1);
+}
+
+class TabOrder : public testing::Test {
+protected:
+    int presses = 0;
+    bool on = false;
+    double radius = 3.0;
+    Stage stage{[this](Ui& ui) {
+        const auto pane = ui.pane("main", whole);
+        const FieldInfo info{.id = "radius", .label = "Radius", .unit = "mm"};
+        radius = ui.number(radius, info).value_or(radius);
+        presses += ui.button("adapt", "Adapt") ? 1 : 0;
+        ui.button("reset", "Reset", Permission::refused("Nothing to reset."));
+        on = ui.checkbox("net", "Net", on).value_or(on);
+    }};
+
+    void SetUp() override {
+        stage.frames(2);
+        stage.fill_in("main/radius", "4");
+    }
+    void tab() {
+        stage.key(Key::tab);
+        stage.frames(2);
+    }
+    void space() {
+        stage.key(Key::space);
+        stage.frames(2);
+    }
+};
+
+TEST_F(TabOrder, TabReachesAButtonWithoutPressingIt) {
+    tab();
+    EXPECT_DOUBLE_EQ(radius, 4.0);
+    EXPECT_EQ(presses, 0);
+    space();
+    EXPECT_EQ(presses, 1);
+}
+
+TEST_F(TabOrder, TabPassesOverWhatIsNotAllowed) {
+    tab();
+    tab();
+    space();
+    EXPECT_EQ(presses, 0);
+    EXPECT_TRUE(on);
+}
+
+TEST_F(TabOrder, TabComesBackToTheFieldAndTypes) {
+    tab();
+    tab();
+    tab();
+    stage.type("5");
+    stage.key(Key::enter);
+    EXPECT_DOUBLE_EQ(radius, 5.0);
+}
+
+TEST(Keyboard, APaneThatIsGivenItIsWalkedThroughByTab) {
+    std::vector<std::string> pressed;
+    bool give = false;
+    Stage stage([&](Ui& ui) {
+        for (const std::string id : {"left", "right"}) {
+            const auto pane = ui.pane(id, {id == "left" ? 0.0F : 400.0F, 0.0F, 400.0F, 600.0F});
+            if (ui.button("go", "Go")) {
+                pressed.push_back(id);
+            }
+        }
+        if (give) {
+            ui.focus_pane("right");
+            give = false;
+        }
+    });
+    stage.frames(2);
+    stage.click("left/go");
+    give = true;
+    stage.frames(2);
+    stage.key(Key::tab);
+    stage.frames(2);
+    stage.key(Key::space);
+    stage.frames(2);
+    EXPECT_EQ(pressed, (std::vector<std::string>{"left", "right"}));
+}
+
+TEST(Choice, OpensUpwardsAtTheLowerBorderAndStaysInTheWindow) {
+    std::vector<std::string> ids;
+    for (int i = 0; i < 60; ++i) {
+        ids.push_back("machine" + std::to_string(i));
+    }
+    int now = 0;
+    Stage stage([&](Ui& ui) {
+        std::vector<Option> options;
+        for (const std::string& id : ids) {
+            options.push_back({.id = id, .label = id});
+        }
+        const auto pane = ui.pane("time", {0.0F, 500.0F, 800.0F, 100.0F});
+        now = ui.choice("machine", "Machine", now, options).value_or(now);
+    });
+    stage.frames(2);
+    stage.click("time/machine");
+    stage.frames(3);
+    const Rect second = stage.place("time/machine/machine1");
+    EXPECT_GE(second.y, 0.0F);
+    EXPECT_LT(second.y, stage.place("time/machine").y);
+    EXPECT_FALSE(stage.ui().places().find("time/machine/machine59")->visible);
+    stage.click("time/machine/machine1");
+    EXPECT_EQ(now, 1);
+}
+
+TEST(TableInAPane, KeepsTheWheelFromThePaneBehind) {
+    Stage stage([](Ui& ui) {
+        const auto pane = ui.pane("main", {0.0F, 0.0F, 400.0F, 300.0F});
+        constexpr std::array columns{Column{"Name"}};
+        table(ui,
+              "rows",
+              {.columns = columns,
+               .rows = 1000,
+               .cell = [](std::ptrdiff_t row, int) { return std::to_string(row); },
+               .row_id = [](std::ptrdiff_t row) { return std::to_string(row); },
+               .height = 200.0F});
+        for (const char* id : {"a", "b", "c", "d", "e", "f", "g", "h"}) {
+            ui.button(id, id);
+        }
+    });
+    stage.frames(3);
+    const float before = stage.place("main/rows").y;
+    stage.move({100.0F, 100.0F});
+    stage.frames(2);
+    stage.wheel(-5.0F);
+    stage.frames(3);
+    EXPECT_FLOAT_EQ(stage.place("main/rows").y, before);
+    EXPECT_FALSE(stage.ui().place("main/rows/0").has_value());
 }
 
 } // namespace

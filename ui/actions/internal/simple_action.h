@@ -12,20 +12,24 @@ class SimpleAction final : public Action {
 public:
     using Allowed = widgets::Permission (*)(const Workbench&);
     using Does = void (*)(Hands&);
+    using IsOn = bool (*)(const Workbench&);
 
-    SimpleAction(const ActionInfo& info, Allowed allowed, Does does)
-        : info_(info), allowed_(allowed), does_(does) {}
+    /// `on` is null for what is no switch.
+    SimpleAction(const ActionInfo& info, Allowed allowed, Does does, IsOn on)
+        : info_(info), allowed_(allowed), does_(does), is_on_(on) {}
 
     [[nodiscard]] const ActionInfo& info() const override { return info_; }
     [[nodiscard]] widgets::Permission permission(const Workbench& now) const override {
         return allowed_(now);
     }
+    [[nodiscard]] bool is_on(const Workbench& now) const override { return is_on_ && is_on_(now); }
     void run(Hands& hands) const override { does_(hands); }
 
 private:
     ActionInfo info_;
     Allowed allowed_;
     Does does_;
+    IsOn is_on_;
 };
 
 using Actions = std::vector<std::unique_ptr<Action>>;
@@ -34,16 +38,21 @@ inline widgets::Permission always(const Workbench&) {
     return {};
 }
 
-inline void
-add(Actions& actions, const ActionInfo& info, SimpleAction::Allowed allowed, SimpleAction::Does does) {
-    actions.push_back(std::make_unique<SimpleAction>(info, allowed, does));
+inline void add(Actions& actions,
+                const ActionInfo& info,
+                SimpleAction::Allowed allowed,
+                SimpleAction::Does does,
+                SimpleAction::IsOn on = nullptr) {
+    actions.push_back(std::make_unique<SimpleAction>(info, allowed, does, on));
 }
 
 void add_file_actions(Actions& actions);
 void add_edit_actions(Actions& actions);
 void add_view_actions(Actions& actions);
+void add_layer_actions(Actions& actions);
 void add_grid_actions(Actions& actions);
 void add_playback_actions(Actions& actions);
 void add_machine_actions(Actions& actions);
+void add_dialog_actions(Actions& actions);
 
 } // namespace millwright::actions

@@ -13,6 +13,9 @@ namespace {
 
 constexpr int most_segments = 16000; // about 30 ms without a graphics card
 constexpr int smoothest = 8;
+constexpr float usual_width_px = 2.2F;
+constexpr float thinnest_px = 0.7F;
+constexpr double width_to_gap = 0.3;   // of tracks that lie close in the picture
 constexpr double turn_per_step = 0.07; // rad; a loop of 180 deg gets 45 steps
 
 } // namespace
@@ -102,8 +105,24 @@ void draw_move(const Canvas& canvas,
     draw_seamed(canvas, lines.buffer(), style, view);
 }
 
+float track_width_px(const project::Evaluation* shown, const Canvas& canvas) {
+    if (shown == nullptr || shown->toolpath.points.empty()) {
+        return usual_width_px;
+    }
+    Box3 box;
+    for (const toolpath::PathPoint& point : shown->toolpath.points) {
+        box.extend(point.pose.tip);
+    }
+    const int tracks = shown->outcome.grid.track_count(shown->toolpath.direction);
+    const double between =
+        box.diagonal().norm() / std::sqrt(2.0) / tracks; // tracks cross a side, not a diagonal
+    const glm::dvec3 middle(canvas.s_T_w * glm::vec4(render::to_float(Vec3(box.center())), 1.0F));
+    const double px = between / render::pixel_length(canvas.view, middle) / canvas.view.content_scale;
+    return std::clamp(static_cast<float>(width_to_gap * px), thinnest_px, usual_width_px);
+}
+
 int segments_done(const PathLines& lines, const std::optional<Moment>& now) {
-    return now ? lines.segments_until(now->move, now->fraction) : lines.segment_count();
+    return now && now->move >= 0 ? lines.segments_until(now->move, now->fraction) : lines.segment_count();
 }
 
 } // namespace millwright::viewport

@@ -60,7 +60,12 @@ void draw_move(const Canvas& canvas,
                render::LineStyle style,
                const render::View& view);
 
-/// The segments of `lines` that are done at `now`; all of them without.
+/// The width of lines along the tracks of `shown`, px: thinner than usual where the tracks lie so close in
+/// the picture that they would run together.
+[[nodiscard]] float track_width_px(const project::Evaluation* shown, const Canvas& canvas);
+
+/// The segments of `lines` that are done at `now`; all of them without it and before the path begins, when a
+/// person wants to see the whole.
 [[nodiscard]] int segments_done(const PathLines& lines, const std::optional<Moment>& now);
 
 } // namespace millwright::viewport

@@ -13,7 +13,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float to_come = 0.3F;        // opacity
+constexpr float to_come = 0.6F;        // opacity
 constexpr double deepest_share = 0.05; // of the content's radius: deeper under the surface, the way is hidden
 
 using toolpath::MoveKind;
@@ -49,7 +49,7 @@ public:
     void draw(const Scene& scene, const Canvas& canvas) const override {
         const render::Coloring by_error = {.from = render::ColorFrom::value,
                                            .scale = error_colors(scene, canvas.colors.over_limit)};
-        if (scene.layers.error_surface) {
+        if (surface_colors(scene) == SurfaceColors::error) {
             canvas.painter.mesh(
                 surface_,
                 {.coloring = by_error, .model = canvas.s_T_w, .back_color = {}, .highlight = 0.05F},

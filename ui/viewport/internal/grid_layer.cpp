@@ -92,8 +92,12 @@ public:
             draw_lines(canvas, start_.buffers().tracks, dim, 1.0F);
         }
         if (scene.layers.grid) {
-            draw_lines(canvas, grid_.buffers().across, with_opacity(colors.wire, 0.55F), 1.0F);
-            draw_lines(canvas, grid_.buffers().tracks, with_opacity(colors.wire, 0.95F), 1.8F);
+            // The dark end of a colour map would swallow dark lines.
+            const bool is_plain = surface_colors(scene) == SurfaceColors::plain;
+            const glm::vec3 line = is_plain ? colors.wire : colors.handle;
+            const float opacity = is_plain ? 0.95F : 0.6F; // light lines look thicker
+            draw_lines(canvas, grid_.buffers().across, with_opacity(line, 0.55F * opacity), 1.0F);
+            draw_lines(canvas, grid_.buffers().tracks, with_opacity(line, opacity), is_plain ? 1.8F : 1.2F);
             canvas.painter.points(grid_.buffers().nodes,
                                   {.coloring = {.color = with_opacity(colors.handle, 1.0F)},
                                    .model = canvas.s_T_w,

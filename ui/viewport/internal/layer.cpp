@@ -8,7 +8,8 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float seam_px = 1.0F; // at each side
+constexpr float seam_px = 1.0F;    // at each side
+constexpr float seam_share = 0.4F; // of the line's width, at most
 constexpr float seam_opacity = 0.65F;
 constexpr double least_scale = 0.5; // never further than half way to the eye
 
@@ -37,7 +38,7 @@ void draw_seamed(const Canvas& canvas,
     render::LineStyle seam = style;
     seam.coloring.from = render::ColorFrom::style;
     seam.coloring.color = {canvas.colors.wire, seam_opacity};
-    seam.width_px = style.width_px + 2.0F * seam_px;
+    seam.width_px = style.width_px + 2.0F * std::min(seam_px, seam_share * style.width_px);
     seam.depth = render::Depth::ghost;
     canvas.painter.lines(lines, seam, view);
     canvas.painter.lines(lines, style, view);

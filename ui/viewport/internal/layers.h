@@ -16,6 +16,7 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_grid_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_toolpath_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_error_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_weight_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_singular_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_control_net_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_simulation_layer();

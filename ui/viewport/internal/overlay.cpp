@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace millwright::viewport {
 
@@ -23,6 +24,7 @@ using widgets::Rect;
 
 // Pixels at scale 1.
 constexpr float margin = 14.0F;
+constexpr float label_ground = 6.0F; // beyond a label's text
 constexpr float label_above = 23.0F;
 constexpr float legend_width = 92.0F;
 constexpr float legend_height = 250.0F;
@@ -44,15 +46,27 @@ void draw_line(Point a, Point b, widgets::Colour colour, float width) {
     ImGui::GetWindowDrawList()->AddLine(vec(a), vec(b), colour, width);
 }
 
+float text_width(const widgets::Ui& ui, const std::string& text) {
+    const ImFont* font = ui.look().fonts.small;
+    return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str()).x;
+}
+
 void draw_centred(widgets::Ui& ui, Point at, const std::string& text, widgets::Colour colour) {
     const ImFont* font = ui.look().fonts.small;
-    const float wide = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str()).x;
+    const float wide = text_width(ui, text);
     ImGui::GetWindowDrawList()->AddText(
         font,
         font->FontSize,
         {std::round(at.x - 0.5F * wide), std::round(at.y - 0.5F * font->FontSize)},
         colour,
         text.c_str());
+}
+
+/// The middle of a label nearest to `at` with which nothing of it is cut off.
+Point inside(const widgets::Ui& ui, const Rect& rect, Point at, const std::string& text) {
+    const float half = 0.5F * text_width(ui, text) + ui.px(label_ground);
+    at.x = std::max(std::min(at.x, rect.right() - half), rect.x + half);
+    return at;
 }
 
 /// "20 mm", "0.5 mm", "2 m".
@@ -82,6 +96,32 @@ std::string move_text(const Scene& scene, int move) {
     const toolpath::MoveDeviation& deviation = scene.shown->field.moves[static_cast<std::size_t>(move)];
     return "move " + std::to_string(move + 1) + "   error " + fixed(deviation.closest, 4) + " mm   axis " +
            fixed(to_degrees(deviation.axis), 2) + "\u00B0";
+}
+
+struct Legend {
+    std::string_view id, title, unit, tip;
+    render::ColorScale scale;
+};
+
+/// What of the picture has its colours from numbers.
+std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors) {
+    std::vector<Legend> found;
+    const SurfaceColors surface = surface_colors(scene);
+    if (scene.shown && (scene.layers.error_path || surface == SurfaceColors::error)) {
+        found.push_back({"legend",
+                         "Error",
+                         "mm",
+                         "The largest distance of the tool's true way from the surface, move by move.",
+                         error_colors(scene, colors.over_limit)});
+    }
+    if (surface == SurfaceColors::weight) {
+        found.push_back({"weight_legend",
+                         "Weight",
+                         "",
+                         "The weight of the elliptic grid: the area of a cell goes like 1 / sqrt(weight).",
+                         weight_colors(scene)});
+    }
+    return found;
 }
 
 } // namespace
@@ -128,7 +168,7 @@ void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> label
         }
         at.y -= ui.px(label_above);
         if (pane.rect.contains(at)) {
-            widgets::label_at(ui, at, label.text, to_colour(label.color));
+            widgets::label_at(ui, inside(ui, pane.rect, at, label.text), label.text, to_colour(label.color));
         }
     }
 }
@@ -149,31 +189,29 @@ void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) 
     draw_centred(ui, {0.5F * (left.x + right.x), left.y - ui.px(11.0F)}, length_text(length), colour);
 }
 
-void draw_legend(widgets::Ui& ui, const Pane& pane, const Scene& scene) {
-    if (!scene.shown || !(scene.layers.error_path || scene.layers.error_surface)) {
-        return;
+void draw_legends(widgets::Ui& ui, const Pane& pane, const Scene& scene) {
+    float x = pane.rect.x + ui.px(margin);
+    for (const Legend& legend : legends(scene, pane.colors)) {
+        const float room = pane.rect.h - ui.px(above_scale_bar + margin + legend_top);
+        const float height = std::min(ui.px(legend_height), room);
+        const Rect place = {
+            x, pane.rect.bottom() - height - ui.px(above_scale_bar), ui.px(legend_width), height};
+        if (height < ui.px(least_legend_height) || place.right() > pane.rect.right()) {
+            return;
+        }
+        widgets::LegendView view = {
+            .title = legend.title,
+            .unit = legend.unit,
+            .low = legend.scale.low,
+            .high = legend.scale.high,
+            .map = [map = legend.scale.map](double t) { return to_colour(render::sample(map, t)); },
+            .tip = legend.tip};
+        if (legend.scale.limit) {
+            view.over = to_colour(legend.scale.over_limit);
+        }
+        widgets::legend(ui, legend.id, place, view);
+        x = place.right() + ui.px(0.5F * margin);
     }
-    const render::ColorScale scale = error_colors(scene, pane.colors.over_limit);
-    const float room = pane.rect.h - ui.px(above_scale_bar + margin + legend_top);
-    const float height = std::min(ui.px(legend_height), room);
-    if (height < ui.px(least_legend_height)) {
-        return;
-    }
-    const Rect place = {pane.rect.x + ui.px(margin),
-                        pane.rect.bottom() - height - ui.px(above_scale_bar),
-                        ui.px(legend_width),
-                        height};
-    widgets::LegendView view = {
-        .title = "Error",
-        .unit = "mm",
-        .low = scale.low,
-        .high = scale.high,
-        .map = [map = scale.map](double t) { return to_colour(render::sample(map, t)); },
-        .tip = "The largest distance of the tool's true way from the surface, move by move."};
-    if (scale.limit) {
-        view.over = to_colour(scale.over_limit);
-    }
-    widgets::legend(ui, "legend", place, view);
 }
 
 void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text) {

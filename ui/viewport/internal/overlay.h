@@ -32,8 +32,9 @@ void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> label
 /// A round length at `point` (scene), at the lower left.
 void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point);
 
-/// What the colours of the errors mean, at the left above the scale bar; nothing where no errors are shown.
-void draw_legend(widgets::Ui& ui, const Pane& pane, const Scene& scene);
+/// What the colours of errors and weight mean, side by side at the left above the scale bar; nothing where
+/// neither is shown.
+void draw_legends(widgets::Ui& ui, const Pane& pane, const Scene& scene);
 
 /// The name of a picture among four, at the upper left.
 void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text);

@@ -50,11 +50,12 @@ std::string fitting(const ImFont* font, std::string text, float width) {
     while (text_width(font, text) > width && text.rfind(dot) != std::string::npos) {
         text.resize(text.rfind(dot));
     }
+    const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U; };
     while (text_width(font, text) > width && !text.empty()) {
-        // Whole characters of UTF-8.
-        do {
+        while (text.size() > 1 && continues()) { // a character of UTF-8 goes as a whole
             text.pop_back();
-        } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
+        }
+        text.pop_back();
     }
     return text;
 }

@@ -65,7 +65,7 @@ public:
 private:
     /// The error layer draws the same way in colours of its own.
     static bool traced(const Scene& scene) {
-        return scene.layers.trace && scene.now && !scene.layers.error_path;
+        return scene.layers.trace && scene.now && scene.now->move >= 0 && !scene.layers.error_path;
     }
 
     static PathLines trace_of(const project::Workpiece& workpiece, const project::Evaluation& shown) {
@@ -83,7 +83,7 @@ private:
                     trace_.buffer(),
                     {.coloring = {.color = with_opacity(canvas.colors.selected, 1.0F)},
                      .model = canvas.s_T_w,
-                     .width_px = scene.layers.machine ? 1.2F : 2.2F,
+                     .width_px = track_width_px(shown_.get(), canvas),
                      .count = segments_done(trace_, scene.now)},
                     canvas.view);
     }

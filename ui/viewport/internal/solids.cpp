@@ -1,6 +1,7 @@
 #include "ui/viewport/internal/solids.h"
 
 #include "core/base/units.h"
+#include "ui/viewport/internal/boxes.h"
 
 #include <glm/geometric.hpp>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int sides = 48; // of a circle
 constexpr float edge_opacity = 0.55F;
+constexpr double edge_lift = 0.0015; // of the content's radius
 
 glm::vec3 on_circle(const glm::vec2& radius_and_z, int side) {
     const double angle = 2.0 * pi * side / sides;
@@ -110,8 +112,10 @@ SolidBuffers::SolidBuffers(const Solid& solid)
 void SolidBuffers::draw(const Canvas& canvas, const glm::mat4& model, const glm::vec3& color) const {
     canvas.painter.mesh(
         mesh_, {.coloring = {.color = {color, 1.0F}}, .model = model, .back_color = {}}, canvas.view);
-    canvas.painter.lines(
-        edges_, {.coloring = {.color = {canvas.colors.wire, edge_opacity}}, .model = model}, canvas.view);
+    // An edge lies half inside its own solid, which would break it up.
+    canvas.painter.lines(edges_,
+                         {.coloring = {.color = {canvas.colors.wire, edge_opacity}}, .model = model},
+                         nearer(canvas, edge_lift * radius(canvas.content)));
 }
 
 } // namespace millwright::viewport

@@ -45,7 +45,7 @@ public:
         const render::MeshStyle style = {.coloring = {.color = with_opacity(colors.surface, 1.0F)},
                                          .model = canvas.s_T_w,
                                          .back_color = colors.surface_back};
-        if (!scene.layers.error_surface) {
+        if (surface_colors(scene) == SurfaceColors::plain) {
             canvas.painter.mesh(mesh_, style, canvas.view);
         }
         render::LineStyle line = {

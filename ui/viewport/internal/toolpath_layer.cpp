@@ -127,8 +127,7 @@ public:
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
         const render::ViewColors& colors = canvas.colors;
-        // On a whole machine the part is small.
-        const float width = scene.layers.machine ? 1.2F : 2.2F;
+        const float width = track_width_px(shown_.get(), canvas);
         if (scene.layers.tool_axes) {
             draw_lines(canvas, buffers_.hairs, line_style(canvas, colors.tool, 0.5F * width, 0.8F));
         }

@@ -20,7 +20,8 @@ namespace {
 using render::Key;
 using render::StandardView;
 
-constexpr float handle_size = 14.0F; // of a recorded handle, pixels at scale 1
+constexpr double between_notches_s = 0.2; // of a wheel that is being turned
+constexpr float handle_size = 14.0F;      // of a recorded handle, pixels at scale 1
 constexpr std::array<std::pair<Key, StandardView>, 7> side_keys = {{{Key::digit_0, StandardView::iso},
                                                                     {Key::digit_1, StandardView::front},
                                                                     {Key::digit_2, StandardView::top},
@@ -93,7 +94,7 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
                                                   .pointer = pointer,
                                                   .keys = held_keys(pointer),
                                                   .take_back = esc});
-    draw_picture(frame, pane.view);
+    draw_picture(frame, pane.view, pointer);
     draw_over(frame, pane);
     if (hand_.wants_fit()) {
         fit();
@@ -136,19 +137,38 @@ render::View ViewPane::view_of(const Frame3D& frame, const render::PixelSize& si
     return camera().view(size, frame.view.depth_range(), static_cast<double>(frame.ui.look().scale));
 }
 
-void ViewPane::draw_picture(const Frame3D& frame, const render::View& view) {
+/// While something moves, smooth edges can wait: they cost three times as much as all the rest.
+void ViewPane::draw_picture(const Frame3D& frame, const render::View& view, const widgets::Pointer& pointer) {
+    using render::Edges;
+    const double time = ImGui::GetTime();
+    if (std::abs(pointer.wheel) > 0.0F) {
+        wheel_until_ = time + between_notches_s;
+    }
+    const bool by_hand = pointer.held || time < wheel_until_;
     Drawn now = {.scene = frame.scene,
                  .camera = camera().pose(),
                  .size = view.size,
                  .theme = frame.colors.theme,
                  .highlight = hand_.highlight()};
-    if (drawn_ && *drawn_ == now) {
-        return;
+    const bool changed = !drawn_ || *drawn_ != now;
+    const bool moving = by_hand || changes_;
+    if (changed) {
+        drawn_ = std::move(now);
+        paint(frame, view, moving ? Edges::rough : Edges::smooth);
+    } else if (edges_ == Edges::rough && !by_hand) {
+        paint(frame, view, Edges::smooth);
     }
-    target_.begin(view.size);
-    frame.view.draw(view, frame.colors, now.highlight);
+    changes_ = changed;
+    if (edges_ == Edges::rough && !pointer.held) {
+        frame.ui.change_in(std::max(wheel_until_ - time, 0.0)); // to see it smooth
+    }
+}
+
+void ViewPane::paint(const Frame3D& frame, const render::View& view, render::Edges edges) {
+    target_.begin(view.size, edges);
+    frame.view.draw(view, frame.colors, drawn_->highlight);
     target_.end();
-    drawn_ = std::move(now);
+    edges_ = edges;
 }
 
 void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
@@ -164,7 +184,7 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
         return;
     }
     draw_scale_bar(frame.ui, pane, camera().pose().target);
-    draw_legend(frame.ui, pane, frame.scene);
+    draw_legends(frame.ui, pane, frame.scene);
     if (const auto side = axis_gizmo(frame.ui, pane)) {
         cameras_[at_].camera = camera().seen_from(*side);
         fit();

@@ -60,7 +60,8 @@ private:
     void fit_if_needed(const Frame3D& frame, const render::PixelSize& size);
     void take_keys(const widgets::Pointer& pointer);
     [[nodiscard]] render::View view_of(const Frame3D& frame, const render::PixelSize& size) const;
-    void draw_picture(const Frame3D& frame, const render::View& view);
+    void draw_picture(const Frame3D& frame, const render::View& view, const widgets::Pointer& pointer);
+    void paint(const Frame3D& frame, const render::View& view, render::Edges edges);
     void draw_over(const Frame3D& frame, const Pane& pane);
     void record_handles(const Frame3D& frame, const Pane& pane) const;
 
@@ -70,6 +71,9 @@ private:
     std::size_t at_ = 0; ///< 0 workpiece, 1 machine
     render::ViewTarget target_;
     std::optional<Drawn> drawn_;
+    render::Edges edges_ = render::Edges::smooth; ///< of what was drawn
+    bool changes_ = false;                        ///< the picture was another one in the last frame, too
+    double wheel_until_ = 0.0;                    ///< ImGui time until which the wheel counts as turning
     Hand hand_;
     bool in_use_ = false;
 };

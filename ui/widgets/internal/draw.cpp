@@ -1,5 +1,7 @@
 #include "ui/widgets/internal/draw.h"
 
+#include "ui/widgets/internal/imgui_inside.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -69,15 +71,23 @@ const Permission& effective(Ui& ui, const Permission& own) {
     return refusing == outer.rend() ? own : *refusing;
 }
 
-Press press(
-    Ui& ui, const std::string& path, const Rect& rect, const Permission& permission, std::string_view tip) {
+Press press(Ui& ui,
+            const std::string& path,
+            const Rect& rect,
+            const Permission& permission,
+            std::string_view tip,
+            Reach reach) {
     const Permission& allowed = effective(ui, permission);
     Press now;
     now.enabled = allowed.allowed;
     ImGui::SetCursorScreenPos(upper_left(rect));
     ImGui::BeginDisabled(!now.enabled);
-    now.clicked =
-        ImGui::InvisibleButton(path.c_str(), {std::max(rect.w, 1.0F), std::max(rect.h, 1.0F)}) && now.enabled;
+    {
+        const TabStop stop(reach == Reach::tab_and_mouse);
+        now.clicked =
+            ImGui::InvisibleButton(path.c_str(), {std::max(rect.w, 1.0F), std::max(rect.h, 1.0F)}) &&
+            now.enabled;
+    }
     now.hovered = ImGui::IsItemHovered();
     now.held = ImGui::IsItemActive();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {

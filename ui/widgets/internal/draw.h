@@ -37,6 +37,9 @@ private:
 void record_at(
     Ui& ui, const std::string& path, const Rect& rect, bool enabled = true, std::string reason = {});
 
+/// Whether the Tab key stops at a piece; small extras beside a field are for the mouse.
+enum class Reach { tab_and_mouse, mouse };
+
 struct Press {
     bool clicked = false;
     bool hovered = false;
@@ -51,7 +54,8 @@ Press press(Ui& ui,
             const std::string& path,
             const Rect& rect,
             const Permission& permission = {},
-            std::string_view tip = {});
+            std::string_view tip = {},
+            Reach reach = Reach::tab_and_mouse);
 
 /// The permission of this place: the innermost permitted() that refuses, else `own`.
 [[nodiscard]] const Permission& effective(Ui& ui, const Permission& own);

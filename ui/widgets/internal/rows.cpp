@@ -34,7 +34,7 @@ void scroll_bar(
     const double most = count - in_sight;
     const double travel = static_cast<double>(bar.h - grip);
     const auto grip_y = [&] { return bar.y + static_cast<float>(travel * std::clamp(top / most, 0.0, 1.0)); };
-    const Press now = press(ui, path + "/scroll", bar);
+    const Press now = press(ui, path + "/scroll", bar, {}, {}, Reach::mouse);
     double& taken = ui.state().memory[path + "@taken"];
     if (now.held && travel > 0.0) {
         const float mouse = ImGui::GetIO().MousePos.y;
@@ -56,7 +56,8 @@ Rows::Rows(Ui& ui, const std::string& path, const Rect& box, std::ptrdiff_t coun
     double& top = scroll_of(ui, path);
     const double in_sight = static_cast<double>(box.h / row_height);
     const auto rows = static_cast<double>(count);
-    if (in_sight < rows) {
+    scrolls_ = in_sight < rows;
+    if (scrolls_) {
         const float width = ui.px(bar_width);
         inside_.w -= width;
         take_wheel_and_keys(box, top, in_sight);

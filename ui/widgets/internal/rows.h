@@ -19,6 +19,7 @@ public:
 
     [[nodiscard]] std::ptrdiff_t first() const { return first_; }
     [[nodiscard]] std::ptrdiff_t end() const { return end_; } ///< one past the last row in sight
+    [[nodiscard]] bool scrolls() const { return scrolls_; }
     [[nodiscard]] Rect row(std::ptrdiff_t index) const;
     /// The part of the row that is inside the box.
     [[nodiscard]] Rect row_in_sight(std::ptrdiff_t index) const;
@@ -27,6 +28,7 @@ private:
     Rect inside_;
     double top_ = 0.0; ///< in rows
     float row_height_;
+    bool scrolls_ = false;
     std::ptrdiff_t first_ = 0;
     std::ptrdiff_t end_ = 0;
 };

@@ -1,0 +1,273 @@
+// What is asked over everything else, answered by real mouse and keys.
+#include "ui/panels/dialogs.h"
+
+#include "core/base/files.h"
+#include "core/project/project_file.h"
+#include "core/project/recovery.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace millwright::panels {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::Person;
+
+constexpr const char* dome = "assets/projects/dome.json";
+
+/// A copy of the dome in the person's own folder, opened.
+fs::path opened_copy(Person& person) {
+    const fs::path file = person.folder() / "mine.json";
+    fs::copy_file(dome, file);
+    person.open(file);
+    return file;
+}
+
+void change(Person& person) {
+    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    person.frames();
+}
+
+void choose_sample(Person& person) {
+    person.click("menu/file");
+    person.click("menu/file/sample_sine");
+    person.frames();
+}
+
+TEST(UnsavedChanges, AreNotAskedAboutWhenThereAreNone) {
+    Person person;
+    (void)opened_copy(person);
+    choose_sample(person);
+    EXPECT_FALSE(person.sees("dialogs/unsaved/unsaved_save"));
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+}
+
+TEST(UnsavedChanges, CancelKeepsEverythingAsItIs) {
+    Person person;
+    const fs::path file = opened_copy(person);
+    change(person);
+    choose_sample(person);
+    person.click("dialogs/unsaved/unsaved_cancel");
+    EXPECT_FALSE(person.sees("dialogs/unsaved/unsaved_cancel"));
+    EXPECT_EQ(person.workshop().look().document.file, file);
+    EXPECT_EQ(person.project().grid.nv, 12);
+    EXPECT_EQ(project::read_project(file).grid.nv, 20);
+}
+
+TEST(UnsavedChanges, DiscardGoesOnAndLeavesTheFileAlone) {
+    Person person;
+    const fs::path file = opened_copy(person);
+    change(person);
+    choose_sample(person);
+    person.click("dialogs/unsaved/unsaved_discard");
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_EQ(project::read_project(file).grid.nv, 20);
+}
+
+TEST(UnsavedChanges, SaveGoesOnOnceTheyAreSaved) {
+    Person person;
+    const fs::path file = opened_copy(person);
+    change(person);
+    choose_sample(person);
+    person.click("dialogs/unsaved/unsaved_save");
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_EQ(project::read_project(file).grid.nv, 12);
+}
+
+TEST(UnsavedChanges, OfAProjectWithoutAFileAskForOneFirst) {
+    Person person;
+    change(person);
+    person.workshop().run("file.quit");
+    person.frames();
+    person.click("dialogs/unsaved/unsaved_save");
+    person.frames();
+    EXPECT_FALSE(person.workshop().session().quit);
+    person.fill_in("dialogs/files/name", (person.folder() / "new.json").string());
+    person.click("dialogs/files/save");
+    EXPECT_TRUE(person.workshop().session().quit);
+    EXPECT_EQ(project::read_project(person.folder() / "new.json").grid.nv, 12);
+}
+
+TEST(UnsavedChanges, GivingUpTheFileGivesUpTheLeaving) {
+    Person person;
+    change(person);
+    person.workshop().run("file.quit");
+    person.frames();
+    person.click("dialogs/unsaved/unsaved_save");
+    person.frames();
+    person.press_key(render::Key::escape);
+    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.workshop().session().quit);
+}
+
+TEST(UnsavedChanges, HoldTheWindowOpenUntilAnswered) {
+    Person person;
+    person.workshop().run("file.quit");
+    EXPECT_TRUE(person.workshop().session().quit);
+    Person other;
+    change(other);
+    other.press_key(render::Key::q, true);
+    EXPECT_FALSE(other.workshop().session().quit);
+    other.click("dialogs/unsaved/unsaved_discard");
+    EXPECT_TRUE(other.workshop().session().quit);
+}
+
+TEST(UnsavedChanges, AFailedSaveEndsTheLeaving) {
+    Person person;
+    const fs::path file = opened_copy(person);
+    change(person);
+    choose_sample(person);
+    fs::remove(file);
+    fs::create_directory(file); // nothing can be written there
+    person.click("dialogs/unsaved/unsaved_save");
+    EXPECT_EQ(person.workshop().look().document.file, file);
+    EXPECT_EQ(person.project().grid.nv, 12);
+    EXPECT_TRUE(person.workshop().look().changed());
+    EXPECT_FALSE(person.workshop().look().asks());
+}
+
+TEST(UndoAcrossFiles, BringsBackTheFileTogetherWithItsProject) {
+    Person person;
+    const fs::path file = opened_copy(person);
+    change(person);
+    choose_sample(person);
+    person.click("dialogs/unsaved/unsaved_discard");
+    person.wait_idle();
+    person.press_key(render::Key::z, true);
+    const auto now = person.workshop().look();
+    EXPECT_EQ(now.document.file, file);
+    EXPECT_EQ(now.project.grid.nv, 12);
+    EXPECT_TRUE(now.changed());
+    person.press_key(render::Key::y, true);
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_FALSE(person.workshop().look().changed());
+}
+
+TEST(Dialogs, KeysReachTheMachineAlone) {
+    Person person;
+    person.open(dome);
+    person.workshop().session().machine_speed = 1.0;
+    person.press_key(render::Key::f9);
+    person.frames(3);
+    ASSERT_TRUE(person.workshop().look().job.running);
+    person.press_key(render::Key::o, true);
+    ASSERT_TRUE(person.sees("dialogs/files/entries"));
+    person.press_key(render::Key::f3);
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::machine);
+    person.click("emergency/machine_emergency_stop");
+    person.workshop().wait_idle();
+    EXPECT_EQ(person.workshop().look().job.outcome->end, machine::JobEnd::fault);
+}
+
+TEST(FileDialog, OpensWhatIsClickedTwiceAndShowsItBefore) {
+    Person person;
+    (void)opened_copy(person);
+    fs::copy_file("assets/projects/two-bell.json", person.folder() / "bells.json");
+    person.press_key(render::Key::o, true);
+    const render::Picture before = person.picture();
+    person.click("dialogs/files/entries/bells.json");
+    EXPECT_NE(before, person.picture());
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "mine.json");
+    person.click("dialogs/files/entries/bells.json");
+    person.frames();
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "bells.json");
+    EXPECT_FALSE(person.sees("dialogs/files/entries"));
+}
+
+TEST(FileDialog, DoesNotReplaceAFileWithoutSayingSo) {
+    Person person;
+    (void)opened_copy(person);
+    write_file(person.folder() / "other.json", "not mine");
+    person.press_key(render::Key::s, true, true);
+    person.fill_in("dialogs/files/name", "other");
+    person.frames();
+    EXPECT_EQ(read_file(person.folder() / "other.json"), "not mine");
+    person.press_key(render::Key::escape);
+    person.press_key(render::Key::escape);
+    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_EQ(read_file(person.folder() / "other.json"), "not mine");
+}
+
+/// A copy as a program that crashed leaves it.
+void leave_behind(const fs::path& folder, const fs::path& file) {
+    project::UnsavedWork work{project::read_project(dome), file, 1'000'000};
+    work.project.grid.nu = 33;
+    write_file(folder / "1.json", project::recovery_text(work));
+}
+
+bool is_empty_of_copies(const fs::path& folder) {
+    const fs::directory_iterator entries(folder);
+    return std::none_of(
+        begin(entries), end(entries), [](const auto& entry) { return entry.path().extension() == ".json"; });
+}
+
+TEST(RecoveryDialog, RecoverGoesOnWithTheUnsavedWork) {
+    const test::ScratchFolder scratch;
+    leave_behind(scratch.path(), fs::absolute(dome));
+    Person person({1280, 800}, scratch.path());
+    ASSERT_TRUE(person.sees("dialogs/recovery/recovery_recover"));
+    person.click("dialogs/recovery/recovery_recover");
+    const auto now = person.workshop().look();
+    EXPECT_EQ(now.project.grid.nu, 33);
+    EXPECT_EQ(now.document.file, fs::absolute(dome));
+    EXPECT_TRUE(now.changed());
+    EXPECT_FALSE(now.asks());
+    EXPECT_FALSE(is_empty_of_copies(scratch.path())) << "it is still unsaved";
+    person.workshop().close();
+    EXPECT_TRUE(is_empty_of_copies(scratch.path()));
+}
+
+TEST(RecoveryDialog, DiscardRemovesTheCopy) {
+    const test::ScratchFolder scratch;
+    leave_behind(scratch.path(), {});
+    Person person({1280, 800}, scratch.path());
+    person.click("dialogs/recovery/recovery_discard");
+    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_TRUE(is_empty_of_copies(scratch.path()));
+    EXPECT_EQ(person.project().grid.nu, 20);
+}
+
+TEST(RecoveryDialog, LaterAsksAgainAtTheNextStart) {
+    const test::ScratchFolder scratch;
+    leave_behind(scratch.path(), {});
+    {
+        Person person({1280, 800}, scratch.path());
+        person.click("dialogs/recovery/recovery_later");
+        EXPECT_FALSE(person.workshop().look().asks());
+        person.workshop().close();
+    }
+    Person next({1280, 800}, scratch.path());
+    EXPECT_TRUE(next.sees("dialogs/recovery/recovery_recover"));
+}
+
+TEST(RecoveryDialog, ABrokenCopyCannotBeRecoveredAndSaysWhy) {
+    const test::ScratchFolder scratch;
+    write_file(scratch / "1.json", "{ \"format\": ");
+    Person person({1280, 800}, scratch.path());
+    person.click("dialogs/recovery/recovery_recover");
+    EXPECT_TRUE(person.workshop().look().asks());
+    const auto* seen = person.desktop().ui().places().find("dialogs/recovery/recovery_recover");
+    ASSERT_NE(seen, nullptr);
+    EXPECT_EQ(seen->reason, "The copy cannot be read.");
+    person.click("dialogs/recovery/recovery_discard");
+    EXPECT_TRUE(is_empty_of_copies(scratch.path()));
+}
+
+TEST(RecoveryDialog, UnsavedWorkSurvivesAProgramThatEndsBadly) {
+    const test::ScratchFolder scratch;
+    {
+        Person person({1280, 800}, scratch.path());
+        change(person);
+    } // without close()
+    Person next({1280, 800}, scratch.path());
+    next.click("dialogs/recovery/recovery_recover");
+    EXPECT_EQ(next.project().grid.nv, 12);
+}
+
+} // namespace
+} // namespace millwright::panels

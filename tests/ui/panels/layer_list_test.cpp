@@ -1,0 +1,134 @@
+#include "ui/panels/layer_list.h"
+
+#include "tests/ui/panels/person.h"
+#include "ui/actions/layer_actions.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using actions::Workspace;
+using test::Person;
+using viewport::layer_switches;
+using viewport::Layers;
+using viewport::LayerSwitch;
+
+constexpr const char* dome = "assets/projects/dome.json";
+
+const Layers& shown(Person& person) {
+    return person.workshop().session().layers_now();
+}
+
+TEST(LayerList, HasARowForEveryLayerThatSwitchesItInThisWorkspaceOnly) {
+    Person person;
+    person.open(dome);
+    const Layers of_grid = person.workshop().session().layers[1];
+    person.click("view/layers");
+    for (const LayerSwitch& which : layer_switches) {
+        const Layers before = shown(person);
+        person.click("view/layers/" + std::string(which.id));
+        EXPECT_EQ(shown(person), switched(before, which)) << which.id;
+        EXPECT_NE(shown(person), before) << which.id;
+    }
+    EXPECT_EQ(person.workshop().session().layers[1], of_grid);
+}
+
+TEST(LayerList, StaysOpenForTheNextLayerAndClosesByAClickElsewhere) {
+    Person person;
+    person.click("view/layers");
+    person.click("view/layers/control_net");
+    person.keep("layers-open");
+    EXPECT_TRUE(person.sees("view/layers/surface"));
+    person.click("outline");
+    EXPECT_FALSE(person.sees("view/layers/surface"));
+}
+
+TEST(LayerList, AHiddenLayerIsGoneFromThePictureAndComesBack) {
+    Person person;
+    person.open(dome);
+    const render::Picture with = person.picture();
+    EXPECT_TRUE(person.sees("view/control_point(1,1)"));
+    person.workshop().run("view.layer_control_net");
+    person.frames();
+    EXPECT_NE(person.picture(), with);
+    EXPECT_FALSE(person.sees("view/control_point(1,1)"));
+    person.workshop().run("view.layer_control_net");
+    person.frames();
+    EXPECT_EQ(person.picture(), with);
+}
+
+TEST(LayerList, GoesBackToTheUsualLayers) {
+    Person person;
+    const Layers usual = shown(person);
+    person.click("view/layers");
+    person.click("view/layers/surface");
+    person.click("view/layers/tool_axes");
+    ASSERT_NE(shown(person), usual);
+    person.click("view/layers/usual");
+    EXPECT_EQ(shown(person), usual);
+    EXPECT_FALSE(person.sees("view/layers/surface"));
+}
+
+TEST(LayerList, TheWeightIsShownFromTheGridPanelAndFollowsTheFormula) {
+    Person person;
+    person.open(dome);
+    person.press_key(render::Key::f3);
+    person.frames(2);
+    EXPECT_FALSE(person.sees("view/weight_legend"));
+    person.click("inspector/tracks"); // folded away, so that all of the next section is in sight
+    person.click("inspector/elliptic/show_weight");
+    EXPECT_TRUE(shown(person).weight);
+    EXPECT_TRUE(person.sees("view/weight_legend"));
+    const render::Picture of_error = person.picture();
+    person.keep("weight-of-the-error");
+    person.workshop().edit(
+        "Choose the weight",
+        [](project::Project& p) { p.grid.elliptic.weight = project::WeightSource::expression; },
+        {});
+    person.wait_idle();
+    EXPECT_NE(person.picture(), of_error);
+    person.keep("weight-of-a-formula");
+    EXPECT_TRUE(person.desktop().ui().cut_texts().empty());
+}
+
+TEST(LayerList, IsInTheViewMenuToo) {
+    Person person;
+    person.click("menu/view");
+    person.hover(person.place("menu/view/layers").centre());
+    ASSERT_TRUE(person.sees("menu/view/layers/floor"));
+    person.keep("layers-menu");
+    EXPECT_LE(person.place("menu/view/layers/usual").bottom(), 800.0F);
+    const bool before = shown(person).floor;
+    person.click("menu/view/layers/floor");
+    EXPECT_NE(shown(person).floor, before);
+    person.hover(person.place("menu/view/view_fit").centre());
+    EXPECT_FALSE(person.sees("menu/view/layers/floor"));
+    EXPECT_TRUE(person.sees("menu/view/view_fit"));
+}
+
+TEST(LayerList, IsFoundInThePaletteByTheNameOfALayer) {
+    Person person;
+    const bool before = shown(person).singular_points;
+    person.press_key(render::Key::k, true);
+    person.type("singular");
+    person.press_key(render::Key::enter);
+    EXPECT_NE(shown(person).singular_points, before);
+}
+
+TEST(LayerList, CutsNoTextAndFitsTheSmallWindow) {
+    Person person;
+    person.click("view/layers");
+    for (const LayerSwitch& which : layer_switches) {
+        const widgets::Rect row = person.place("view/layers/" + std::string(which.id));
+        EXPECT_GE(row.y, 0.0F);
+        EXPECT_LE(row.bottom(), 800.0F) << which.id;
+    }
+    EXPECT_LE(person.place("view/layers/usual").bottom(), 800.0F);
+    EXPECT_TRUE(person.desktop().ui().cut_texts().empty());
+}
+
+} // namespace
+} // namespace millwright::panels

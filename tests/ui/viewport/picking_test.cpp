@@ -1,0 +1,156 @@
+#include "ui/viewport/picking.h"
+
+#include "tests/ui/viewport/scenes.h"
+#include "ui/render/camera.h"
+#include "ui/render/convert.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::viewport {
+namespace {
+
+constexpr render::PixelSize size = {640, 480};
+
+/// A plane sheet z = 0 over [0, 100] x [0, 100], as a patch of degree 3 with u along x.
+std::shared_ptr<const geometry::Surface> sheet() {
+    geometry::ControlNet net = geometry::ControlNet::sized(4, 4);
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            net.point(i, j) = Vec3(i, j, 0.0) * (100.0 / 3.0);
+        }
+    }
+    return std::make_shared<const geometry::Surface>(
+        std::vector<geometry::BezierPatch>{geometry::BezierPatch(net)});
+}
+
+render::View from_above() {
+    return render::Camera({.target = {50.0, 50.0, 0.0}, .distance = 300.0})
+        .seen_from(render::StandardView::top)
+        .view(size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(150.0)});
+}
+
+glm::dvec2 pixel_of(const render::View& view, const Vec3& p) {
+    return render::project(view, render::to_glm(p)).value().pixel;
+}
+
+TEST(PickControlPoint, FindsTheHandleWithinReachOnly) {
+    const auto surface = sheet();
+    const render::View view = from_above();
+    const Vec3 point = surface->patch(geometry::PatchId{0}).net().point(2, 1);
+    const glm::dvec2 pixel = pixel_of(view, point);
+    const Frame here = Frame::Identity();
+    const auto near = pick_control_point(*surface, here, view, pixel + glm::dvec2(5.0, 0.0), 9.0);
+    ASSERT_TRUE(near);
+    EXPECT_EQ(*near, (ControlPointId{.i = 2, .j = 1}));
+    EXPECT_FALSE(pick_control_point(*surface, here, view, pixel + glm::dvec2(9.5, 0.0), 9.0));
+}
+
+TEST(PickControlPoint, TakesTheNearerOfTwoHandlesInOneLineOfSight) {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    net.point(0, 0) = {0.0, 0.0, 10.0};
+    net.point(0, 1) = {0.0, 0.0, 40.0};
+    net.point(1, 0) = {50.0, 0.0, 0.0};
+    net.point(1, 1) = {50.0, 50.0, 0.0};
+    const geometry::Surface surface({geometry::BezierPatch(net)});
+    const render::View view =
+        render::Camera({.distance = 300.0, .projection = render::Projection::orthographic})
+            .seen_from(render::StandardView::top)
+            .view(size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(50.0)});
+    const auto found =
+        pick_control_point(surface, Frame::Identity(), view, pixel_of(view, net.point(0, 0)), 9.0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->j, 1);
+}
+
+TEST(ControlPointsIn, FindsThoseInsideWhicheverCornersAreGiven) {
+    const auto surface = sheet();
+    const render::View view = from_above();
+    const geometry::ControlNet& net = surface->patch(geometry::PatchId{0}).net();
+    const glm::dvec2 a = pixel_of(view, net.point(0, 0)) + glm::dvec2(-3.0, 3.0);
+    const glm::dvec2 b = pixel_of(view, net.point(1, 2)) + glm::dvec2(3.0, -3.0);
+    const auto found = control_points_in(*surface, Frame::Identity(), view, a, b);
+    ASSERT_EQ(found.size(), 6U);
+    EXPECT_EQ(found, control_points_in(*surface, Frame::Identity(), view, b, a));
+    EXPECT_EQ(found.front(), (ControlPointId{.i = 0, .j = 0}));
+    EXPECT_EQ(found.back(), (ControlPointId{.i = 1, .j = 2}));
+}
+
+TEST(SurfacePicker, FindsThePlaceAndItsParameters) {
+    SurfacePicker picker;
+    picker.follow(sheet());
+    const render::View view = from_above();
+    const Vec3 place(37.0, 81.0, 0.0);
+    const auto hit = picker.hit(render::ray(view, pixel_of(view, place)), Frame::Identity());
+    ASSERT_TRUE(hit);
+    EXPECT_LT((hit->position - place).norm(), 1e-6);
+    EXPECT_NEAR(hit->uv.x(), 0.37, 1e-8);
+    EXPECT_NEAR(hit->uv.y(), 0.81, 1e-8);
+}
+
+TEST(SurfacePicker, MeetsAMovedSurfaceWhereItIs) {
+    SurfacePicker picker;
+    picker.follow(sheet());
+    Frame s_T_w = Frame::Identity();
+    s_T_w.translation() = Vec3(0.0, 0.0, 25.0);
+    const render::View view = from_above();
+    const Vec3 place_w(20.0, 30.0, 0.0);
+    const auto hit = picker.hit(render::ray(view, pixel_of(view, s_T_w * place_w)), s_T_w);
+    ASSERT_TRUE(hit);
+    EXPECT_LT((hit->position - place_w).norm(), 1e-6);
+}
+
+TEST(SurfacePicker, MeetsNothingBesideTheSurfaceOrWithoutOne) {
+    SurfacePicker picker;
+    const render::View view = from_above();
+    const render::Ray through = render::ray(view, pixel_of(view, {50.0, 50.0, 0.0}));
+    EXPECT_FALSE(picker.hit(through, Frame::Identity()));
+    picker.follow(sheet());
+    EXPECT_TRUE(picker.hit(through, Frame::Identity()));
+    EXPECT_FALSE(picker.hit(render::ray(view, pixel_of(view, {103.0, 50.0, 0.0})), Frame::Identity()));
+    picker.follow(nullptr);
+    EXPECT_FALSE(picker.hit(through, Frame::Identity()));
+}
+
+TEST(PickMove, FindsEachMoveAtItsMiddle) {
+    const Scene scene = test::scene_of(test::two_bell, ViewKind::toolpath);
+    const render::View view = render::Camera()
+                                  .seen_from(render::StandardView::top)
+                                  .fitted(render::to_glm(scene.surface->control_box()), render::aspect(size))
+                                  .view(size, render::to_glm(scene.surface->control_box()));
+    const auto& points = scene.shown->toolpath.points;
+    for (const std::size_t move : {0U, 17U, 64U, 130U}) {
+        const Vec2 uv = 0.5 * (points[move].origin.uv + points[move + 1].origin.uv);
+        const Vec3 middle = scene.workpiece->patch.position(uv.x(), uv.y());
+        const auto hit = pick_move(scene, view, pixel_of(view, middle), 4.0, std::nullopt, 0.0);
+        ASSERT_TRUE(hit) << move;
+        EXPECT_EQ(hit->move, static_cast<int>(move));
+        EXPECT_NEAR(hit->fraction, 0.5, 0.02);
+    }
+}
+
+TEST(PickMove, FindsNothingBehindTheSurface) {
+    const Scene scene = test::scene_of(test::two_bell, ViewKind::toolpath);
+    const render::Bounds box = render::to_glm(scene.surface->control_box());
+    const render::View view = render::Camera()
+                                  .seen_from(render::StandardView::top)
+                                  .fitted(box, render::aspect(size))
+                                  .view(size, box);
+    const Vec3 tip = scene.shown->toolpath.points[30].pose.tip;
+    const glm::dvec2 pixel = pixel_of(view, tip);
+    const render::Ray sight = render::ray(view, pixel);
+    const double away = (tip - render::to_core(sight.origin)).norm();
+    EXPECT_TRUE(pick_move(scene, view, pixel, 4.0, away, 1.0));
+    EXPECT_FALSE(pick_move(scene, view, pixel, 4.0, away - 10.0, 1.0));
+}
+
+TEST(PickMove, FindsNothingWhereNoPathIsShown) {
+    Scene scene = test::scene_of(test::two_bell, ViewKind::design);
+    const render::View view = from_above();
+    const glm::dvec2 pixel = pixel_of(view, scene.shown->toolpath.points[3].pose.tip);
+    EXPECT_FALSE(pick_move(scene, view, pixel, 400.0, std::nullopt, 0.0));
+    scene.layers.toolpath = true;
+    EXPECT_TRUE(pick_move(scene, view, pixel, 400.0, std::nullopt, 0.0));
+}
+
+} // namespace
+} // namespace millwright::viewport

@@ -1,0 +1,119 @@
+#include "ui/viewport/picture.h"
+
+#include "core/base/error.h"
+#include "tests/ui/viewport/plans.h"
+#include "tests/ui/viewport/studio.h"
+
+#include <cmath>
+#include <set>
+
+namespace millwright::viewport {
+namespace {
+
+using render::Picture;
+using render::PixelSize;
+using render::Theme;
+
+constexpr PixelSize usual = {1280, 800};
+constexpr PixelSize small = {640, 400};
+
+std::size_t color_count(const Picture& picture) {
+    return std::set<render::Pixel>(picture.pixels.begin(), picture.pixels.end()).size();
+}
+
+bool shows(const Picture& picture, const glm::vec3& color) {
+    const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255.0F * c)); };
+    const render::Pixel wanted = {byte(color.r), byte(color.g), byte(color.b), 255};
+    return std::ranges::find(picture.pixels, wanted) != picture.pixels.end();
+}
+
+TEST(RenderView, ShowsEveryKindOfView) {
+    const auto dome = test::planned({"dome", "rotary-tilt-listing", 20});
+    std::vector<Picture> pictures;
+    for (int k = 0; k < view_kind_count; ++k) {
+        const auto kind = static_cast<ViewKind>(k);
+        const Picture picture = render_view(dome.project, dome.plan, kind, usual, Theme::dark);
+        EXPECT_EQ(picture.size, usual);
+        EXPECT_GT(color_count(picture), 1000U)
+            << id(kind); // a shaded thing on a soft ground, not a plain one
+        for (const Picture& other : pictures) {
+            EXPECT_GT(render::difference(picture, other, 8).fraction, 0.02) << id(kind);
+        }
+        test::keep(picture, "picture-" + std::string(id(kind)));
+        pictures.push_back(picture);
+    }
+}
+
+TEST(RenderView, DrawsTheSameBytesTwice) {
+    const auto bells = test::planned(test::two_bell, "Two bells");
+    for (int k = 0; k < view_kind_count; ++k) {
+        const auto kind = static_cast<ViewKind>(k);
+        const Picture once = render_view(bells.project, bells.plan, kind, small, Theme::light);
+        EXPECT_EQ(render_view(bells.project, bells.plan, kind, small, Theme::light), once) << id(kind);
+        test::keep(once, "picture-small-" + std::string(id(kind)));
+    }
+}
+
+TEST(RenderView, ShowsTheColoursOfErrorsWithTheirLegend) {
+    const auto dome = test::planned(test::dome);
+    const Picture picture = render_view(dome.project, dome.plan, ViewKind::error, small, Theme::dark);
+    EXPECT_TRUE(shows(picture, render::sample(render::ColorMap::viridis, 1.0)));
+    const Picture design = render_view(dome.project, dome.plan, ViewKind::design, small, Theme::dark);
+    EXPECT_FALSE(shows(design, render::sample(render::ColorMap::viridis, 1.0)));
+}
+
+TEST(RenderView, ComparesTheChosenGridWithTheUniformOne) {
+    auto dome = test::planned(test::dome);
+    const Picture both = render_view(dome.project, dome.plan, ViewKind::grid, small, Theme::dark);
+    dome.project.grid.method = project::GridMethod::uniform;
+    const Picture one = render_view(dome.project, dome.plan, ViewKind::grid, small, Theme::dark);
+    EXPECT_GT(render::difference(both, one, 8).fraction, 0.05);
+}
+
+TEST(RenderView, TakesAPlanThatStopsShort) {
+    auto dome = test::planned(test::dome);
+    project::Plan plan;
+    plan.surface = dome.plan.surface;
+    for (int k = 0; k < view_kind_count; ++k) {
+        EXPECT_NO_THROW(
+            (void)render_view(dome.project, plan, static_cast<ViewKind>(k), {320, 200}, Theme::dark));
+    }
+    EXPECT_NO_THROW((void)render_view(dome.project, {}, ViewKind::error, {320, 200}, Theme::dark));
+}
+
+TEST(RenderView, LeavesOutWordsWhereThereIsNoRoom) {
+    const auto dome = test::planned(test::dome);
+    const Picture thumb = render_view(dome.project, dome.plan, ViewKind::error, {120, 80}, Theme::dark);
+    test::keep(thumb, "picture-thumb");
+    EXPECT_EQ(thumb.size, (PixelSize{120, 80}));
+    EXPECT_NO_THROW((void)render_view(dome.project, dome.plan, ViewKind::error, {1, 1}, Theme::dark));
+}
+
+TEST(RenderView, RefusesAPictureWithoutArea) {
+    const auto dome = test::planned(test::dome);
+    EXPECT_THROW((void)render_view(dome.project, dome.plan, ViewKind::design, {0, 100}, Theme::dark), Defect);
+}
+
+TEST(RenderView, LeavesTheCallersContextAsItWas) {
+    const auto dome = test::planned(test::dome);
+    render::OffscreenContext own({64, 48});
+    own.begin();
+    glClearColor(1.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    (void)render_view(dome.project, dome.plan, ViewKind::design, {320, 200}, Theme::dark);
+    own.make_current();
+    EXPECT_EQ(own.read_back().at(5, 5), (render::Pixel{255, 0, 0, 255}));
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(SceneOf, ShowsTheGridThatTheProjectChose) {
+    auto dome = test::planned(test::dome);
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.optimised);
+    dome.project.grid.method = project::GridMethod::uniform;
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.uniform);
+    dome.project.grid.method = project::GridMethod::elliptic; // not made
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.uniform);
+}
+
+} // namespace
+} // namespace millwright::viewport

@@ -1,0 +1,59 @@
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace {
+
+using widgets::Permission;
+
+Permission is_leaving(const Workbench& now) {
+    return now.leaving_to.empty() ? Permission::refused("Nothing waits for unsaved changes.") : Permission{};
+}
+
+Permission has_left_behind(const Workbench& now) {
+    return now.left_behind.empty() ? Permission::refused("Nothing was left behind.") : Permission{};
+}
+
+Permission can_recover(const Workbench& now) {
+    if (const Permission found = has_left_behind(now); !found.allowed) {
+        return found;
+    }
+    return now.left_behind.front().work() ? Permission{} : Permission::refused("The copy cannot be read.");
+}
+
+} // namespace
+
+void add_dialog_actions(Actions& actions) {
+    add(actions,
+        {"unsaved.save", dialog_menu, "Save", "Saves the changes and goes on.", "", ""},
+        is_leaving,
+        [](Hands& hands) { hands.workshop.save_and_leave(); });
+    add(actions,
+        {"unsaved.discard", dialog_menu, "Discard", "Goes on without saving the changes.", "", ""},
+        is_leaving,
+        [](Hands& hands) { hands.workshop.discard_and_leave(); });
+    add(actions,
+        {"unsaved.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
+        is_leaving,
+        [](Hands& hands) { hands.workshop.stay(); });
+    add(actions,
+        {"recovery.recover",
+         dialog_menu,
+         "Recover",
+         "Goes on with the work; it still has to be saved.",
+         "",
+         ""},
+        can_recover,
+        [](Hands& hands) { hands.workshop.recover(); });
+    add(actions,
+        {"recovery.discard", dialog_menu, "Discard", "Removes the copy for good.", "", ""},
+        has_left_behind,
+        [](Hands& hands) { hands.workshop.discard_left_behind(); });
+    add(actions,
+        {"recovery.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
+        has_left_behind,
+        [](Hands& hands) { hands.workshop.leave_left_behind(); });
+}
+
+} // namespace millwright::actions

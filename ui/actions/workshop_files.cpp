@@ -1,0 +1,168 @@
+// The part of the workshop that deals with whole files: opening, saving, leaving, recovering.
+#include "core/base/error.h"
+#include "core/project/project_file.h"
+#include "ui/actions/workshop.h"
+
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t seconds_since_1970() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+}
+
+/// What stands in `file`, to tell what is unsaved; a project like no other if it cannot be read.
+project::Project on_disk(const fs::path& file) {
+    try {
+        return file.empty() ? project::Project{} : project::read_project(file);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+} // namespace
+
+void Workshop::open(const fs::path& file) {
+    project::Project opened = project::read_project(file);
+    session_.shown = opened.grid.method;
+    begin(opened, "Open " + file.filename().string(), {fs::absolute(file).lexically_normal(), opened});
+    remember(file);
+}
+
+void Workshop::save(const fs::path& file) {
+    const auto leaving = std::exchange(leaving_, std::nullopt); // a failure ends the leaving, too
+    project::write_project(history_.current(), file);
+    document() = {fs::absolute(file).lexically_normal(), history_.current()};
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::good, "Saved.", file.string());
+    remember(file);
+    if (leaving) {
+        leaving->then(*this);
+    }
+}
+
+void Workshop::new_from_preset(std::string_view preset_id) {
+    const project::Project made = project::project_from_preset(preset_id);
+    begin(made, "New project", {{}, made});
+}
+
+void Workshop::begin(project::Project other, const std::string& title, Document document) {
+    const bool nothing_done = history_.undo_title().empty() && history_.redo_title().empty();
+    if (nothing_done &&
+        this->document().file.empty()) { // as the program makes it at its start: nothing to go back to
+        history_ = project::History(std::move(other));
+        documents_ = {std::move(document)};
+    } else {
+        history_.begin(std::move(other), title);
+        documents_.resize(static_cast<std::size_t>(history_.project_number()) + 1);
+        this->document() = std::move(document);
+    }
+    look_at_another();
+}
+
+void Workshop::look_at_another() {
+    session_.selected.clear();
+    session_.fit_wanted = true;
+    session_.playback = {};
+    session_.question = FileQuestion::none;
+    request_plan();
+}
+
+void Workshop::remember(const fs::path& file) {
+    recent_ = project::with_recent(std::move(recent_), file);
+    if (!options_.settings.empty()) {
+        project::write_recent(recent_, options_.settings);
+    }
+}
+
+void Workshop::leave(std::string to, ActionQueue::Request then) {
+    if (changed()) {
+        leaving_ = Leaving{std::move(to), std::move(then)};
+    } else {
+        then(*this);
+    }
+}
+
+void Workshop::save_and_leave() {
+    if (document().file.empty()) {
+        session_.question = FileQuestion::save_as;
+    } else {
+        save(fs::path(document().file));
+    }
+}
+
+void Workshop::discard_and_leave() {
+    if (const auto leaving = std::exchange(leaving_, std::nullopt)) {
+        leaving->then(*this);
+    }
+}
+
+void Workshop::stay() {
+    leaving_.reset();
+}
+
+void Workshop::start_autosave() {
+    if (!options_.recovery.empty()) {
+        left_behind_ = project::left_behind(options_.recovery);
+        autosave_ = std::make_unique<project::Autosave>(options_.recovery, options_.autosave_interval);
+    }
+}
+
+void Workshop::follow_autosave() {
+    if (!autosave_) {
+        return;
+    }
+    if (!changed()) {
+        if (std::exchange(kept_, std::nullopt)) {
+            autosave_->drop();
+        }
+    } else if (Document now{document().file, history_.current()}; kept_ != now) {
+        autosave_->keep({now.saved, now.file, seconds_since_1970()});
+        kept_ = std::move(now);
+    }
+    if (const auto failure = autosave_->take_failure()) {
+        tell(session_,
+             widgets::Severity::warning,
+             "No copy of the unsaved changes can be kept: " + failure->message,
+             failure->place.file.string());
+    }
+}
+
+void Workshop::recover() {
+    expects(!left_behind_.empty(), "something was left behind");
+    const project::LeftBehind& left = left_behind_.front();
+    if (!left.work()) {
+        throw Error(*left.fault());
+    }
+    const project::UnsavedWork& work = *left.work();
+    begin(work.project, "Recover " + work.project.name, {work.file, on_disk(work.file)});
+    follow_autosave();
+    if (autosave_) {
+        autosave_->wait_idle(); // the old copy stays until the new one is there
+    }
+    discard_left_behind();
+    tell(session_, widgets::Severity::good, "Recovered. It is not saved yet.", document().file.string());
+}
+
+void Workshop::discard_left_behind() {
+    left_behind_.front().discard();
+    left_behind_.erase(left_behind_.begin());
+}
+
+void Workshop::leave_left_behind() {
+    left_behind_.clear();
+}
+
+void Workshop::close() {
+    if (autosave_) {
+        autosave_->drop();
+        autosave_.reset();
+    }
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,84 @@
+#include "ui/panels/dialogs.h"
+
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+namespace millwright::panels {
+
+namespace {
+
+using widgets::Rank;
+
+constexpr float width = 500.0F;
+
+std::string where(const std::filesystem::path& file) {
+    return file.empty() ? "never saved" : file.string();
+}
+
+} // namespace
+
+void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto scope = ui.scope("dialogs");
+    if (now.session.question != actions::FileQuestion::none) {
+        return files_.draw(ui, now, ask);
+    }
+    files_.close();
+    if (!now.leaving_to.empty()) {
+        draw_unsaved(ui, now, ask);
+    } else if (!now.left_behind.empty()) {
+        draw_left_behind(ui, now, ask);
+    }
+}
+
+void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto dialog = ui.dialog("unsaved", "Save the changes?", ui.px(width));
+    if (!dialog) {
+        return;
+    }
+    ui.text(fmt::format("{} has changes that are not saved. Save them before you {}?",
+                        now.document.file.empty() ? "\u201c" + now.project.name + "\u201d"
+                                                  : now.document.file.filename().string(),
+                        now.leaving_to));
+    ui.gap();
+    const auto row = ui.row(3);
+    action_button(ui, now, ask, catalogue_, "unsaved.cancel");
+    action_button(ui, now, ask, catalogue_, "unsaved.discard");
+    action_button(ui, now, ask, catalogue_, "unsaved.save", Rank::primary);
+    if (ui.escape_pressed()) {
+        ask.run("unsaved.cancel");
+    }
+}
+
+void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto dialog = ui.dialog("recovery", "Unsaved work was found", ui.px(width));
+    if (!dialog) {
+        return;
+    }
+    const project::LeftBehind& left = now.left_behind.front();
+    if (left.work()) {
+        ui.text("Millwright did not end well last time. Here is what had not been saved:");
+        ui.gap();
+        const auto labels = ui.label_share(0.2F);
+        ui.value("project", "Project", left.work()->project.name);
+        ui.value("file", "File", where(left.work()->file));
+        ui.value("time", "Copied", date_time_text(left.work()->time_s));
+    } else {
+        ui.text("Millwright did not end well last time. The copy that it kept cannot be read:");
+        ui.gap();
+        (void)widgets::banner(
+            ui, "fault", {widgets::Severity::warning, left.fault()->message, left.copy().string()});
+    }
+    if (now.left_behind.size() > 1) {
+        ui.note(fmt::format("{} more after this one.", now.left_behind.size() - 1));
+    }
+    ui.gap();
+    const auto row = ui.row(3);
+    action_button(ui, now, ask, catalogue_, "recovery.later");
+    action_button(ui, now, ask, catalogue_, "recovery.discard");
+    action_button(ui, now, ask, catalogue_, "recovery.recover", Rank::primary);
+}
+
+} // namespace millwright::panels

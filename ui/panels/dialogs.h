@@ -1,0 +1,23 @@
+// What is asked over everything else, one question at a time: a file, unsaved changes, work that a crash left
+// behind.
+#pragma once
+
+#include "ui/panels/file_panel.h"
+#include "ui/panels/panel.h"
+
+namespace millwright::panels {
+
+class Dialogs final : public Panel {
+public:
+    explicit Dialogs(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+
+    const actions::Catalogue& catalogue_;
+    FilePanel files_;
+};
+
+} // namespace millwright::panels

@@ -1,0 +1,39 @@
+// What a project file holds, before it is opened: its surface as a small picture, grid, machine, when it was
+// saved.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/render/view_target.h"
+#include "ui/viewport/scene_view.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+class ProjectPreview {
+public:
+    /// Reads `file` when it is another than before. What is wrong with it stands in place of the facts.
+    void draw(Ui& ui, const std::filesystem::path& file);
+
+private:
+    struct Drawn {
+        std::shared_ptr<const geometry::Surface> surface;
+        widgets::Theme theme = widgets::Theme::dark;
+        friend bool operator==(const Drawn&, const Drawn&) = default;
+    };
+
+    void read(const std::filesystem::path& file);
+    void draw_picture(const Ui& ui);
+
+    std::filesystem::path file_;
+    std::string words_;
+    std::shared_ptr<const geometry::Surface> surface_; ///< null if the file cannot be read
+    std::unique_ptr<viewport::SceneView> view_;        ///< made when there is something to show
+    render::ViewTarget target_;
+    std::optional<Drawn> drawn_;
+};
+
+} // namespace millwright::panels

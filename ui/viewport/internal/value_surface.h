@@ -1,0 +1,18 @@
+// The surface over a net of parameters, with a number at each node that is spread over it.
+#pragma once
+
+#include "core/geometry/bezier_patch.h"
+#include "core/grid/node_array.h"
+#include "ui/render/mesh_drawer.h"
+
+#include <span>
+
+namespace millwright::viewport {
+
+/// Between nodes parameters and `values` ([rows x columns] of `nodes`) are blended; the cells of the mesh
+/// divide those of the net.
+[[nodiscard]] render::MeshBuffer value_surface(const geometry::BezierPatch& patch,
+                                               const grid::NodeArray& nodes,
+                                               std::span<const double> values);
+
+} // namespace millwright::viewport

@@ -1,0 +1,14 @@
+#include "ui/viewport/layer_switches.h"
+
+namespace millwright::viewport {
+
+Layers switched(Layers layers, const LayerSwitch& which) {
+    const bool on = !(layers.*which.shown);
+    if (on && (which.shown == &Layers::error_surface || which.shown == &Layers::weight)) {
+        layers.error_surface = layers.weight = false;
+    }
+    layers.*which.shown = on;
+    return layers;
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,33 @@
+#include "ui/widgets/internal/imgui_inside.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace millwright::widgets {
+
+TabStop::TabStop(bool is_one) {
+    ImGui::PushItemFlag(ImGuiItemFlags_Inputable, is_one);
+}
+
+TabStop::~TabStop() {
+    ImGui::PopItemFlag();
+}
+
+void show_keyboard_on_tab() {
+    ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    const bool keyboard_on = (imgui.IO.ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0;
+    if (!keyboard_on || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab))) {
+        return;
+    }
+    const bool stands_somewhere = imgui.NavId != 0 && !imgui.NavDisableHighlight && imgui.ActiveId == 0;
+    if (stands_somewhere) { // ImGui would stay there, since nothing is being typed into
+        imgui.NavTabbingDir = imgui.IO.KeyShift ? -1 : +1;
+    }
+    imgui.NavDisableHighlight = false;
+}
+
+void keep_wheel() {
+    ImGui::SetItemUsingMouseWheel();
+}
+
+} // namespace millwright::widgets

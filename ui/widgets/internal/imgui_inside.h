@@ -1,0 +1,22 @@
+// The little for which ImGui 1.86's public interface is not enough. Newer versions do some of it by
+// themselves; whoever moves to one looks here.
+#pragma once
+
+namespace millwright::widgets {
+
+/// Whether Tab stops at the item submitted while this lives. (1.86 stops at text fields alone.)
+class TabStop {
+public:
+    explicit TabStop(bool is_one);
+    TabStop(const TabStop&) = delete;
+    TabStop& operator=(const TabStop&) = delete;
+    ~TabStop();
+};
+
+/// Once a frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
+void show_keyboard_on_tab();
+
+/// The wheel over the last item is the item's own: the pane behind does not scroll.
+void keep_wheel();
+
+} // namespace millwright::widgets
