@@ -1,8 +1,11 @@
 // The program: finds out which command is meant, runs it, and tells how it ended.
 // Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
+#include "app/commands/emulate_command.h"
+#include "app/commands/gcode_command.h"
 #include "app/commands/plan_command.h"
 #include "app/commands/render_command.h"
 #include "app/commands/run_command.h"
+#include "app/commands/send_command.h"
 #include "app/commands/workbench_command.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
@@ -47,6 +50,9 @@ int main(int argc, char** argv) {
     add_plan_command(app, chosen);
     add_render_command(app, chosen);
     add_run_command(app, chosen);
+    add_send_command(app, chosen);
+    add_emulate_command(app, chosen);
+    add_gcode_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {

@@ -7,13 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <utility>
 
 namespace millwright::app {
 
 namespace {
 
-constexpr int bar_width = 30;
+constexpr int widest_bar = 30;
 
 int terminal_columns() {
     winsize size{};
@@ -33,6 +35,12 @@ std::string remaining(double fraction, double elapsed) {
 
 int percent(double fraction) {
     return static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
+}
+
+/// What is being done, without how far it is.
+std::string without_digits(std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+    return text;
 }
 
 } // namespace
@@ -59,27 +67,26 @@ void ProgressPrinter::show(const Progress::Report& report) {
 }
 
 void ProgressPrinter::draw_bar(const Progress::Report& report, double elapsed) {
-    const int done = static_cast<int>(bar_width * std::clamp(report.fraction, 0.0, 1.0));
-    std::string line = fmt::format("[{:#<{}}{:.<{}}] {:3} %  {}{}",
-                                   "",
-                                   done,
-                                   "",
-                                   bar_width - done,
-                                   percent(report.fraction),
-                                   report.text,
-                                   remaining(report.fraction, elapsed));
-    line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_columns() - 1)));
-    fmt::print(stderr, "\r\033[K{}", line);
+    const auto columns = static_cast<std::size_t>(std::max(1, terminal_columns() - 1));
+    const int width = std::min(widest_bar, static_cast<int>(columns) / 4);
+    const int done = static_cast<int>(width * std::clamp(report.fraction, 0.0, 1.0));
+    const std::string bar =
+        fmt::format("[{:#<{}}{:.<{}}] {:3} %", "", done, "", width - done, percent(report.fraction));
+    const std::string left = remaining(report.fraction, elapsed);
+    const std::size_t taken = bar.size() + left.size() + 2;
+    const std::string text = report.text.substr(0, columns > taken ? columns - taken : 0);
+    fmt::print(stderr, "\r\033[K{}", fmt::format("{}{}  {}", bar, left, text).substr(0, columns));
     std::fflush(stderr);
     drawn_ = true;
 }
 
 void ProgressPrinter::print_line(const Progress::Report& report) {
     const int tenths = percent(report.fraction) / 10;
-    if (report.text == text_ && tenths == tenths_) {
+    std::string words = without_digits(report.text);
+    if (words.empty() || (words == words_ && tenths == tenths_)) {
         return;
     }
-    text_ = report.text;
+    words_ = std::move(words);
     tenths_ = tenths;
     fmt::print(stderr, "{:3} %  {}\n", percent(report.fraction), report.text);
     std::fflush(stderr);

@@ -29,8 +29,8 @@ private:
     bool drawn_ = false;
     Clock::time_point begin_;
     Clock::time_point last_;
-    std::string text_;
-    int tenths_ = -1; ///< of the work, when the last line was printed
+    std::string words_; ///< of the last line that was printed
+    int tenths_ = -1;   ///< of the work, in that line
 };
 
 } // namespace millwright::app

@@ -64,11 +64,7 @@ machine::JobOutcome run_job(const machine::Job& job, const Options& options, con
     machine::VirtualMachine driver(job.program->start, {options.speed}, clock);
     driver.connect();
     machine::Dispatcher dispatcher(driver, clock, options.log);
-    const machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
-        const double done =
-            report.planned_time > 0.0 ? report.driver.planned_time / report.planned_time : 1.0;
-        progress.report(done, fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks));
-    });
+    const machine::JobOutcome outcome = dispatcher.run(job, progress);
     driver.close();
     return outcome;
 }
@@ -85,12 +81,7 @@ int run(const Options& options) {
                                 interrupt.token());
         outcome = run_job(job, options, progress);
     }
-    fmt::print("{}\n{} of {} blocks executed in {}; log: {}\n",
-               outcome.sentence,
-               outcome.executed_blocks,
-               outcome.blocks,
-               clock_time(outcome.elapsed),
-               outcome.log_file.string());
+    fmt::print("{}\nLog: {}\n", outcome.sentence, outcome.log_file.string());
     if (outcome.end == machine::JobEnd::cancelled) {
         throw Cancelled();
     }

@@ -120,7 +120,7 @@ TEST_F(BadInput, APartOutOfReach) {
 TEST_F(BadInput, AFormulaWithoutSense) {
     EXPECT_THAT(failure_with("\"weight\": \"error\",\n            \"expression\": \"1 +",
                              "\"weight\": \"expression\",\n            \"expression\": \"1 + * "),
-                StartsWith(place() + ":5: grid/elliptic/expression: "));
+                StartsWith(place() + ": grid/elliptic/expression, character 5: "));
 }
 
 TEST_F(BadInput, AFolderThatCannotBeWritten) {

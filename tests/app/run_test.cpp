@@ -35,7 +35,7 @@ TEST(RunCommand, RunsTheWholeProgramAndLogsIt) {
     const Ended ended =
         run({"run", project, "--driver", "virtual", "--speed", "1000", "--log", (scratch / "logs").string()});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("blocks executed"));
+    EXPECT_THAT(ended.out, HasSubstr("blocks were executed"));
     EXPECT_THAT(ended.out, HasSubstr((scratch / "logs").string()));
     EXPECT_THAT(ended.err, HasSubstr(" %  Block "));
     const auto log = only_log_in(scratch / "logs");
@@ -73,7 +73,7 @@ TEST(RunCommand, WithoutALogNothingRuns) {
                              (scratch / "dome.json/logs").string()});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("dome.json/logs"));
-    EXPECT_THAT(ended.out, testing::Not(HasSubstr("blocks executed")));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("blocks were executed")));
 }
 
 } // namespace

@@ -1,0 +1,189 @@
+#include "app/commands/gcode_command.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/gcode/reader/canon_printer.h"
+#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/machine_program.h"
+#include "core/kinematics/machine_file.h"
+#include "core/motion/planner.h"
+#include "core/project/assets.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+/// `check` shows so many errors of a program at most.
+constexpr int most_errors_shown = 100;
+
+/// The tools that rs274 knows when it is given no table.
+constexpr std::string_view rs274_tools = "T1 P1 Z0.511 D0.125\n"
+                                         "T2 P2 Z0.1 D0.0625\n"
+                                         "T3 P3 Z1.273 D0.201\n"
+                                         "T99999 P123 Z0.1\n";
+
+struct Options {
+    std::string file;
+    std::string dialect = "linuxcnc";
+    std::string tools;
+    std::string machine;
+    bool block_delete = false;
+    bool json = false;
+};
+
+gcode::ReaderSettings settings_of(const Options& options) {
+    gcode::ReaderSettings settings;
+    settings.dialect = gcode::dialect_of(options.dialect).value();
+    settings.block_delete = options.block_delete;
+    if (!options.tools.empty()) {
+        settings.tools = gcode::read_tool_table(options.tools);
+    }
+    settings.any_tool = options.tools.empty();
+    return settings;
+}
+
+class MoveCounter final : public gcode::CanonSink {
+public:
+    void move(const gcode::Move&, const gcode::SourceLine&) override { ++count_; }
+    void curve(const gcode::Curve&, const gcode::SourceLine&) override { ++count_; }
+    void command(const gcode::Command&, const gcode::SourceLine&) override {}
+
+    [[nodiscard]] std::int64_t count() const { return count_; }
+
+private:
+    std::int64_t count_ = 0;
+};
+
+void print_json(const gcode::Interpreter& program, std::int64_t moves) {
+    nlohmann::ordered_json errors = nlohmann::ordered_json::array();
+    for (const Diagnostic& error : program.errors()) {
+        nlohmann::ordered_json entry;
+        entry["file"] = error.place.file.string();
+        entry["line"] = error.place.line;
+        entry["column"] = error.place.column;
+        entry["message"] =
+            error.hint.empty() ? error.message : fmt::format("{} ({})", error.message, error.hint);
+        errors.push_back(std::move(entry));
+    }
+    nlohmann::ordered_json answer;
+    answer["lines"] = program.line_count();
+    answer["moves"] = moves;
+    answer["errors"] = std::move(errors);
+    fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+int check(const Options& options) {
+    gcode::ReaderSettings settings = settings_of(options);
+    settings.most_errors = most_errors_shown;
+    MoveCounter moves;
+    gcode::Interpreter program(options.file, std::move(settings), moves);
+    program.run();
+    if (options.json) {
+        print_json(program, moves.count());
+    } else {
+        for (const Diagnostic& error : program.errors()) {
+            fmt::print(stderr, "millwright: {}\n", to_text(error));
+        }
+        fmt::print(
+            "{} lines, {} moves, {} errors\n", program.line_count(), moves.count(), program.errors().size());
+    }
+    return program.errors().empty() ? 0 : 1;
+}
+
+/// As rs274 does: tool table and parameters in inch, the first error is the last.
+int canon(const Options& options) {
+    gcode::ReaderSettings settings = settings_of(options);
+    settings.machine_unit = gcode::LengthUnit::inch;
+    if (options.tools.empty()) {
+        settings.tools = gcode::parse_tool_table(rs274_tools, "rs274's tool table");
+        settings.any_tool = false;
+    }
+    gcode::CanonPrinter printer(
+        [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); });
+    gcode::Interpreter program(options.file, std::move(settings), printer);
+    program.run();
+    printer.flush();
+    if (!program.errors().empty()) {
+        throw Error(program.errors().front());
+    }
+    return 0;
+}
+
+/// The first thing that is wrong: in the program, or that the machine cannot do.
+void throw_first(const std::vector<Diagnostic>& errors) {
+    if (!errors.empty()) {
+        throw Error(errors.front());
+    }
+}
+
+/// How long the machine takes: the duration of the motion that is planned for it.
+int time(const Options& options) {
+    const auto machine = kinematics::read_machine(
+        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
+    gcode::MachineProgramBuilder builder(machine, options.file);
+    gcode::Interpreter program(options.file, settings_of(options), builder);
+    program.run();
+    throw_first(program.errors());
+    const gcode::MachineProgram found = builder.take();
+    throw_first(found.faults);
+    const double duration = motion::plan(found.program, machine, {}, Progress()).duration();
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["time_s"] = duration;
+        answer["length_mm"] = found.length;
+        answer["blocks"] = found.program.block_count();
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
+                   clock_time(duration),
+                   duration,
+                   found.length,
+                   found.program.block_count());
+    }
+    return 0;
+}
+
+CLI::App&
+add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("FILE", options->file, "G-code file")->required();
+    command.add_option("--dialect", options->dialect, "Whose rules hold")
+        ->check(CLI::IsMember({"linuxcnc", "grbl"}))
+        ->capture_default_str();
+    command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
+    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
+    return command;
+}
+
+} // namespace
+
+void add_gcode_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& group = *app.add_subcommand("gcode", "Read a G-code program");
+    group.require_subcommand(1);
+    CLI::App& checking = add_reader(group, "check", "Say what is wrong in it", options);
+    checking.add_flag("--json", options->json, "Print the answer as JSON");
+    checking.callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+    CLI::App& printing =
+        add_reader(group, "canon", "Print what the machine does, as LinuxCNC's rs274 prints it", options);
+    CLI::App& timing = add_reader(group, "time", "Say how long a machine takes for it", options);
+    timing.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    timing.add_flag("--json", options->json, "Print the answer as JSON");
+    timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });
+    printing.callback([&chosen, options] { chosen = [options] { return canon(*options); }; });
+}
+
+} // namespace millwright::app

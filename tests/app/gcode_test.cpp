@@ -1,0 +1,133 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string loops = "assets/samples/gcode/loops.ngc";
+
+TEST(Gcode, CheckCountsLinesAndMoves) {
+    const Ended ended = run({"gcode", "check", loops});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("moves, 0 errors"));
+}
+
+TEST(Gcode, CheckTellsEveryErrorWithItsPlace) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "bad.ngc";
+    write_content(file, "G0 X1\nG1 X2\nG0 X1 X2\nM2\n");
+    const Ended ended = run({"gcode", "check", file.string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("millwright: " + file.string() + ":2:1: G1 with a feed of zero (give F)"));
+    EXPECT_THAT(ended.err, HasSubstr(file.string() + ":3:7: a line has one X word at most"));
+    EXPECT_EQ(ended.out, "4 lines, 1 moves, 2 errors\n");
+}
+
+TEST(Gcode, CheckAnswersInJson) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "bad.ngc";
+    write_content(file, "G0 X1\nG0 X1 Y[1/0]\nM2\n");
+    const Ended ended = run({"gcode", "check", file.string(), "--json"});
+    EXPECT_EQ(ended.exit_code, 1);
+    const auto answer = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(answer.at("lines"), 3);
+    EXPECT_EQ(answer.at("moves"), 1);
+    ASSERT_EQ(answer.at("errors").size(), 1U);
+    EXPECT_EQ(answer.at("errors")[0].at("line"), 2);
+    EXPECT_EQ(answer.at("errors")[0].at("column"), 11);
+    EXPECT_EQ(answer.at("errors")[0].at("message"), "division by zero");
+}
+
+TEST(Gcode, TheDialectDecides) {
+    EXPECT_EQ(run({"gcode", "check", loops, "--dialect", "linuxcnc"}).exit_code, 0);
+    const Ended ended = run({"gcode", "check", loops, "--dialect", "grbl"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("Grbl does not know"));
+}
+
+TEST(Gcode, CanonPrintsInRs274sWords) {
+    const Ended ended = run({"gcode", "canon", "assets/samples/gcode/straight-lines.ngc"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.out, HasSubstr("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"));
+    EXPECT_THAT(ended.out,
+                HasSubstr("N10    STRAIGHT_FEED(1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"));
+}
+
+TEST(Gcode, CanonPrintsUpToTheFirstError) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "bad.ngc";
+    write_content(file, "G0 X1\nG1 X2\nG0 X3\nM2\n");
+    const Ended ended = run({"gcode", "canon", file.string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.out, HasSubstr("STRAIGHT_TRAVERSE(1.0000"));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("(3.0000")));
+    EXPECT_THAT(ended.err, HasSubstr(file.string() + ":2:1: "));
+}
+
+TEST(Gcode, WithoutATableEveryToolIsTakenForGranted) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "tools.ngc";
+    write_content(file, "T7 M6\nG43 H7\nG0 Z1\nM2\n");
+    EXPECT_EQ(run({"gcode", "check", file.string()}).exit_code, 0);
+    const Ended ended = run({"gcode", "check", file.string(), "--tools", "assets/samples/gcode/tools.tbl"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(":1:1: tool 7 is not in the tool table"));
+}
+
+TEST(Gcode, CanonKnowsTheToolsOfRs274) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "tools.ngc";
+    write_content(file, "T3 M6\nG43\nM2\n");
+    EXPECT_THAT(run({"gcode", "canon", file.string()}).out,
+                HasSubstr("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 32.3342, "));
+}
+
+TEST(Gcode, TimeIsThatOfThePlannedMotion) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "there.ngc";
+    write_content(file, "G21 G90\nG1 X100 F3000\nM2\n");
+    const Ended ended = run({"gcode", "time", file.string(), "--machine", "router-xyz", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto answer = nlohmann::json::parse(ended.out);
+    EXPECT_NEAR(answer.at("time_s").get<double>(), 100.0 / 50.0 + 50.0 / 800.0, 1e-9);
+    EXPECT_NEAR(answer.at("length_mm").get<double>(), 100.0, 1e-9);
+    EXPECT_EQ(answer.at("blocks").get<int>(), 3); // the feed, and M2: the spindle off, the end
+}
+
+TEST(Gcode, TimeNeedsAMachineWithTheAxes) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "turn.ngc";
+    write_content(file, "G21\nG0 C90\nM2\n");
+    const Ended turning = run({"gcode", "time", file.string(), "--machine", "router-xyz"});
+    EXPECT_EQ(turning.exit_code, 1);
+    EXPECT_THAT(turning.err, HasSubstr("turn.ngc:2: the machine 'XYZ router' has no axis C"));
+    EXPECT_EQ(run({"gcode", "time", file.string(), "--machine", "ac-table"}).exit_code, 0);
+    const Ended unknown = run({"gcode", "time", file.string(), "--machine", "lathe"});
+    EXPECT_EQ(unknown.exit_code, 1);
+    EXPECT_THAT(unknown.err, HasSubstr("unknown machine 'lathe' (known: ac-table"));
+    EXPECT_EQ(run({"gcode", "time", file.string()}).exit_code, 2);
+}
+
+TEST(Gcode, WhatIsMissingOrWrongIsNamed) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"gcode"},
+                                               {"gcode", "check"},
+                                               {"gcode", "run", loops},
+                                               {"gcode", "check", loops, "--dialect", "fanuc"},
+                                               {"gcode", "canon", loops, "--json"}}) {
+        EXPECT_EQ(run(arguments).exit_code, 2) << testing::PrintToString(arguments);
+    }
+    const Ended ended = run({"gcode", "check", "no/such/file.ngc"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("no/such/file.ngc: cannot be read: No such file or directory"));
+}
+
+} // namespace
+} // namespace millwright::test
