@@ -142,12 +142,15 @@ constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "benc
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
 constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};
+constexpr std::array<std::string_view, 1> asio = {"boost/asio"};
+constexpr std::array<std::string_view, 1> asio_home = {"core/machine/links"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
     Home{"Dear ImGui or GLFW", window, screen_home},
     Home{"OpenGL", opengl, screen_home},
     Home{"nlohmann-json", json, json_home},
+    Home{"Boost.Asio", asio, asio_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {
