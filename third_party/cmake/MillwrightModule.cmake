@@ -50,6 +50,10 @@ function(millwright_fuzz name)
     add_executable(${name}_fuzz ${ARG_SOURCES})
     target_link_libraries(${name}_fuzz PRIVATE millwright_options ${ARG_LINK})
     target_link_options(${name}_fuzz PRIVATE -fsanitize=fuzzer)
+    if(NOT TARGET fuzzers)
+        add_custom_target(fuzzers) # all of them and nothing else
+    endif()
+    add_dependencies(fuzzers ${name}_fuzz)
     set_target_properties(${name}_fuzz PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
     # New inputs go to the first folder; those of the repository are only read.
     set(found ${PROJECT_BINARY_DIR}/fuzz/${name}_corpus)
