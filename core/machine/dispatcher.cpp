@@ -143,7 +143,7 @@ private:
         const auto next = static_cast<std::size_t>(status.executed_blocks);
         const auto& lines = job_.listing->line_of_block;
         line.line = next < lines.size() ? lines[next] : job_.listing->line_count();
-        line.position = status.position;
+        line.position = job_.program != nullptr ? status.position : status.work_position();
         return line;
     }
 

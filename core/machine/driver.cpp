@@ -26,6 +26,32 @@ void Driver::home() {
     refuse(*this, "home");
 }
 
+int Driver::command(const std::string&) {
+    refuse(*this, "execute single lines");
+}
+
+void Driver::set_single_block(bool on) {
+    if (on) {
+        refuse(*this, "go block by block");
+    }
+}
+
+std::string_view to_text(Activity activity) {
+    switch (activity) {
+    case Activity::none:
+        return "nothing";
+    case Activity::program:
+        return "a program";
+    case Activity::command:
+        return "a command";
+    case Activity::jog:
+        return "a jog";
+    case Activity::homing:
+        return "homing";
+    }
+    return "unknown";
+}
+
 std::string_view to_text(DriverState state) {
     switch (state) {
     case DriverState::disconnected:

@@ -8,6 +8,7 @@
 
 #include "core/gcode/program.h"
 #include "core/gcode/writer.h"
+#include "core/machine/driver_status.h"
 #include "core/motion/trajectory.h"
 
 #include <memory>
@@ -17,42 +18,6 @@
 
 namespace millwright::machine {
 
-enum class DriverState {
-    disconnected,
-    idle,     ///< ready; after a program: it ran to its end
-    running,  ///<
-    holding,  ///< braking for a hold or at rest in it; can be resumed
-    stopping, ///< braking for good
-    stopped,  ///< at rest after stop(); the program cannot be resumed
-    alarm     ///< at rest after a fault or an emergency stop; nothing starts before reset()
-};
-
-[[nodiscard]] std::string_view to_text(DriverState state);
-
-/// Of programmed feeds, rapids and spindle speeds, in percent.
-struct Overrides {
-    int feed = 100;
-    int rapid = 100;
-    int spindle = 100;
-
-    friend bool operator==(const Overrides&, const Overrides&) = default;
-};
-
-/// What is known of the machine at one moment.
-struct DriverStatus {
-    DriverState state = DriverState::disconnected;
-    kinematics::AxisPositions position; ///< programmed positions; empty while disconnected
-    kinematics::AxisPositions velocity;
-    int block = -1;            ///< of the current or last program, in execution or next; -1 without one
-    double fraction = 0.0;     ///< of that block
-    int executed_blocks = 0;   ///< of the current or last program, completely executed
-    double planned_time = 0.0; ///< where in the planned trajectory that is, s; 0 where the controller plans
-    double feed = 0.0;         ///< of the motion now, where the controller tells it, mm/s
-    double spindle_rpm = 0.0;  ///< where the controller tells it
-    Overrides overrides;
-    std::string message; ///< why there is an alarm or a hold that nobody here asked for, in a sentence
-};
-
 /// What a driver can do beyond running programs.
 struct Capabilities {
     bool plans = false;                   ///< executes text, without a trajectory
@@ -60,6 +25,23 @@ struct Capabilities {
     bool overrides = false;
     bool jog = false;
     bool home = false;
+    bool command = false;      ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
+    bool probe = false;        ///< G38.2 as a command
+    bool settings = false;     ///< has a table of its own that can be changed
+    bool single_block = false; ///< can stand still after each block
+};
+
+/// One of the controller's own settings.
+struct ControllerSetting {
+    std::string name; ///< as the controller calls it, $110
+    double value = 0.0;
+    std::string_view title, unit, explanation; ///< unit: may be empty
+};
+
+/// A stored offset, as G54, G28 or G92: machine coordinates of its zero, or of a place to go to.
+struct StoredOffset {
+    std::string name;
+    kinematics::AxisPositions value;
 };
 
 /// A straight move by hand, from where the machine stands.
@@ -78,6 +60,8 @@ struct Work {
     std::shared_ptr<const motion::Trajectory> trajectory; ///< planned from the machine's position
     std::shared_ptr<const gcode::Listing> listing;
 };
+
+class Console;
 
 class Driver {
 public:
@@ -108,12 +92,26 @@ public:
     /// What follows throws Error where capabilities() says that it cannot be done, or if the state does not
     /// allow it. Overrides act at once and outlast no program; the nearest that the controller has is taken.
     virtual void set_overrides(const Overrides& wanted);
-    /// While idle, stopped or jogging; several jogs are executed one after another.
+    /// While idle, stopped or jogging; several jogs are executed one after another. hold() and stop() end it
+    /// too.
     virtual void jog(const Jog& jog);
     /// Brakes and forgets all jogs. Does nothing unless jogging.
     virtual void stop_jog();
     /// Finds the machine's zero by its switches; also after an alarm.
     virtual void home();
+    /// Lines of G-code, or of what else the controller is told by lines (settings), executed now, while idle
+    /// or stopped; after a refused one the rest is left out. What became of them: DriverStatus::answer, whose
+    /// number is returned.
+    virtual int command(const std::string& lines);
+    /// After each block with anything to do the machine rests, DriverState::holding, until resume(). Also
+    /// while a program runs: it rests as soon as it can.
+    virtual void set_single_block(bool on);
+
+    /// Empty where there is none, or while disconnected.
+    [[nodiscard]] virtual std::vector<ControllerSetting> settings() const { return {}; }
+    [[nodiscard]] virtual std::vector<StoredOffset> stored_offsets() const { return {}; }
+    /// What went over the link; none where there is no link. Lives as long as the driver.
+    [[nodiscard]] virtual Console* console() { return nullptr; }
 };
 
 } // namespace millwright::machine

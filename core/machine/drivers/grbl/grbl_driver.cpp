@@ -1,7 +1,9 @@
 #include "core/machine/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
+#include "core/machine/drivers/grbl/internal/console_tap.h"
 #include "core/machine/drivers/grbl/internal/session.h"
+#include "core/machine/drivers/grbl/settings.h"
 
 #include <algorithm>
 #include <mutex>
@@ -19,6 +21,8 @@ struct GrblDriver::Body {
     const Clock& clock;
     mutable std::mutex mutex; ///< guards the session
     Session session;
+    Console console;
+    grbl::ConsoleTap tap{console};
     std::jthread thread;
 
     Body(std::unique_ptr<Link> its_link, const Clock& its_clock, const GrblOptions& options)
@@ -30,7 +34,11 @@ struct GrblDriver::Body {
         const std::scoped_lock lock(mutex);
         struct Sender {
             Body& body;
-            ~Sender() { body.link->write(body.session.take_output()); }
+            ~Sender() {
+                const std::string bytes = body.session.take_output();
+                body.tap.sent(bytes, body.clock.now());
+                body.link->write(bytes);
+            }
         } const sender{*this};
         return command(session, clock.now());
     }
@@ -40,8 +48,11 @@ struct GrblDriver::Body {
         while (!stop.stop_requested()) {
             link->wait(tick);
             with_session([this](Session& now, double time) {
-                now.receive(link->read(), time);
-                if (const auto why = link->lost()) {
+                const std::string bytes = link->read();
+                tap.received(bytes, time);
+                now.receive(bytes, time);
+                if (const auto why = link->lost(); why && !now.link_lost()) {
+                    tap.note("the link was lost: " + *why, time);
                     now.lost(*why);
                 }
                 now.tick(time);
@@ -101,22 +112,20 @@ Capabilities GrblDriver::capabilities() const {
             .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
             .overrides = true,
             .jog = true,
-            .home = true};
+            .home = true,
+            .command = true,
+            .probe = true,
+            .settings = true,
+            .single_block = true};
 }
 
 GrblReadout GrblDriver::readout() const {
     const std::scoped_lock lock(body_->mutex);
     const grbl::Readout& known = body_->session.readout();
-    GrblReadout result{.version = known.version,
-                       .settings = known.settings,
-                       .machine_position = known.machine_position,
-                       .work_offset = known.offset,
-                       .pins = known.pins,
-                       .probe = {}};
-    if (known.probe) {
-        result.probe = GrblReadout::Probe{known.probe->position, known.probe->touched};
-    }
-    return result;
+    return {.version = known.version,
+            .settings = known.settings,
+            .planner_blocks = known.planner_blocks,
+            .buffer_bytes = known.buffer_bytes};
 }
 
 void GrblDriver::check(const gcode::Listing& listing, const std::filesystem::path& file) const {
@@ -196,6 +205,42 @@ void GrblDriver::stop_jog() {
 
 void GrblDriver::home() {
     body_->with_session([](Session& now, double time) { now.home(time); });
+}
+
+int GrblDriver::command(const std::string& lines) {
+    grbl::ProgramLines ready = grbl::command_lines(lines);
+    return body_->with_session(
+        [&](Session& now, double time) { return now.command(std::move(ready), time); });
+}
+
+void GrblDriver::set_single_block(bool on) {
+    body_->with_session([&](Session& now, double) { now.set_single_block(on); });
+}
+
+std::vector<ControllerSetting> GrblDriver::settings() const {
+    const std::scoped_lock lock(body_->mutex);
+    std::vector<ControllerSetting> table;
+    for (const auto& [number, value] : body_->session.readout().settings) {
+        const GrblSetting* known = find_grbl_setting(number);
+        const GrblSetting words =
+            known != nullptr ? *known
+                             : GrblSetting{number, "Not of Grbl 1.1", "", "see the controller's makers"};
+        table.push_back({"$" + std::to_string(number), value, words.title, words.unit, words.explanation});
+    }
+    return table;
+}
+
+std::vector<StoredOffset> GrblDriver::stored_offsets() const {
+    const std::scoped_lock lock(body_->mutex);
+    std::vector<StoredOffset> table;
+    for (const auto& [name, axes] : body_->session.readout().offsets) {
+        table.push_back({name, kinematics::AxisPositions{Vec3(axes[0], axes[1], axes[2])}});
+    }
+    return table;
+}
+
+Console* GrblDriver::console() {
+    return &body_->console;
 }
 
 } // namespace millwright::machine

@@ -3,14 +3,13 @@
 #pragma once
 
 #include "core/machine/clock.h"
+#include "core/machine/console.h"
 #include "core/machine/driver.h"
 #include "core/machine/links/link.h"
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace millwright::machine {
@@ -26,13 +25,7 @@ struct GrblOptions {
 struct GrblReadout {
     std::string version;            ///< as 1.1h; empty before there was a link
     std::map<int, double> settings; ///< $$
-    std::array<double, 3> machine_position{}, work_offset{};
-    std::string pins; ///< triggered inputs, as in Grbl's Pn field
-    struct Probe {
-        std::array<double, 3> position{};
-        bool touched = false;
-    };
-    std::optional<Probe> probe; ///< the last
+    int planner_blocks = 15, buffer_bytes = 128;
 };
 
 class GrblDriver final : public Driver {
@@ -67,6 +60,13 @@ public:
     void jog(const Jog& jog) override;
     void stop_jog() override;
     void home() override;
+    /// G-code, settings ($110=500) and questions ($N). Throws Error for lines that must not be sent.
+    int command(const std::string& lines) override;
+    /// Lines that the controller has already, up to 20, are executed first.
+    void set_single_block(bool on) override;
+    [[nodiscard]] std::vector<ControllerSetting> settings() const override;
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;
+    [[nodiscard]] Console* console() override;
 
 private:
     struct Body;

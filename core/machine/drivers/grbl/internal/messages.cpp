@@ -18,19 +18,6 @@ template <class Number> std::optional<Number> whole_number(std::string_view text
                : std::nullopt;
 }
 
-/// As Grbl prints them: no exponent, no words.
-std::optional<double> number(std::string_view text) {
-    double value = 0.0;
-    const auto read =
-        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    const bool plain = std::ranges::all_of(
-        text, [](char c) { return std::string_view("-.0123456789").find(c) != std::string_view::npos; });
-    return plain && !text.empty() && read.ec == std::errc{} && read.ptr == text.data() + text.size() &&
-                   std::isfinite(value)
-               ? std::optional(value)
-               : std::nullopt;
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     while (true) {
@@ -41,24 +28,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
         }
         text.remove_prefix(end + 1);
     }
-}
-
-std::optional<Axes> axes(std::string_view text) {
-    const auto parts = split(text, ',');
-    Axes result{};
-    if (parts.size() < result.size()) {
-        return std::nullopt;
-    }
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        const auto value = number(parts[n]);
-        if (!value) {
-            return std::nullopt;
-        }
-        if (n < result.size()) {
-            result[n] = *value;
-        }
-    }
-    return result;
 }
 
 template <std::size_t count> std::optional<std::array<int, count>> integers(std::string_view text) {
@@ -107,8 +76,8 @@ bool read_state(std::string_view text, StatusMessage& status) {
 
 bool read_speeds(std::string_view text, StatusMessage& status) {
     const auto parts = split(text, ',');
-    status.feed = number(parts[0]);
-    status.spindle_rpm = parts.size() > 1 ? number(parts[1]) : std::nullopt;
+    status.feed = read_number(parts[0]);
+    status.spindle_rpm = parts.size() > 1 ? read_number(parts[1]) : std::nullopt;
     return status.feed && (parts.size() == 1 || status.spindle_rpm);
 }
 
@@ -121,13 +90,13 @@ bool read_field(std::string_view field, StatusMessage& status) {
     const std::string_view name = field.substr(0, colon);
     const std::string_view value = field.substr(colon + 1);
     if (name == "MPos") {
-        return (status.machine_position = axes(value)).has_value();
+        return (status.machine_position = read_axes(value)).has_value();
     }
     if (name == "WPos") {
-        return (status.work_position = axes(value)).has_value();
+        return (status.work_position = read_axes(value)).has_value();
     }
     if (name == "WCO") {
-        return (status.offset = axes(value)).has_value();
+        return (status.offset = read_axes(value)).has_value();
     }
     if (name == "Bf") {
         const auto free = integers<2>(value);
@@ -152,7 +121,11 @@ bool read_field(std::string_view field, StatusMessage& status) {
         status.pins = value;
         return true;
     }
-    return name == "A";
+    if (name == "A") {
+        status.accessories = value;
+        return true;
+    }
+    return false;
 }
 
 Message read_status(std::string_view line) {
@@ -169,6 +142,9 @@ Message read_status(std::string_view line) {
     if (!status.machine_position && !status.work_position) {
         return Garbage{};
     }
+    if (status.overrides && !status.accessories) {
+        status.accessories.emplace(); // left out if all is off
+    }
     return status;
 }
 
@@ -181,7 +157,7 @@ Message read_setting(std::string_view line) {
         return Feedback{"N", std::string(line.substr(2))};
     }
     const auto which = whole_number<int>(line.substr(1, equals - 1));
-    const auto value = number(line.substr(equals + 1));
+    const auto value = read_number(line.substr(equals + 1));
     if (!which || !value) {
         return Garbage{};
     }
@@ -198,6 +174,36 @@ Message read_feedback(std::string_view line) {
 }
 
 } // namespace
+
+std::optional<double> read_number(std::string_view text) {
+    double value = 0.0;
+    const auto read =
+        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    const bool plain = std::ranges::all_of(
+        text, [](char c) { return std::string_view("-.0123456789").find(c) != std::string_view::npos; });
+    return plain && !text.empty() && read.ec == std::errc{} && read.ptr == text.data() + text.size() &&
+                   std::isfinite(value)
+               ? std::optional(value)
+               : std::nullopt;
+}
+
+std::optional<Axes> read_axes(std::string_view text) {
+    const auto parts = split(text, ',');
+    Axes result{};
+    if (parts.size() < result.size()) {
+        return std::nullopt;
+    }
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        const auto value = read_number(parts[n]);
+        if (!value) {
+            return std::nullopt;
+        }
+        if (n < result.size()) {
+            result[n] = *value;
+        }
+    }
+    return result;
+}
 
 bool StatusMessage::moving() const {
     const bool braking = (state == MachineState::hold && sub_state != 0) ||
@@ -249,7 +255,7 @@ std::optional<ProbeResult> read_probe_result(std::string_view text) {
     if (colon == std::string_view::npos) {
         return std::nullopt;
     }
-    const auto position = axes(text.substr(0, colon));
+    const auto position = read_axes(text.substr(0, colon));
     const std::string_view touched = text.substr(colon + 1);
     if (!position || (touched != "0" && touched != "1")) {
         return std::nullopt;

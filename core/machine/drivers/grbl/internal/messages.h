@@ -31,6 +31,7 @@ struct StatusMessage {
     std::optional<double> feed{}, spindle_rpm{};
     std::optional<std::array<int, 3>> overrides{};
     std::string pins{};
+    std::optional<std::string> accessories{}; ///< spindle and coolant; told together with overrides
 
     /// Whether its axes may be moving now.
     [[nodiscard]] bool moving() const;
@@ -63,6 +64,11 @@ using Message = std::variant<Ack,
 
 /// `line` without its end. Any bytes give a message; numbers in it are finite.
 [[nodiscard]] Message read_message(std::string_view line);
+
+/// A finite number as Grbl prints it: no exponent, no words.
+[[nodiscard]] std::optional<double> read_number(std::string_view text);
+/// "1.000,2.000,-3.000"; what other axes follow is left out.
+[[nodiscard]] std::optional<Axes> read_axes(std::string_view text);
 
 /// "1.000,2.000,-3.000:1" of a PRB feedback; nothing if it is not that.
 struct ProbeResult {

@@ -138,6 +138,33 @@ double dwell_in(const std::vector<Word>& words) {
     return dwells ? seconds : 0.0;
 }
 
+/// Why a $ command is not taken as a line; empty if it is.
+std::string_view why_not(std::string_view text) {
+    const bool asks =
+        text == "$$" || text == "$#" || text == "$G" || text == "$N" || text == "$I" || text == "$";
+    const bool sets = text.size() > 2 && text.find('=') != std::string_view::npos &&
+                      (text[1] == 'N' || (text[1] >= '0' && text[1] <= '9'));
+    if (asks || sets) {
+        return {};
+    }
+    if (text.starts_with("$H")) {
+        return "use homing for it";
+    }
+    if (text.starts_with("$J")) {
+        return "use a jog for it, which a dead man cannot keep going";
+    }
+    return text.starts_with("$X") ? "use reset for it" : "it changes how the controller works as a whole";
+}
+
+ProgramLine line_of(std::string text, const Place& place, std::size_t longest) {
+    if (text.size() > longest) {
+        fail(place,
+             fmt::format("the line has {} characters and Grbl takes {}", text.size(), longest),
+             "write it in two lines");
+    }
+    return {.text = std::move(text), .line = place.line};
+}
+
 } // namespace
 
 int ProgramLines::blocks_before(int count) const {
@@ -151,23 +178,42 @@ program_lines(const gcode::Listing& listing, const std::filesystem::path& file, 
     SureMoves sure;
     for (int number = 1; number <= listing.line_count(); ++number) {
         const Place place{file, number, 0, -1};
-        const std::string text = without_line_number(bare_text(listing.line(number), place));
+        std::string text = without_line_number(bare_text(listing.line(number), place));
         if (text.empty()) {
             continue;
         }
-        if (text.size() > longest) {
-            fail(place,
-                 fmt::format("the line has {} characters and Grbl takes {}", text.size(), longest),
-                 "write it in two lines");
-        }
-        ProgramLine line{.text = text, .block = listing.block_at_line(number), .line = number};
-        if (const auto words = words_of(text)) {
+        ProgramLine line = line_of(std::move(text), place, longest);
+        line.block = listing.block_at_line(number);
+        if (const auto words = words_of(line.text)) {
             line.surely_moves = sure.surely_moves(*words);
             line.dwell = dwell_in(*words);
         } else {
             sure = {};
         }
         result.lines.push_back(std::move(line));
+    }
+    return result;
+}
+
+ProgramLines command_lines(std::string_view text, std::size_t longest) {
+    ProgramLines result;
+    for (Place place{{}, 1, 0, -1}; !text.empty(); ++place.line) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::size_t first = line.find_first_not_of(" \t");
+        const bool setting = first != std::string_view::npos && line[first] == '$';
+        std::string bare = (setting ? "$" : "") + bare_text(setting ? line.substr(first + 1) : line, place);
+        if (const std::string_view why = setting ? why_not(bare) : std::string_view(); !why.empty()) {
+            fail(place, fmt::format("{} is not taken as a line", bare), std::string(why));
+        }
+        if (!bare.empty()) {
+            result.lines.push_back(line_of(std::move(bare), place, longest));
+            result.lines.back().block = result.blocks++;
+        }
+    }
+    if (result.lines.empty()) {
+        throw Error("there is nothing in the command");
     }
     return result;
 }

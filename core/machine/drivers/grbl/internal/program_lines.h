@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::machine::grbl {
@@ -15,6 +16,8 @@ struct ProgramLine {
     int line = 0;              ///< of its text, from 1
     bool surely_moves = false; ///< Grbl makes at least one planner block of it
     double dwell = 0.0;        ///< s, of a G4
+
+    [[nodiscard]] bool is_setting() const { return text.starts_with('$'); }
 };
 
 struct ProgramLines {
@@ -30,5 +33,9 @@ struct ProgramLines {
 /// characters.
 [[nodiscard]] ProgramLines
 program_lines(const gcode::Listing& listing, const std::filesystem::path& file, std::size_t longest = 79);
+
+/// Lines that a person types: G-code as above, or $ commands that set nothing in motion and need no stage of
+/// their own: settings, questions, startup lines. Throws Error naming line and column for others.
+[[nodiscard]] ProgramLines command_lines(std::string_view text, std::size_t longest = 79);
 
 } // namespace millwright::machine::grbl

@@ -15,7 +15,6 @@ namespace millwright::machine::grbl {
 namespace {
 
 constexpr char reset_byte = '\x18';
-constexpr char jog_cancel_byte = '\x85';
 constexpr double repeat_time = 0.25;  // s after which a byte that had no effect is sent again
 constexpr double braking_time = 10.0; // s: longer than any machine brakes
 constexpr double flushing_time = 3.0; // s in which a reset is answered
@@ -26,7 +25,8 @@ constexpr int greatest_line_number = 9'999'999;
 } // namespace
 
 bool Session::active() const {
-    return stage_ == Stage::running || stage_ == Stage::jogging || stage_ == Stage::homing;
+    return stage_ == Stage::running || stage_ == Stage::asking_again || stage_ == Stage::jogging ||
+           stage_ == Stage::homing;
 }
 
 std::string Session::take_output() {
@@ -58,6 +58,7 @@ void Session::lost(const std::string& why) {
                                 readout_.planner_blocks + static_cast<int>(window_.lines().size()));
     }
     output_.clear();
+    settle_answer(message_);
 }
 
 void Session::receive(std::string_view bytes, double now) {
@@ -77,6 +78,7 @@ void Session::receive(std::string_view bytes, double now) {
         }
     }
     pump();
+    pump_jog();
 }
 
 void Session::tick(double now) {
@@ -90,6 +92,7 @@ void Session::tick(double now) {
     watch_answers(now);
     poll(now);
     pump();
+    pump_jog();
 }
 
 void Session::poll(double now) {
@@ -97,8 +100,9 @@ void Session::poll(double now) {
         return;
     }
     output_ += '?';
-    const bool quick = stage_ == Stage::braking || stage_ == Stage::jogging;
-    next_poll_ = now + (quick ? 0.5 * settings_.poll_interval : settings_.poll_interval);
+    constexpr double quick = 0.25; // a jog is fed by what the reports tell
+    const bool hurry = stage_ == Stage::braking || stage_ == Stage::jogging;
+    next_poll_ = now + (hurry ? quick * settings_.poll_interval : settings_.poll_interval);
 }
 
 void Session::watch_silence(double now) {
@@ -184,8 +188,17 @@ void Session::watch_ending(double now) {
 void Session::finish_ending() {
     stage_ = ending_in_fault_ ? Stage::alarm : Stage::stopped;
     message_ = ending_message_;
-    hold_wanted_ = held_ = jog_stopping_ = false;
+    hold_wanted_ = held_ = jog_stopping_ = block_wait_ = false;
     window_.clear();
+    settle_answer(message_.empty() ? "stopped" : message_);
+}
+
+/// A command that did not get to its end.
+void Session::settle_answer(const std::string& why_not) {
+    if (answer_.state == CommandAnswer::State::pending) {
+        answer_.state = CommandAnswer::State::refused;
+        answer_.text = why_not;
+    }
 }
 
 void Session::watch_hold(double now) {
@@ -195,23 +208,12 @@ void Session::watch_hold(double now) {
     }
 }
 
-void Session::watch_jog(double now) {
-    if (stage_ != Stage::jogging) {
-        return;
-    }
-    if (jog_until_ && now > *jog_until_) {
-        stop_jog(now);
-    }
-    if (jog_stopping_ && now - last_brake_ > 0.5 * repeat_time) {
-        output_ += jog_cancel_byte;
-        last_brake_ = now;
-    }
-}
-
 /// A line that is not answered although the machine stands still and dwells no longer has lost its answer.
 void Session::watch_answers(double now) {
-    if ((stage_ != Stage::running && stage_ != Stage::jogging) || window_.empty() || hold_wanted_ || held_ ||
-        !report_ || report_->state != MachineState::idle) {
+    const bool expects_answers =
+        stage_ == Stage::running || stage_ == Stage::asking_again || stage_ == Stage::jogging;
+    if (!expects_answers || window_.empty() || hold_wanted_ || held_ || !report_ ||
+        report_->state != MachineState::idle) {
         last_answer_ = now;
         return;
     }
@@ -229,10 +231,10 @@ void Session::pump() {
     if (stage_ != Stage::running || hold_wanted_) {
         return;
     }
-    while (next_line_ < std::ssize(program_.lines)) {
+    while (next_line_ < std::ssize(program_.lines) && !block_wait_) {
         const ProgramLine& line = program_.lines[static_cast<std::size_t>(next_line_)];
         std::string text = line.text + "\n";
-        if (readout_.line_numbers && line.block < greatest_line_number) {
+        if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
             text.insert(0, fmt::format("N{}", line.block + 1));
         }
         if (!window_.has_room_for(text.size())) {
@@ -241,6 +243,7 @@ void Session::pump() {
         output_ += text;
         window_.push({LineKind::program, std::move(text), next_line_, line.dwell});
         ++next_line_;
+        block_wait_ = single_block_ && at_ == Activity::program;
     }
 }
 
@@ -255,19 +258,45 @@ void Session::require_rest(std::string_view what) const {
 
 void Session::start(ProgramLines program, double now) {
     require_rest("program");
+    begin(std::move(program), Activity::program, now);
+}
+
+int Session::command(ProgramLines lines, double now) {
+    require_rest("command");
+    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    begin(std::move(lines), Activity::command, now);
+    return answer_.number;
+}
+
+void Session::begin(ProgramLines program, Activity activity, double now) {
     program_ = std::move(program);
+    at_ = activity;
     proof_ = Proof(program_, readout_.planner_blocks);
-    window_ = Window(readout_.buffer_bytes, settings_.one_by_one);
+    window_ = Window(readout_.buffer_bytes, settings_.one_by_one || activity == Activity::command);
     proof_closed_ = false;
     next_line_ = 0;
     stage_ = Stage::running;
-    hold_wanted_ = held_ = false;
+    hold_wanted_ = held_ = block_wait_ = false;
     resume_sent_ = -1.0;
     spare_welcomes_ = 0;
     message_.clear();
+    readout_.modes.text.clear();
+    readout_.modes.work_system = 0;
     last_answer_ = last_heard_ = now;
     next_poll_ = now;
     pump();
+}
+
+void Session::set_single_block(bool on) {
+    single_block_ = on;
+    if (on && stage_ == Stage::running && at_ == Activity::program) {
+        block_wait_ = true;
+    }
+}
+
+/// Everything that was sent so far is done and the next line waits for resume().
+bool Session::waits_between_blocks() const {
+    return block_wait_ && window_.empty() && proof_.settled() && next_line_ < std::ssize(program_.lines);
 }
 
 void Session::hold(double now) {
@@ -276,10 +305,18 @@ void Session::hold(double now) {
         held_ = false;
         hold_sent_ = now;
         output_ += '!';
+    } else if (stage_ == Stage::jogging) {
+        stop_jog(now);
     }
 }
 
 void Session::resume(double now) {
+    if (stage_ == Stage::running && waits_between_blocks()) {
+        block_wait_ = false;
+        last_answer_ = now;
+        pump();
+        return;
+    }
     if (stage_ == Stage::running && (hold_wanted_ || held_)) {
         hold_wanted_ = held_ = false;
         resume_sent_ = now;
@@ -325,58 +362,13 @@ void Session::home(double now) {
     if (stage_ != Stage::alarm || link_lost_) {
         require_rest("homing");
     }
-    program_ = {};
-    proof_ = {};
+    proof_closed_ = true;
     window_ = Window(readout_.buffer_bytes, true);
     window_.push({LineKind::home, "$H\n", -1, 0.0});
     output_ += "$H\n";
     stage_ = Stage::homing;
     message_.clear();
     last_heard_ = now;
-}
-
-void Session::jog(const Jog& jog, double now) {
-    if (stage_ != Stage::jogging || jog_stopping_) {
-        require_rest("jog");
-    }
-    constexpr double seconds_per_minute = 60.0;
-    constexpr std::string_view letters = "XYZ";
-    const bool usable = jog.way.size() <= 3 && jog.way.allFinite() && jog.way.norm() > 0.0 &&
-                        jog.speed > 0.0 && std::isfinite(jog.speed) && jog.dead_man >= 0.0;
-    expects(usable, "a jog goes somewhere in X, Y and Z at a speed");
-    std::string text = "$J=G91G21";
-    for (Eigen::Index n = 0; n < jog.way.size(); ++n) {
-        text += std::abs(jog.way[n]) > 0.0 ? letters[static_cast<std::size_t>(n)] + fixed(jog.way[n], 4)
-                                           : std::string();
-    }
-    text += "F" + fixed(std::max(0.001, jog.speed * seconds_per_minute), 3) + "\n";
-    if (stage_ != Stage::jogging) {
-        program_ = {};
-        proof_ = {};
-        window_ = Window(readout_.buffer_bytes, false);
-        message_.clear();
-        last_answer_ = last_heard_ = now;
-        stage_ = Stage::jogging;
-        rest_reports_ = 0;
-        jog_stopping_ = false;
-    }
-    dead_man_ = jog.dead_man;
-    jog_until_ = dead_man_ > 0.0 ? std::optional(now + dead_man_) : std::nullopt;
-    if (window_.has_room_for(text.size())) { // else enough is under way
-        output_ += text;
-        window_.push({LineKind::jog, std::move(text), -1, 0.0});
-        rest_reports_ = 0;
-    }
-}
-
-void Session::stop_jog(double now) {
-    if (stage_ == Stage::jogging && !jog_stopping_) {
-        jog_stopping_ = true;
-        jog_until_.reset();
-        output_ += jog_cancel_byte;
-        last_brake_ = now;
-        next_poll_ = now;
-    }
 }
 
 /// From the standard value on, so that it does not matter what is known of the present one.
@@ -401,55 +393,6 @@ void Session::set_overrides(const Overrides& wanted) {
     constexpr int above_quarter = 37;
     output_ += wanted.rapid > above_half ? '\x95' : wanted.rapid > above_quarter ? '\x96' : '\x97';
     steps(wanted.spindle, '\x99');
-}
-
-DriverStatus Session::status() const {
-    DriverStatus status;
-    status.message = message_;
-    switch (stage_) {
-    case Stage::closed:
-    case Stage::greeting:
-    case Stage::asking:
-        return status;
-    case Stage::ready:
-        status.state = DriverState::idle;
-        break;
-    case Stage::running:
-        status.state = hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
-        break;
-    case Stage::jogging:
-    case Stage::homing:
-        status.state = DriverState::running;
-        break;
-    case Stage::braking:
-        status.state = DriverState::stopping;
-        break;
-    case Stage::flushing:
-        status.state = message_.empty() ? DriverState::stopping : DriverState::alarm;
-        break;
-    case Stage::stopped:
-        status.state = DriverState::stopped;
-        break;
-    case Stage::alarm:
-        status.state = DriverState::alarm;
-        break;
-    }
-    status.position = kinematics::AxisPositions::Zero(3);
-    status.velocity = kinematics::AxisPositions::Zero(3);
-    for (std::size_t n = 0; n < readout_.offset.size(); ++n) {
-        status.position[static_cast<Eigen::Index>(n)] = readout_.machine_position[n] - readout_.offset[n];
-    }
-    if (!program_.lines.empty() || program_.blocks > 0) {
-        status.executed_blocks = proof_.executed_lines() > 0 || program_.lines.empty()
-                                     ? program_.blocks_before(proof_.executed_lines())
-                                     : 0;
-        status.block = std::min(program_.blocks_before(proof_.executed_lines()), program_.blocks - 1);
-    }
-    constexpr double seconds_per_minute = 60.0;
-    status.feed = report_ ? report_->feed.value_or(0.0) / seconds_per_minute : 0.0;
-    status.spindle_rpm = report_ ? report_->spindle_rpm.value_or(0.0) : 0.0;
-    status.overrides = overrides_;
-    return status;
 }
 
 } // namespace millwright::machine::grbl

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "core/machine/driver.h"
+#include "core/machine/drivers/grbl/internal/jog_feed.h"
 #include "core/machine/drivers/grbl/internal/messages.h"
+#include "core/machine/drivers/grbl/internal/modes.h"
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 #include "core/machine/drivers/grbl/internal/proof.h"
 #include "core/machine/drivers/grbl/internal/window.h"
@@ -31,6 +33,9 @@ struct Readout {
     Axes machine_position{}, offset{};
     std::string pins;
     std::optional<ProbeResult> probe;
+    int probings = 0;                    ///< of programs and commands
+    Modes modes;                         ///< at rest; of a running program only spindle and coolant
+    std::map<std::string, Axes> offsets; ///< $#: G54 to G59, G28, G30, G92, TLO
     int planner_blocks = 15, buffer_bytes = 128;
     bool line_numbers = false;
 };
@@ -65,6 +70,9 @@ public:
     void reset(double now);
     void home(double now);
     void jog(const Jog& jog, double now);
+    /// The number of the answer that DriverStatus will show.
+    int command(ProgramLines lines, double now);
+    void set_single_block(bool on);
     void stop_jog(double now);
     void set_overrides(const Overrides& wanted);
 
@@ -74,7 +82,8 @@ private:
         greeting, ///< is anybody there?
         asking,   ///< reset, then asked for version and settings
         ready,
-        running,
+        running,      ///< a program or a command
+        asking_again, ///< after it: which modes are in force now?
         jogging,
         homing,
         braking,  ///< to rest, for good
@@ -93,7 +102,11 @@ private:
     void end(bool fault, std::string message, double now);
     void finish_ending();
     void fail(const std::string& message, double now);
+    void begin(ProgramLines program, Activity activity, double now);
+    void finish(double now);
     void pump();
+    void pump_jog();
+    void cancel_jog(double now);
     void poll(double now);
     void watch_silence(double now);
     void watch_ending(double now);
@@ -101,6 +114,13 @@ private:
     void watch_jog(double now);
     void watch_answers(double now);
     [[nodiscard]] bool active() const;
+    [[nodiscard]] bool waits_between_blocks() const;
+    [[nodiscard]] JogLimits jog_limits() const;
+    [[nodiscard]] DriverState state() const;
+    [[nodiscard]] Activity activity() const;
+    void show_machine(DriverStatus& status) const;
+    void show_program(DriverStatus& status) const;
+    void settle_answer(const std::string& why_not);
 
     // session_messages.cpp: what the controller says
     void handle_line(std::string_view line, double now);
@@ -120,6 +140,11 @@ private:
     void read_options(std::string_view text);
     void check_echo(std::string_view text, double now);
     void answered(const SentLine& line);
+    void refused(const SentLine& line, const std::string& why, double now);
+    void take_feedback(const Feedback& feedback);
+    [[nodiscard]] double report_unit() const;
+    [[nodiscard]] Axes scaled(Axes axes) const;
+    [[nodiscard]] double feed() const; ///< mm/s, as reported
 
     SessionSettings settings_;
     Stage stage_ = Stage::closed;
@@ -147,7 +172,11 @@ private:
     double hold_sent_ = 0.0, resume_sent_ = -1.0;
     bool jog_stopping_ = false;
     std::optional<double> jog_until_; ///< dead-man's time
-    double dead_man_ = 0.0;
+    JogFeed jog_feed_;
+    Activity at_ = Activity::none; ///< program or command, the current or last
+    bool single_block_ = false;
+    bool block_wait_ = false; ///< the next line waits for resume()
+    CommandAnswer answer_;
 
     std::optional<StatusMessage> report_; ///< the last
     double last_heard_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0, last_brake_ = 0.0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace millwright::machine::grbl {
@@ -44,7 +45,7 @@ void Session::ask_first() {
     if (unlock_) {
         questions_.emplace_back("$X");
     }
-    for (const char* question : {"$#", "$$", "$I"}) {
+    for (const char* question : {"$G", "$#", "$$", "$I"}) {
         questions_.emplace_back(question);
     }
     window_.clear();
@@ -54,12 +55,33 @@ void Session::ask_first() {
 void Session::ask_next() {
     report_.reset(); // the next one tells how the controller is after all of this
     if (questions_.empty()) {
+        if (stage_ == Stage::asking_again) {
+            stage_ = Stage::ready;
+        }
         return;
     }
     std::string text = questions_.back() + "\n";
     questions_.pop_back();
     output_ += text;
     window_.push({LineKind::query, std::move(text), -1, 0.0});
+}
+
+/// A program or a command is done; what it changed is asked for before anybody is told.
+void Session::finish(double now) {
+    questions_ = {"$G", "$#"};
+    for (const ProgramLine& line : program_.lines) {
+        if (at_ == Activity::command && line.is_setting()) {
+            questions_.emplace_back("$$");
+            break;
+        }
+    }
+    if (answer_.state == CommandAnswer::State::pending) {
+        answer_.state = CommandAnswer::State::done;
+    }
+    stage_ = Stage::asking_again;
+    window_ = Window(readout_.buffer_bytes, true);
+    last_answer_ = now;
+    ask_next();
 }
 
 void Session::finish_asking(const StatusMessage& report) {
@@ -98,8 +120,25 @@ void Session::answered(const SentLine& line) {
         proof_.acknowledged();
     } else if (line.kind == LineKind::home && stage_ == Stage::homing) {
         stage_ = Stage::ready;
-    } else if (line.kind == LineKind::query && stage_ == Stage::asking) {
+    } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
         ask_next();
+    }
+}
+
+void Session::refused(const SentLine& line, const std::string& why, double now) {
+    if (line.kind == LineKind::program && at_ == Activity::command && stage_ == Stage::running) {
+        answer_.state = CommandAnswer::State::refused;
+        answer_.text = fmt::format("{}: {}", one_line(line.text), why);
+        next_line_ = static_cast<int>(std::ssize(program_.lines)); // what was planned before comes to its end
+    } else if (line.kind == LineKind::program) {
+        const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
+        fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
+    } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
+        ask_next(); // an older Grbl that does not know the question
+    } else {
+        jog_feed_.cancel();
+        message_ = why;
+        stage_ = line.kind == LineKind::home && stage_ == Stage::homing ? Stage::alarm : stage_;
     }
 }
 
@@ -114,6 +153,9 @@ void Session::handle(const Ack&, double now) {
     last_answer_ = now;
     rest_reports_ = stage_ == Stage::jogging ? 0 : rest_reports_;
     answered(window_.pop());
+    if (stage_ == Stage::jogging && jog_stopping_) {
+        cancel_jog(now); // it read that line after the cancel, and may have begun it
+    }
 }
 
 void Session::handle(const ErrorAnswer& error, double now) {
@@ -127,16 +169,7 @@ void Session::handle(const ErrorAnswer& error, double now) {
     last_answer_ = now;
     proof_.disturbed();
     const SentLine line = window_.pop();
-    const std::string why = explain_grbl_error(error.number);
-    if (line.kind == LineKind::program) {
-        const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
-        fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
-    } else if (line.kind == LineKind::query && stage_ == Stage::asking) {
-        ask_next(); // an older Grbl that does not know the question
-    } else {
-        message_ = why;
-        stage_ = line.kind == LineKind::home && stage_ == Stage::homing ? Stage::alarm : stage_;
-    }
+    refused(line, explain_grbl_error(error.number), now);
 }
 
 void Session::handle(const AlarmMessage& alarm, double now) {
@@ -186,6 +219,7 @@ void Session::handle(const Welcome& welcome, double now) {
         finish_ending();
         break;
     case Stage::running:
+    case Stage::asking_again:
     case Stage::jogging:
     case Stage::homing:
     case Stage::braking: // lines that were under way may have set it in motion again
@@ -243,24 +277,55 @@ void Session::check_echo(std::string_view text, double now) {
 }
 
 void Session::handle(const Feedback& feedback, double now) {
-    if (feedback.tag == "OPT") {
-        read_options(feedback.text);
-    } else if (feedback.tag == "PRB") {
-        readout_.probe = read_probe_result(feedback.text);
-    } else if (feedback.tag == "echo") {
+    if (feedback.tag == "echo") {
         check_echo(feedback.text, now);
+        return;
+    }
+    take_feedback(feedback);
+    constexpr std::size_t longest = 2000;
+    if (stage_ == Stage::running && at_ == Activity::command && answer_.text.size() < longest) {
+        append(answer_.text, fmt::format("[{}:{}]", feedback.tag, feedback.text));
     }
 }
 
-void Session::take_readout(const StatusMessage& report) {
-    const auto inches = readout_.settings.find(report_inches);
-    const double unit = inches != readout_.settings.end() && inches->second > 0.0 ? mm_per_inch : 1.0;
-    const auto scaled = [unit](Axes axes) {
-        for (double& axis : axes) {
-            axis *= unit;
+void Session::take_feedback(const Feedback& feedback) {
+    constexpr std::array<std::string_view, 10> offsets = {
+        "G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30", "G92", "TLO"};
+    if (feedback.tag == "OPT") {
+        read_options(feedback.text);
+    } else if (feedback.tag == "GC") {
+        readout_.modes = read_modes(feedback.text);
+    } else if (feedback.tag == "PRB") {
+        const auto result = read_probe_result(feedback.text);
+        readout_.probe =
+            result ? std::optional(ProbeResult{scaled(result->position), result->touched}) : std::nullopt;
+        readout_.probings += result && stage_ == Stage::running ? 1 : 0; // else it was asked for
+    } else if (std::ranges::find(offsets, feedback.tag) != offsets.end()) {
+        if (const auto offset = read_offset(feedback.text)) {
+            readout_.offsets[feedback.tag] = scaled(*offset);
         }
-        return axes;
-    };
+    }
+}
+
+/// mm of a unit of the controller's reports.
+double Session::report_unit() const {
+    const auto inches = readout_.settings.find(report_inches);
+    return inches != readout_.settings.end() && inches->second > 0.0 ? mm_per_inch : 1.0;
+}
+
+Axes Session::scaled(Axes axes) const {
+    for (double& axis : axes) {
+        axis *= report_unit();
+    }
+    return axes;
+}
+
+double Session::feed() const {
+    constexpr double seconds_per_minute = 60.0;
+    return report_ ? report_->feed.value_or(0.0) * report_unit() / seconds_per_minute : 0.0;
+}
+
+void Session::take_readout(const StatusMessage& report) {
     readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
     if (report.machine_position) {
         readout_.machine_position = scaled(*report.machine_position);
@@ -273,6 +338,17 @@ void Session::take_readout(const StatusMessage& report) {
     readout_.pins = report.pins;
     if (report.overrides) {
         overrides_ = {(*report.overrides)[0], (*report.overrides)[1], (*report.overrides)[2]};
+    }
+    if (report.accessories) {
+        using gcode::SpindleTurning;
+        const auto on = [&report](char letter) {
+            return report.accessories->find(letter) != std::string::npos;
+        };
+        readout_.modes.spindle = on('S')   ? SpindleTurning::clockwise
+                                 : on('C') ? SpindleTurning::counterclockwise
+                                           : SpindleTurning::stopped;
+        readout_.modes.flood = on('F');
+        readout_.modes.mist = on('M');
     }
 }
 
@@ -320,14 +396,14 @@ void Session::watch_state(const StatusMessage& report, double now) {
     if (stage_ == Stage::running) {
         watch_motion(report, now);
         const bool all = next_line_ == std::ssize(program_.lines) && window_.empty() &&
-                         proof_.executed_lines() == std::ssize(program_.lines);
+                         (at_ == Activity::command || proof_.executed_lines() == std::ssize(program_.lines));
         if (stage_ == Stage::running && all && proof_.settled() && !hold_wanted_ && !held_) {
-            stage_ = Stage::ready;
+            finish(now);
         }
     }
     constexpr int enough_reports = 2;
-    if (stage_ == Stage::jogging && window_.empty() && report.state == MachineState::idle &&
-        rest_reports_ >= enough_reports) {
+    if (stage_ == Stage::jogging && window_.empty() && jog_feed_.empty() &&
+        report.state == MachineState::idle && rest_reports_ >= enough_reports) {
         stage_ = Stage::ready;
         jog_stopping_ = false;
         jog_until_.reset();

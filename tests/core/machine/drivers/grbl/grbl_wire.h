@@ -57,7 +57,9 @@ public:
         now += seconds;
         grbl.advance(seconds);
         to_host_.send(grbl.take_output(), now);
-        if (!broken()) {
+        if (deaf_) {
+            (void)to_host_.arrived(now);
+        } else if (!broken()) {
             session.receive(to_host_.arrived(now), now);
         } else {
             session.lost("it broke");
@@ -66,7 +68,7 @@ public:
         session.tick(now);
         const std::string bytes = session.take_output();
         sent += bytes;
-        if (!broken()) {
+        if (!broken() && !deaf_) {
             to_grbl_.send(bytes, now);
             grbl.receive(to_grbl_.arrived(now));
         }
@@ -92,7 +94,10 @@ public:
             seconds);
     }
 
-    [[nodiscard]] bool broken() const { return to_host_.disconnected() || to_grbl_.disconnected(); }
+    /// Pulls the plug, which the session is told, or lets all bytes vanish without a word.
+    void cut() { cut_ = true; }
+    void go_deaf() { deaf_ = true; }
+    [[nodiscard]] bool broken() const { return cut_ || to_host_.disconnected() || to_grbl_.disconnected(); }
 
 private:
     /// Faults of the controller itself.
@@ -110,6 +115,7 @@ private:
 
     machine::FaultSpec faults_;
     machine::FaultyWire to_host_, to_grbl_;
+    bool cut_ = false, deaf_ = false;
 };
 
 } // namespace millwright::test

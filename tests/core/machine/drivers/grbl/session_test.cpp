@@ -170,9 +170,10 @@ TEST(GrblSession, TellsWhereTheProbeTouched) {
     wire.start("G38.2 Z-10 F100\n");
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::idle);
-    ASSERT_TRUE(wire.session.readout().probe);
-    EXPECT_TRUE(wire.session.readout().probe->touched);
-    EXPECT_NEAR(wire.session.readout().probe->position[2], -3.25, 0.001);
+    ASSERT_TRUE(wire.session.status().probe);
+    EXPECT_TRUE(wire.session.status().probe->touched);
+    EXPECT_EQ(wire.session.status().probe->number, 1);
+    EXPECT_NEAR(wire.session.status().probe->position[2], -3.25, 0.001);
 }
 
 TEST(GrblSession, SetsOverridesFromAnyState) {
@@ -198,45 +199,6 @@ TEST(GrblSession, WaitsForALongDwell) {
     wire.start("G0 X1\nG4 P20\nG0 X2\n");
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
-}
-
-Jog jog_x(double way, double dead_man = 0.0) {
-    Jog jog;
-    jog.way = kinematics::AxisPositions::Zero(3);
-    jog.way[0] = way;
-    jog.speed = 20.0;
-    jog.dead_man = dead_man;
-    return jog;
-}
-
-TEST(GrblSession, JogsToTheEndOfTheJog) {
-    GrblWire wire;
-    wire.session.jog(jog_x(5.0), wire.now);
-    EXPECT_EQ(wire.state(), DriverState::running);
-    wire.run_to_end();
-    EXPECT_EQ(wire.state(), DriverState::idle);
-    EXPECT_EQ(wire.grbl.position()[0], 5.0);
-}
-
-TEST(GrblSession, StopsAJogWithin100Milliseconds) {
-    GrblWire wire;
-    wire.grbl.receive("$120=500\n");
-    wire.run_until([] { return false; }, 0.2);
-    wire.session.jog(jog_x(100.0), wire.now);
-    wire.run_until([&] { return wire.grbl.position()[0] > 20.0; }, 10.0);
-    const double begin = wire.now;
-    wire.session.stop_jog(wire.now);
-    wire.run_to_end();
-    EXPECT_LT(wire.grbl.truth().last_motion + 1000.0 - begin, 0.1 + 0.05); // the wire steps by 5 ms
-    EXPECT_EQ(wire.state(), DriverState::idle);
-}
-
-TEST(GrblSession, StopsAJogWhoseHandIsDead) {
-    GrblWire wire;
-    wire.session.jog(jog_x(100.0, 0.2), wire.now);
-    wire.run_to_end();
-    EXPECT_EQ(wire.state(), DriverState::idle);
-    EXPECT_LT(wire.grbl.position()[0], 8.0);
 }
 
 TEST(GrblSession, HomesAndUnlocks) {

@@ -1,0 +1,96 @@
+// What is known of a machine at one moment. Lengths mm, angles rad, times s.
+#pragma once
+
+#include "core/gcode/reader/modal_state.h"
+#include "core/kinematics/machine_model.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine {
+
+enum class DriverState {
+    disconnected,
+    idle,     ///< ready; after a program: it ran to its end
+    running,  ///<
+    holding,  ///< braking for a hold or at rest in it; can be resumed
+    stopping, ///< braking for good
+    stopped,  ///< at rest after stop(); the program cannot be resumed
+    alarm     ///< at rest after a fault or an emergency stop; nothing starts before reset()
+};
+
+[[nodiscard]] std::string_view to_text(DriverState state);
+
+/// What a machine is at while it is running, holding or stopping.
+enum class Activity { none, program, command, jog, homing };
+
+[[nodiscard]] std::string_view to_text(Activity activity);
+
+/// Of programmed feeds, rapids and spindle speeds, in percent.
+struct Overrides {
+    int feed = 100;
+    int rapid = 100;
+    int spindle = 100;
+
+    friend bool operator==(const Overrides&, const Overrides&) = default;
+};
+
+/// Switches that are on.
+struct Inputs {
+    std::string limits; ///< letters of the axes whose limit switch is hit
+    bool probe = false;
+    bool door = false;
+    bool hold = false, reset = false, start = false; ///< buttons at the machine
+
+    friend bool operator==(const Inputs&, const Inputs&) = default;
+};
+
+/// How the last probing ended.
+struct Probing {
+    int number = 0;                     ///< counts since connect(), so that a new one can be told
+    bool touched = false;               ///<
+    kinematics::AxisPositions position; ///< where, in machine coordinates
+};
+
+/// What became of the last command().
+struct CommandAnswer {
+    enum class State { none, pending, done, refused };
+
+    int number = 0; ///< counts since connect()
+    State state = State::none;
+    std::string text; ///< what the controller said; of a refusal why, in plain words
+};
+
+struct DriverStatus {
+    DriverState state = DriverState::disconnected;
+    Activity activity = Activity::none;
+    kinematics::AxisPositions position; ///< machine coordinates; empty while disconnected
+    kinematics::AxisPositions velocity;
+    /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
+    kinematics::AxisPositions work_offset;
+    int work_system = 0;       ///< in force, 1 is G54, 9 is G59.3; 0: not told
+    std::string modes;         ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not told
+    int block = -1;            ///< of the current or last program, in execution or next; -1 without one
+    double fraction = 0.0;     ///< of that block
+    int executed_blocks = 0;   ///< of the current or last program, completely executed
+    double planned_time = 0.0; ///< where in the planned trajectory that is, s; 0 where the controller plans
+    double feed = 0.0;         ///< of the motion now, where the controller tells it, mm/s
+    gcode::SpindleTurning spindle = gcode::SpindleTurning::stopped; ///< as commanded
+    double spindle_rpm = 0.0;                                       ///< where the controller tells it
+    bool mist = false, flood = false;
+    int tool = 0; ///< in the spindle, where the controller tells it
+    Overrides overrides;
+    Inputs inputs;
+    std::optional<Probing> probe;
+    CommandAnswer answer;
+    std::string message; ///< why there is an alarm or a hold that nobody here asked for, in a sentence
+
+    /// What a program calls the position.
+    [[nodiscard]] kinematics::AxisPositions work_position() const {
+        return work_offset.size() == position.size() ? kinematics::AxisPositions(position - work_offset)
+                                                     : position;
+    }
+};
+
+} // namespace millwright::machine

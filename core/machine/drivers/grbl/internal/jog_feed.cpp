@@ -1,0 +1,121 @@
+#include "core/machine/drivers/grbl/internal/jog_feed.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace millwright::machine::grbl {
+
+namespace {
+
+constexpr double slices_under_way = 6;   // so that Grbl's 15 blocks hold what is allowed
+constexpr double shortest_slice = 0.005; // mm: about a step
+constexpr double there = 0.02;           // mm: as near as reports tell
+constexpr double same_direction = 1.0 - 1e-9;
+
+double dot(const Axes& a, const Axes& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double distance(const Axes& a, const Axes& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// The least of `limits` along `direction`.
+double along(const Axes& direction, const Axes& limits) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < direction.size(); ++n) {
+        const double part = std::abs(direction[n]);
+        least = part > 0.0 ? std::min(least, limits[n] / part) : least;
+    }
+    return least;
+}
+
+/// The longest way that a machine of speed u, which does not exceed v, ends within u / a and the spare time:
+/// it speeds up to a peak, goes on at v if it gets that far, and brakes.
+double way_within_promise(double u, double v, double a) {
+    constexpr double spare = JogFeed::spare_time;
+    const double peak = std::min(v, u + 0.5 * a * spare);
+    const double cruise_time = spare - 2.0 * (peak - u) / a;
+    return (square(peak) - 0.5 * square(u)) / a + peak * std::max(0.0, cruise_time);
+}
+
+} // namespace
+
+void JogFeed::begin(const Axes& position) {
+    legs_.clear();
+    target_ = position;
+    direction_ = {};
+}
+
+void JogFeed::add(const Jog& jog) {
+    const double length = jog.way.norm();
+    const bool usable = jog.way.size() <= 3 && jog.way.allFinite() && length > 0.0 && jog.speed > 0.0 &&
+                        std::isfinite(jog.speed) && jog.dead_man >= 0.0;
+    expects(usable, "a jog goes somewhere in X, Y and Z at a speed");
+    Leg leg{.length = length, .speed = jog.speed};
+    for (Eigen::Index n = 0; n < jog.way.size(); ++n) {
+        leg.direction[static_cast<std::size_t>(n)] = jog.way[n] / length;
+    }
+    if (jog.dead_man > 0.0) {
+        const bool goes_on = !legs_.empty() && dot(legs_.front().direction, leg.direction) > same_direction;
+        if (goes_on) {
+            legs_.front().length = legs_.front().sent + length;
+            legs_.front().speed = jog.speed;
+            legs_.resize(1);
+            return;
+        }
+        legs_.clear();
+    }
+    legs_.push_back(leg);
+}
+
+std::optional<std::string> JogFeed::next(const Axes& position, double feed, const JogLimits& limits) {
+    if (legs_.empty()) {
+        return std::nullopt;
+    }
+    Leg& leg = legs_.front();
+    const double under_way = distance(target_, position);
+    const bool turns = dot(direction_, leg.direction) < same_direction;
+    if (turns && under_way > there) {
+        return std::nullopt; // to rest first, so that `under_way` is all of the way
+    }
+    const double leg_speed = std::min(leg.speed, along(leg.direction, limits.rate));
+    const double speed = std::min(feed, leg_speed);
+    const double a = along(leg.direction, limits.acceleration);
+    const double allowed = way_within_promise(speed, leg_speed, a);
+    const double left = leg.length - leg.sent;
+    double slice = std::max(allowed / slices_under_way, shortest_slice);
+    slice = left < 1.2 * slice ? left : slice; // no crumbs
+    if (under_way + slice > allowed && under_way > 0.5 * shortest_slice) {
+        return std::nullopt;
+    }
+    direction_ = leg.direction;
+    std::string text = line(leg, slice);
+    if (slice >= left) {
+        legs_.pop_front();
+    }
+    return text;
+}
+
+std::string JogFeed::line(Leg& leg, double slice) {
+    constexpr double seconds_per_minute = 60.0;
+    constexpr std::string_view letters = "XYZ";
+    constexpr double finest = 1e-4; // mm, as printed: the roundings of the slices do not add up
+    leg.sent += slice;
+    std::string text = "$J=G91G21";
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        const double to = std::round(leg.sent * leg.direction[n] / finest) * finest;
+        const double way = to - leg.sent_to[n];
+        leg.sent_to[n] = to;
+        target_[n] += way;
+        text += std::abs(way) > 0.5 * finest ? letters[n] + fixed(way, 4) : std::string();
+    }
+    return text + "F" + fixed(std::max(0.001, leg.speed * seconds_per_minute), 3);
+}
+
+} // namespace millwright::machine::grbl

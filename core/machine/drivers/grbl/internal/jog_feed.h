@@ -1,0 +1,52 @@
+// Jogs as the short lines that Grbl is sent. Nothing can call back what a controller already has when its
+// link breaks. So it never has more than it executes within `spare_time` and the time of braking from the
+// speed that it has.
+#pragma once
+
+#include "core/machine/driver.h"
+#include "core/machine/drivers/grbl/internal/messages.h"
+
+#include <deque>
+#include <optional>
+#include <string>
+
+namespace millwright::machine::grbl {
+
+/// Of each axis, mm/s and mm/s^2.
+struct JogLimits {
+    Axes rate{}, acceleration{};
+};
+
+class JogFeed {
+public:
+    static constexpr double spare_time = 0.08; ///< s; with the time of a line on its way less than 0.1 s
+
+    /// From rest at `position`, machine coordinates.
+    void begin(const Axes& position);
+    /// One with a dead man takes the place of what was not sent yet; others are done one after another.
+    /// Throws Defect unless it goes somewhere in X, Y and Z at a speed.
+    void add(const Jog& jog);
+    /// Forgets what was not sent yet.
+    void cancel() { legs_.clear(); }
+    [[nodiscard]] bool empty() const { return legs_.empty(); }
+
+    /// The next line, without its end, for a machine that was last seen at `position` with the speed
+    /// `feed`, mm/s; nothing if enough is under way.
+    [[nodiscard]] std::optional<std::string> next(const Axes& position, double feed, const JogLimits& limits);
+
+private:
+    struct Leg {
+        Axes direction{}; ///< unit
+        double length = 0.0, speed = 0.0;
+        double sent = 0.0; ///< of `length`
+        Axes sent_to{};    ///< the same for each axis, as rounded
+    };
+
+    [[nodiscard]] std::string line(Leg& leg, double slice);
+
+    std::deque<Leg> legs_;
+    Axes target_{};    ///< where the machine will be after all that was sent
+    Axes direction_{}; ///< of what was sent last
+};
+
+} // namespace millwright::machine::grbl

@@ -1,0 +1,93 @@
+// Jogs: fed in short lines, ended by whoever lets go.
+#include "core/machine/drivers/grbl/internal/session.h"
+
+namespace millwright::machine::grbl {
+
+namespace {
+
+constexpr char jog_cancel_byte = '\x85';
+constexpr double repeat_time = 0.125; // s after which a cancel that had no effect is sent again
+
+} // namespace
+
+void Session::jog(const Jog& jog, double now) {
+    if (stage_ != Stage::jogging || jog_stopping_) {
+        require_rest("jog");
+    }
+    if (stage_ != Stage::jogging) {
+        jog_feed_.begin(readout_.machine_position);
+        proof_closed_ = true;
+        jog_feed_.add(jog);
+        window_ = Window(readout_.buffer_bytes, true);
+        message_.clear();
+        last_answer_ = last_heard_ = next_poll_ = now;
+        stage_ = Stage::jogging;
+        rest_reports_ = 0;
+        jog_stopping_ = false;
+    } else {
+        jog_feed_.add(jog);
+    }
+    jog_until_ = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
+    pump_jog();
+}
+
+void Session::stop_jog(double now) {
+    if (stage_ == Stage::jogging && !jog_stopping_) {
+        jog_stopping_ = true;
+        jog_until_.reset();
+        jog_feed_.cancel();
+        cancel_jog(now);
+        next_poll_ = now;
+    }
+}
+
+void Session::cancel_jog(double now) {
+    output_ += jog_cancel_byte;
+    last_brake_ = now;
+}
+
+/// One line at a time, so that none waits in the controller when the jog is cancelled.
+void Session::pump_jog() {
+    if (stage_ != Stage::jogging || jog_stopping_ || !window_.empty()) {
+        return;
+    }
+    if (auto text = jog_feed_.next(readout_.machine_position, feed(), jog_limits())) {
+        *text += '\n';
+        output_ += *text;
+        window_.push({LineKind::jog, std::move(*text), -1, 0.0});
+        rest_reports_ = 0;
+    }
+}
+
+JogLimits Session::jog_limits() const {
+    constexpr double seconds_per_minute = 60.0;
+    constexpr int first_rate = 110;
+    constexpr int first_acceleration = 120;
+    const auto setting = [this](int number, double otherwise) {
+        const auto found = readout_.settings.find(number);
+        return found != readout_.settings.end() && found->second > 0.0 ? found->second : otherwise;
+    };
+    JogLimits limits;
+    for (std::size_t n = 0; n < limits.rate.size(); ++n) {
+        const int axis = static_cast<int>(n);
+        constexpr double slow = 600.0; // mm/min and mm/s^2, for a controller that does not tell
+        constexpr double weak = 10.0;
+        limits.rate[n] = setting(first_rate + axis, slow) / seconds_per_minute;
+        limits.acceleration[n] = setting(first_acceleration + axis, weak);
+    }
+    return limits;
+}
+
+void Session::watch_jog(double now) {
+    if (stage_ != Stage::jogging) {
+        return;
+    }
+    if (jog_until_ && now > *jog_until_) {
+        stop_jog(now);
+    }
+    if (jog_stopping_ && now - last_brake_ > repeat_time) {
+        cancel_jog(now);
+    }
+}
+
+} // namespace millwright::machine::grbl
