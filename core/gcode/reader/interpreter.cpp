@@ -299,6 +299,11 @@ const ModalState& Interpreter::state() const {
     return parts_->run.state;
 }
 
+double Interpreter::parameter(int number) const {
+    expects(internal::Variables::is_number(number), "a parameter exists");
+    return parts_->run.variables.stored(number);
+}
+
 SourcePlace Interpreter::place() const {
     return parts_->files.place();
 }

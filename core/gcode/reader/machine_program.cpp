@@ -70,11 +70,14 @@ public:
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
         Program& program = result_.program;
         program.machine = machine.name();
-        program.start = kinematics::AxisPositions::Zero(machine.axis_count());
+        expects(!settings.start ||
+                    (settings.start->size() == machine.axis_count() && settings.start->allFinite()),
+                "a program starts at a position of its machine");
+        program.start = settings.start.value_or(kinematics::AxisPositions::Zero(machine.axis_count()));
         for (int n = 0; n < machine.axis_count(); ++n) {
             const kinematics::MachineAxis& axis = machine.axis(n);
             program.axes.push_back({axis.letter, axis.kind});
-            program.start[n] = std::clamp(0.0, axis.min, axis.max);
+            program.start[n] = settings.start ? program.start[n] : std::clamp(0.0, axis.min, axis.max);
             at_[index_of(axis.letter)] = in_program_units(axis, program.start[n]);
         }
     }

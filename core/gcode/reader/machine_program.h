@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace millwright::gcode {
@@ -18,6 +19,8 @@ namespace millwright::gcode {
 struct MachineProgramSettings {
     double chord_tolerance = 0.002; ///< mm: of arcs and splines
     std::size_t most_faults = 100;
+    /// Where the axes stand at the start, in machine coordinates; none: at zero, or at their nearest limit.
+    std::optional<kinematics::AxisPositions> start{};
 };
 
 struct MachineProgram {
@@ -28,7 +31,7 @@ struct MachineProgram {
 
 class MachineProgramBuilder final : public CanonSink {
 public:
-    /// For diagnostics the program is called `file`. The axes start at zero, or at their nearest limit.
+    /// For diagnostics the program is called `file`. Throws Defect for a start that is not the machine's.
     MachineProgramBuilder(const kinematics::MachineModel& machine,
                           std::filesystem::path file,
                           const MachineProgramSettings& settings = {});

@@ -31,8 +31,12 @@ void check(VirtualSpeed speed) {
 
 } // namespace
 
-VirtualMachine::VirtualMachine(kinematics::AxisPositions position, VirtualSpeed speed, Clock& clock)
-    : clock_(clock), speed_(speed), axes_(std::make_unique<internal::VirtualAxes>(std::move(position))) {
+VirtualMachine::VirtualMachine(kinematics::AxisPositions position,
+                               VirtualSpeed speed,
+                               Clock& clock,
+                               std::shared_ptr<const kinematics::MachineModel> model)
+    : clock_(clock), speed_(speed),
+      axes_(std::make_unique<internal::VirtualAxes>(std::move(position), std::move(model))) {
     check(speed);
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -107,12 +111,78 @@ void VirtualMachine::close() noexcept {
     }
 }
 
+Capabilities VirtualMachine::capabilities() const {
+    Capabilities able;
+    if (const kinematics::MachineModel* model = axes_->model()) {
+        for (const kinematics::MachineAxis& axis : model->axes()) {
+            able.axes.push_back({axis.letter, axis.kind});
+        }
+        able.jog = able.home = able.command = true;
+    }
+    return able;
+}
+
+void VirtualMachine::jog(const Jog& jog) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->jog(jog);
+    jog_until_ = jog.dead_man > 0.0 ? std::optional(clock_.now() + jog.dead_man) : std::nullopt;
+    changed_.notify_all();
+}
+
+void VirtualMachine::stop_jog() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->stop_jog();
+}
+
+void VirtualMachine::home() {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->home();
+    changed_.notify_all();
+}
+
+int VirtualMachine::command(const std::string& lines) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    const int number = axes_->command(lines);
+    console_.add(clock_.now(), true, ConsoleKind::line, lines);
+    const CommandAnswer answer = axes_->status().answer;
+    if (answer.state == CommandAnswer::State::refused) {
+        console_.add(clock_.now(), false, ConsoleKind::fault, answer.text);
+    } else {
+        console_.add(clock_.now(), false, ConsoleKind::answer, "ok");
+    }
+    changed_.notify_all();
+    return number;
+}
+
+std::vector<StoredOffset> VirtualMachine::stored_offsets() const {
+    const std::scoped_lock lock(mutex_);
+    return axes_->stored_offsets();
+}
+
+/// A hand has real time, whatever the machine's.
+bool VirtualMachine::as_fast_as_possible() const {
+    return unlimited(speed_) && !axes_->jogging();
+}
+
 /// Moves the axes to where they are at this moment of the clock.
 void VirtualMachine::catch_up() const {
     const double now = clock_.now();
-    const double passed = std::max(0.0, now - std::exchange(caught_up_to_, now));
-    if (!unlimited(speed_)) {
-        axes_->advance(passed * speed_.factor);
+    double from = std::exchange(caught_up_to_, now);
+    if (axes_->jogging()) {
+        if (jog_until_ && *jog_until_ < now) {
+            const double dead = std::max(from, *jog_until_);
+            axes_->advance(std::max(0.0, dead - from));
+            axes_->stop_jog();
+            jog_until_.reset();
+            from = dead;
+        }
+        axes_->advance(std::max(0.0, now - from));
+    } else if (!unlimited(speed_)) {
+        axes_->advance(std::max(0.0, now - from) * speed_.factor);
     }
 }
 
@@ -133,7 +203,7 @@ void VirtualMachine::move_on(std::unique_lock<std::mutex>& lock, const std::stop
         changed_.wait(lock, stop, [&] { return axes_->moving(); });
         return;
     }
-    if (unlimited(speed_)) {
+    if (as_fast_as_possible()) {
         constexpr double stride = 0.5;                  // s of the machine
         constexpr std::chrono::microseconds others{50}; // in which commands get their turn
         axes_->advance(stride);

@@ -4,11 +4,13 @@
 #pragma once
 
 #include "core/machine/clock.h"
+#include "core/machine/console.h"
 #include "core/machine/driver.h"
 
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -31,13 +33,21 @@ struct VirtualSpeed {
 class VirtualMachine final : public Driver {
 public:
     /// Stands at `position`, disconnected. `clock` must outlive it. Throws Error for a speed out of range.
-    VirtualMachine(kinematics::AxisPositions position, VirtualSpeed speed, Clock& clock);
+    /// With a model it can also be moved by hand: it jogs (in real time, whatever the speed) and homes, to
+    /// zero or the limit next to it, within the limits of its axes, and executes single lines of G-code as
+    /// LinuxCNC reads them. Work offsets hold for these lines; programs come in machine coordinates. Its
+    /// coolant is one and shown as flood.
+    VirtualMachine(kinematics::AxisPositions position,
+                   VirtualSpeed speed,
+                   Clock& clock,
+                   std::shared_ptr<const kinematics::MachineModel> model = nullptr);
     VirtualMachine(const VirtualMachine&) = delete;
     VirtualMachine& operator=(const VirtualMachine&) = delete;
     ~VirtualMachine() override;
 
     [[nodiscard]] std::string name() const override { return "virtual"; }
     [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] Capabilities capabilities() const override;
     /// Also while running. Throws Error if it is out of range.
     void set_speed(VirtualSpeed speed);
 
@@ -49,11 +59,18 @@ public:
     void emergency_stop() override;
     void reset() override;
     void close() noexcept override;
+    void jog(const Jog& jog) override;
+    void stop_jog() override;
+    void home() override;
+    int command(const std::string& lines) override;
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;
+    [[nodiscard]] Console* console() override { return &console_; }
 
 private:
     void run(const std::stop_token& stop) noexcept;
     void move_on(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
     void catch_up() const;
+    [[nodiscard]] bool as_fast_as_possible() const;
 
     Clock& clock_;
     mutable std::mutex mutex_; ///< guards all below
@@ -61,6 +78,8 @@ private:
     VirtualSpeed speed_;
     mutable double caught_up_to_ = 0.0; ///< clock time
     std::unique_ptr<internal::VirtualAxes> axes_;
+    mutable std::optional<double> jog_until_; ///< clock time of the dead man
+    Console console_;
     std::jthread thread_; ///< last: ends before what it uses
 };
 

@@ -2,9 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/motion/hold.h"
+#include "core/motion/planner.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,8 +16,13 @@ namespace millwright::machine::internal {
 using kinematics::AxisPositions;
 using motion::Trajectory;
 
-VirtualAxes::VirtualAxes(AxisPositions position) : rest_position_(std::move(position)) {
+VirtualAxes::VirtualAxes(AxisPositions position, std::shared_ptr<const kinematics::MachineModel> model)
+    : model_(std::move(model)), rest_position_(std::move(position)) {
     expects(rest_position_.size() > 0 && rest_position_.allFinite(), "a machine stands at a finite position");
+    if (model_) {
+        expects(rest_position_.size() == model_->axis_count(), "a machine stands at a position of its axes");
+        control_.emplace(model_);
+    }
 }
 
 DriverStatus VirtualAxes::status() const {
@@ -24,23 +32,49 @@ DriverStatus VirtualAxes::status() const {
     if (state_ == DriverState::disconnected) {
         return status;
     }
+    status.activity = at_rest_ && state_ != DriverState::holding ? Activity::none : activity_;
+    status.answer = answer_;
     status.position = rest_position_;
     status.velocity = AxisPositions::Zero(rest_position_.size());
-    if (now_ == nullptr) {
-        return status;
+    status.work_offset = AxisPositions::Zero(rest_position_.size());
+    if (control_) {
+        status.work_offset = control_->work_offset();
+        status.work_system = control_->work_system();
+        status.modes = control_->modes();
+        status.tool = control_->tool();
     }
-    const motion::Sample sample = now_->at(time_);
+    using gcode::SpindleTurning;
+    status.spindle = spindle_rpm_ > 0.0   ? SpindleTurning::clockwise
+                     : spindle_rpm_ < 0.0 ? SpindleTurning::counterclockwise
+                                          : SpindleTurning::stopped;
+    status.spindle_rpm = std::abs(spindle_rpm_);
+    status.flood = coolant_;
+    if (now_ != nullptr) {
+        const motion::Sample sample = now_->at(time_);
+        if (!at_rest_) {
+            status.position = sample.position;
+            status.velocity = sample.velocity;
+        }
+        show_program(status, sample);
+    }
+    return status;
+}
+
+void VirtualAxes::show_program(DriverStatus& status, const motion::Sample& sample) const {
+    if (activity_ != Activity::program) {
+        return;
+    }
     const bool finished = state_ == DriverState::idle;
-    if (!at_rest_) {
-        status.position = sample.position;
-        status.velocity = sample.velocity;
-    }
     status.block = sample.block;
     status.fraction = sample.fraction;
     status.executed_blocks = finished ? now_->block_count() : sample.block;
     status.planned_time =
         finished ? work_.trajectory->duration() : work_.trajectory->time_at(sample.block, sample.fraction);
-    return status;
+}
+
+std::vector<StoredOffset> VirtualAxes::stored_offsets() const {
+    return control_ && state_ != DriverState::disconnected ? control_->stored_offsets()
+                                                           : std::vector<StoredOffset>{};
 }
 
 bool VirtualAxes::moving() const {
@@ -49,11 +83,14 @@ bool VirtualAxes::moving() const {
 
 void VirtualAxes::advance(double seconds) {
     expects(seconds >= 0.0, "time does not run backwards");
-    if (at_rest_) {
-        return;
-    }
-    time_ += seconds;
-    if (time_ >= now_->duration()) {
+    while (!at_rest_) { // more than once only where a jog follows another
+        const double left = now_->duration() - time_;
+        if (seconds < left) {
+            time_ += seconds;
+            take_accessories(now_->block_at(time_));
+            return;
+        }
+        seconds -= left;
         time_ = now_->duration();
         come_to_rest();
     }
@@ -63,9 +100,40 @@ void VirtualAxes::come_to_rest() {
     at_rest_ = true;
     rest_position_ = now_->at(time_).position;
     if (state_ == DriverState::running) {
+        take_accessories(now_->block_count());
         state_ = DriverState::idle;
     } else if (state_ == DriverState::stopping) {
         state_ = DriverState::stopped;
+    }
+    if (answer_.state == CommandAnswer::State::pending && state_ != DriverState::holding) {
+        const bool done = state_ == DriverState::idle;
+        answer_.state = done ? CommandAnswer::State::done : CommandAnswer::State::refused;
+        answer_.text = done ? "" : "stopped";
+    }
+    leg_.reset();
+    if (state_ == DriverState::idle && activity_ == Activity::jog && !legs_.empty()) {
+        const Leg next = legs_.front();
+        legs_.pop_front();
+        (void)begin_leg(next);
+    }
+}
+
+/// Spindle and coolant of the blocks that have been executed.
+void VirtualAxes::take_accessories(int executed_blocks) {
+    if (work_.program == nullptr) {
+        return;
+    }
+    using gcode::BlockKind;
+    for (; switched_blocks_ < executed_blocks; ++switched_blocks_) {
+        const gcode::Block& block = work_.program->blocks[static_cast<std::size_t>(switched_blocks_)];
+        const bool ends = block.kind == BlockKind::end && activity_ == Activity::program;
+        if (block.kind == BlockKind::spindle_on) {
+            spindle_rpm_ = block.spindle_rpm;
+        } else if (block.kind == BlockKind::coolant_on) {
+            coolant_ = true;
+        }
+        spindle_rpm_ = block.kind == BlockKind::spindle_off || ends ? 0.0 : spindle_rpm_;
+        coolant_ = block.kind != BlockKind::coolant_off && !ends && coolant_;
     }
 }
 
@@ -82,17 +150,28 @@ void VirtualAxes::connect() {
         state_ = DriverState::idle;
         now_ = nullptr;
         message_.clear();
+        answer_ = {};
+    }
+}
+
+void VirtualAxes::require_model(std::string_view what) const {
+    if (!model_) {
+        throw Error(fmt::format("this virtual machine has no model and takes no {}", what));
+    }
+}
+
+void VirtualAxes::require_rest(std::string_view what) const {
+    if (state_ != DriverState::idle && state_ != DriverState::stopped) {
+        throw Error(fmt::format("the virtual machine is {} and takes no {}", to_text(state_), what),
+                    {},
+                    state_ == DriverState::alarm ? message_ + "; look at the machine, then reset it" : "");
     }
 }
 
 void VirtualAxes::start(Work work) {
     expects(work.program != nullptr && work.trajectory != nullptr,
             "a machine is given a program and its motion");
-    if (state_ != DriverState::idle && state_ != DriverState::stopped) {
-        throw Error(fmt::format("the virtual machine is {} and takes no program", to_text(state_)),
-                    {},
-                    state_ == DriverState::alarm ? message_ + "; look at the machine, then reset it" : "");
-    }
+    require_rest("program");
     const AxisPositions begin = work.trajectory->at(0.0).position;
     constexpr double same_place = 1e-6; // mm or rad
     if (begin.size() != rest_position_.size() ||
@@ -100,16 +179,135 @@ void VirtualAxes::start(Work work) {
         throw Error(
             "the virtual machine does not stand where the motion begins", {}, "plan it from the position");
     }
+    execute(std::move(work), Activity::program);
+}
+
+void VirtualAxes::execute(Work work, Activity activity) {
     work_ = std::move(work);
     now_ = work_.trajectory;
     time_ = 0.0;
     at_rest_ = false;
     state_ = DriverState::running;
+    activity_ = activity;
+    message_.clear();
+    switched_blocks_ = 0;
     advance(0.0);
 }
 
+void VirtualAxes::execute(gcode::Program program, Activity activity) {
+    auto trajectory =
+        std::make_shared<const Trajectory>(motion::plan(program, *model_, {}, Progress(), rest_position_));
+    execute({std::make_shared<const gcode::Program>(std::move(program)), std::move(trajectory), nullptr},
+            activity);
+}
+
+void VirtualAxes::jog(const Jog& jog) {
+    require_model("jog");
+    const bool usable = jog.way.size() == rest_position_.size() && jog.way.allFinite() &&
+                        jog.way.norm() > 0.0 && std::isfinite(jog.speed) && jog.speed > 0.0;
+    expects(usable, "a jog goes somewhere in the machine's axes at a speed");
+    if (jogging() && state_ == DriverState::running && !jog_ends_) {
+        if (jog.dead_man > 0.0 && !extend_jog(jog)) {
+            stop_jog();
+        }
+        if (jog_ends_ || !(jog.dead_man > 0.0)) {
+            legs_.push_back({jog.way, jog.speed});
+        }
+        return;
+    }
+    if (jogging() && jog_ends_ && jog.dead_man > 0.0) {
+        legs_ = {{jog.way, jog.speed}}; // as soon as it stands
+        return;
+    }
+    require_rest("jog");
+    legs_.clear();
+    if (!begin_leg({jog.way, jog.speed})) {
+        throw Error("the machine stands at the limit of its travel and can go no farther this way");
+    }
+}
+
+/// As far as the limits of the axes allow; false if that is nowhere.
+bool VirtualAxes::begin_leg(const Leg& leg) {
+    const double reach = reach_within_limits(*model_, rest_position_, leg.way);
+    constexpr double nothing = 1e-9; // of the way
+    if (reach <= nothing) {
+        return false;
+    }
+    jog_ends_ = false;
+    leg_ = Leg{leg.way * reach, leg.speed};
+    const AxisPositions target = rest_position_ + leg_->way;
+    execute(straight_program(*model_, rest_position_, target, leg.speed), Activity::jog);
+    return true;
+}
+
+/// Goes on in the same direction, `jog.way` from here; false if it is another direction or speed.
+bool VirtualAxes::extend_jog(const Jog& jog) {
+    constexpr double same = 1.0 - 1e-12;
+    const double cosine = leg_->way.dot(jog.way) / (leg_->way.norm() * jog.way.norm());
+    const bool same_speed = std::abs(jog.speed - leg_->speed) <= 1e-9 * jog.speed;
+    if (!(cosine >= same) || !same_speed) {
+        return false;
+    }
+    const AxisPositions start = work_.program->start;
+    const AxisPositions here = now_->at(time_).position;
+    AxisPositions way = here + jog.way - start;
+    way *= reach_within_limits(*model_, start, way);
+    if (way.norm() <= leg_->way.norm()) {
+        return true; // it goes as far already, or as far as it can
+    }
+    leg_->way = way;
+    gcode::Program longer = straight_program(*model_, start, start + way, jog.speed);
+    const Trajectory planned = motion::plan(longer, *model_, {}, Progress(), start);
+    const motion::PathState state = now_->state_at(time_);
+    work_ = {std::make_shared<const gcode::Program>(std::move(longer)),
+             std::make_shared<const Trajectory>(planned),
+             nullptr};
+    follow(motion::rejoin(planned, state), DriverState::running);
+    return true;
+}
+
+void VirtualAxes::stop_jog() {
+    legs_.clear();
+    if (!jogging() || jog_ends_) {
+        return;
+    }
+    jog_ends_ = true;
+    follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::running);
+}
+
+void VirtualAxes::home() {
+    require_model("homing");
+    if (state_ != DriverState::alarm) {
+        require_rest("homing");
+    }
+    AxisPositions zero = AxisPositions::Zero(model_->axis_count());
+    for (int n = 0; n < model_->axis_count(); ++n) {
+        zero[n] = std::clamp(0.0, model_->axis(n).min, model_->axis(n).max);
+    }
+    execute(straight_program(*model_, rest_position_, zero, 0.0), Activity::homing);
+}
+
+int VirtualAxes::command(const std::string& lines) {
+    require_model("command");
+    require_rest("command");
+    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    try {
+        gcode::Program program = control_->read(lines, rest_position_);
+        if (program.blocks.empty()) {
+            program = straight_program(*model_, rest_position_, rest_position_, 0.0);
+        }
+        execute(std::move(program), Activity::command);
+    } catch (const Error& error) {
+        answer_.state = CommandAnswer::State::refused;
+        answer_.text = error.what();
+    }
+    return answer_.number;
+}
+
 void VirtualAxes::hold() {
-    if (state_ == DriverState::running) {
+    if (activity_ == Activity::jog) {
+        stop_jog();
+    } else if (state_ == DriverState::running) {
         follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::holding);
     }
 }
@@ -121,6 +319,7 @@ void VirtualAxes::resume() {
 }
 
 void VirtualAxes::stop() {
+    legs_.clear();
     if (state_ == DriverState::running) {
         follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::stopping);
     } else if (state_ == DriverState::holding) {
@@ -138,6 +337,13 @@ void VirtualAxes::emergency_stop(std::string why) {
     }
     state_ = DriverState::alarm;
     message_ = std::move(why);
+    legs_.clear();
+    spindle_rpm_ = 0.0;
+    coolant_ = false;
+    if (answer_.state == CommandAnswer::State::pending) {
+        answer_.state = CommandAnswer::State::refused;
+        answer_.text = message_;
+    }
 }
 
 void VirtualAxes::reset() {

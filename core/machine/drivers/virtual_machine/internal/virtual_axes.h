@@ -2,17 +2,26 @@
 #pragma once
 
 #include "core/machine/driver.h"
+#include "core/machine/drivers/virtual_machine/internal/hand_control.h"
+
+#include <deque>
+#include <optional>
 
 namespace millwright::machine::internal {
 
 class VirtualAxes {
 public:
-    /// At rest at `position`, disconnected.
-    explicit VirtualAxes(kinematics::AxisPositions position);
+    /// At rest at `position`, disconnected. Without a model it executes programs alone, no jog, homing or
+    /// single lines. Throws Defect if the position is not one of the model.
+    explicit VirtualAxes(kinematics::AxisPositions position,
+                         std::shared_ptr<const kinematics::MachineModel> model = nullptr);
 
     [[nodiscard]] DriverStatus status() const;
+    [[nodiscard]] const kinematics::MachineModel* model() const { return model_.get(); }
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const;
     /// Whether advance() changes anything.
     [[nodiscard]] bool moving() const;
+    [[nodiscard]] bool jogging() const { return activity_ == Activity::jog && !at_rest_; }
 
     /// Lets `seconds` >= 0 of machine time pass.
     void advance(double seconds);
@@ -25,20 +34,49 @@ public:
     void stop();
     void emergency_stop(std::string why);
     void reset();
+    /// Without the dead man: whoever knows the time, calls stop_jog().
+    void jog(const Jog& jog);
+    void stop_jog();
+    void home();
+    int command(const std::string& lines);
     /// Brakes to rest within this call, whatever time that would take, and disconnects.
     void close();
 
 private:
+    /// Jogs that follow the present one.
+    struct Leg {
+        kinematics::AxisPositions way;
+        double speed = 0.0;
+    };
+
+    void require_model(std::string_view what) const;
+    void require_rest(std::string_view what) const;
     void come_to_rest();
     void follow(motion::Trajectory next, DriverState state);
+    void execute(Work work, Activity activity);
+    void execute(gcode::Program program, Activity activity);
+    [[nodiscard]] bool begin_leg(const Leg& leg);
+    [[nodiscard]] bool extend_jog(const Jog& jog);
+    void take_accessories(int executed_blocks);
+    void show_program(DriverStatus& status, const motion::Sample& sample) const;
 
+    std::shared_ptr<const kinematics::MachineModel> model_;
+    std::optional<HandControl> control_;
     DriverState state_ = DriverState::disconnected;
+    Activity activity_ = Activity::none;
     Work work_;
     std::shared_ptr<const motion::Trajectory> now_; ///< the plan, or a way to leave or rejoin it; null: none
     double time_ = 0.0;                             ///< into `now_`
     bool at_rest_ = true;
     kinematics::AxisPositions rest_position_; ///< where the axes stand if at rest
     std::string message_;
+    std::deque<Leg> legs_;
+    std::optional<Leg> leg_; ///< the present jog, from the start of `work_`
+    bool jog_ends_ = false;  ///< it brakes
+    CommandAnswer answer_;
+    int switched_blocks_ = 0;  ///< of the work, whose spindle and coolant commands are in force
+    double spindle_rpm_ = 0.0; ///< clockwise if positive
+    bool coolant_ = false;
 };
 
 } // namespace millwright::machine::internal

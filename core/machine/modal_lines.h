@@ -1,0 +1,16 @@
+// The lines of G-code that bring modes into force: units, plane, distances, feed, work system, tool offset,
+// path mode. They move nothing and switch nothing on.
+#pragma once
+
+#include "core/gcode/reader/dialect.h"
+#include "core/gcode/reader/modal_state.h"
+
+#include <string>
+
+namespace millwright::machine {
+
+/// Each with its end. Not among them: spindle, coolant, tool, motion mode, cutter compensation, and the
+/// values of offsets, which controllers keep.
+[[nodiscard]] std::string modal_lines(const gcode::ModalState& state, gcode::Dialect dialect);
+
+} // namespace millwright::machine
