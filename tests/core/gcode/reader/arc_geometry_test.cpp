@@ -3,6 +3,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/canon.h"
 #include "core/gcode/reader/internal/refusal.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,7 @@ TEST(ArcGeometry, AHairIsAFullTurn) {
 }
 
 TEST(ArcGeometry, RefusesWhatHasNoCircle) {
+    const test::WithoutTraps numbers_that_are_none;
     const ArcTolerances within = arc_tolerances(LengthUnit::mm, Dialect::linuxcnc);
     const Vec2 o(0.0, 0.0);
     EXPECT_THROW(check_centre({1, 0}, {0, 2}, o, within, Plane::xy, 1), Refusal);

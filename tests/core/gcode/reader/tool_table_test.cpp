@@ -1,6 +1,7 @@
 #include "core/gcode/reader/tool_table.h"
 
 #include "core/base/error.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,7 @@ TEST(ToolTableFile, ReadsEveryLetter) {
 }
 
 TEST(ToolTableFile, RefusesWithThePlace) {
+    const test::WithoutTraps numbers_that_are_none;
     const auto place_of = [](const char* text) {
         try {
             static_cast<void>(parse_tool_table(text, "t.tbl"));

@@ -1,6 +1,7 @@
 #include "core/machine/links/faults.h"
 
 #include "core/base/error.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ TEST(FaultSpec, ReadsEveryWord) {
 }
 
 TEST(FaultSpec, RefusesWhatItDoesNotKnow) {
+    const test::WithoutTraps numbers_that_are_none;
     for (const char* text : {"drop",
                              "drop=2",
                              "drop=-1",
