@@ -28,6 +28,8 @@ struct MoveError {
 struct Sampling {
     int tip = 10;   ///< times inside the move at which the true pose is taken
     int curve = 16; ///< chords of the surface curve that the tip is compared with
+
+    friend bool operator==(const Sampling&, const Sampling&) = default;
 };
 inline constexpr Sampling coarse{10, 16};
 inline constexpr Sampling fine{40, 200};
