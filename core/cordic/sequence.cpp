@@ -1,0 +1,40 @@
+#include "core/cordic/sequence.h"
+
+#include "core/cordic/angles.h"
+
+#include <cmath>
+
+namespace millwright::cordic {
+
+double gain(const Sequence& sequence) {
+    double square = 1.0;
+    for (int i = 0; i < sequence.step_count; ++i) {
+        square *= 1.0 + sign_of(sequence.m) *
+                            power_of_two<double>(-2 * sequence.shifts[static_cast<std::size_t>(i)]);
+    }
+    return std::sqrt(square);
+}
+
+double correction(const Sequence& sequence) {
+    if (sequence.multiplies) {
+        return static_cast<double>(inverse_gain(sequence)) * power_of_two<double>(-gain_places);
+    }
+    double product = 1.0;
+    for (int j = 0; j < sequence.correction_count; ++j) {
+        const int a = sequence.corrections[static_cast<std::size_t>(j)];
+        if (a != 0) {
+            product *= 1.0 + (a < 0 ? -1 : 1) * power_of_two<double>(a < 0 ? a : -a);
+        }
+    }
+    return product;
+}
+
+double convergence_range(const Sequence& sequence) {
+    Int128 sum = 0;
+    for (int i = 0; i < sequence.step_count; ++i) {
+        sum += wide_angle(sequence.m, sequence.shifts[static_cast<std::size_t>(i)]);
+    }
+    return to_floating<double>(sum);
+}
+
+} // namespace millwright::cordic
