@@ -1,0 +1,1 @@
+IN;SP1;PE<=_ýOÞwÃÛoÃOÀ[ÃEÁAÃsÁ[Â[ÂsÁAÃEÁ[ÃOÀoÃÛwÃÜwÃPÀoÃFÁ[ÃtÁAÃ\Â[ÂBÃsÁ\ÃEÁpÃOÀxÃÛxÃÜpÃPÀ\ÃFÁBÃtÁ\Â\ÂtÁBÃFÁ\ÃPÀpÃÜxÃÛxÃOÀpÃEÁ\ÃsÁBÃ[Â\ÂAÃtÁ[ÃFÁoÃPÀwÃÜ;SP2;PE7<=OWhO]`IjO`QiKcAh]e]eAhKcQiO`IjP`IjLcQi^eAhBh]eRiKcJjO`JjP`RiLcBh^e^eBhLcRiP`JjO`JjKcRi]eBhAh^eQiLcIjP`<=OTlO]`G~Pk;PU0,0;SP0;

@@ -1,0 +1,160 @@
+// PE: a polyline as bytes, seven or eight bits, numbers to the base 32 or 64 (HP-GL/2 reference guide, PE).
+#include "core/plot/hpgl/internal/moves.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+namespace millwright::plot::internal {
+namespace {
+
+struct Step {
+    enum class Kind { draw, move, pen } kind = Kind::draw;
+    bool absolute = false;
+    Vec2 to = Vec2::Zero();
+    int pen = 0;
+};
+
+/// Decodes all of it before anything is drawn.
+class PolylineDecoder {
+public:
+    explicit PolylineDecoder(std::string_view bytes) : bytes_(bytes) {}
+
+    std::vector<Step> decode() {
+        while (skip_controls(), at_ < bytes_.size()) {
+            if (!flag()) {
+                point();
+            }
+        }
+        if (up_ || absolute_) {
+            throw Refusal{"PE: a flag without a point behind it"};
+        }
+        return std::move(steps_);
+    }
+
+private:
+    void skip_controls() {
+        while (at_ < bytes_.size() && static_cast<unsigned char>(bytes_[at_]) <= ' ') {
+            ++at_;
+        }
+    }
+
+    bool flag() {
+        switch (bytes_[at_]) {
+        case '7':
+            base_ = 32;
+            break;
+        case '<':
+            up_ = true;
+            break;
+        case '=':
+            absolute_ = true;
+            break;
+        case ':':
+            ++at_;
+            steps_.push_back({.kind = Step::Kind::pen, .pen = whole("pen number", 0.0, 32767.0)});
+            return true;
+        case '>':
+            ++at_;
+            fraction_ = std::ldexp(1.0, -whole("number of fractional bits", 0.0, 30.0));
+            return true;
+        default:
+            return false;
+        }
+        ++at_;
+        return true;
+    }
+
+    void point() {
+        const double x = number();
+        if (skip_controls(), at_ >= bytes_.size()) {
+            throw Refusal{"PE: a point without y"};
+        }
+        const double y = number();
+        constexpr double largest = 1073741824.0;
+        if (!(std::abs(x) <= largest && std::abs(y) <= largest)) {
+            throw Refusal{"PE: a coordinate beyond 2^30"};
+        }
+        steps_.push_back({.kind = up_ ? Step::Kind::move : Step::Kind::draw,
+                          .absolute = absolute_,
+                          .to = Vec2(x, y) * fraction_});
+        up_ = false;
+        absolute_ = false;
+    }
+
+    int whole(const char* what, double least, double most) {
+        const double value = number();
+        if (value < least || value > most) {
+            throw Refusal{fmt::format("PE: {} as {}", value, what)};
+        }
+        return static_cast<int>(value);
+    }
+
+    // Digits from the lowest; the last one is told by its range. Bit 0 is the sign.
+    double number() {
+        double value = 0.0;
+        double place = 1.0;
+        for (int digit = 0; digit < most_digits; ++digit) {
+            skip_controls();
+            if (at_ >= bytes_.size()) {
+                throw Refusal{"PE: ends in the middle of a number"};
+            }
+            const int code = static_cast<unsigned char>(bytes_[at_++]);
+            const int last = base_ == 64 ? 191 : 95;
+            const bool ends = code >= last && code < last + base_;
+            if (!ends && !(code >= 63 && code < 63 + base_)) {
+                throw Refusal{fmt::format("PE: the byte {:02X} is no digit to the base {}", code, base_)};
+            }
+            value += place * (code - (ends ? last : 63));
+            place *= base_;
+            if (ends) {
+                const double half = std::floor(value / 2.0);
+                return value > 2.0 * half ? -half : half;
+            }
+        }
+        throw Refusal{"PE: a number of more digits than any coordinate has"};
+    }
+
+    static constexpr int most_digits = 10;
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+    int base_ = 64;
+    double fraction_ = 1.0;
+    bool up_ = false;
+    bool absolute_ = false;
+    std::vector<Step> steps_;
+};
+
+void follow(Run& run, const Step& step) {
+    if (step.kind == Step::Kind::pen) {
+        run.pen.select(step.pen);
+        return;
+    }
+    if (step.kind == Step::Kind::move) {
+        run.pen.lift();
+    } else {
+        run.pen.lower();
+    }
+    if (step.absolute) {
+        run.pen.go(run.units.plotter(step.to));
+    } else {
+        run.pen.step(run.units.plotter_step(step.to));
+    }
+}
+
+} // namespace
+
+void encoded_polyline(Run& run, const Given& given) {
+    const std::vector<Step> steps = PolylineDecoder(given.command.arguments).decode();
+    for (const Step& step : steps) {
+        if (step.kind == Step::Kind::pen && step.pen > run.settings.highest_pen) {
+            throw Refusal{fmt::format("PE: there is no pen {}", step.pen)};
+        }
+    }
+    for (const Step& step : steps) {
+        follow(run, step);
+    }
+}
+
+} // namespace millwright::plot::internal

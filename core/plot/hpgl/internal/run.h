@@ -1,0 +1,87 @@
+// The state of a plotter while a file is read, and what the commands are given. Each group of commands has
+// its own file; a command that cannot be followed throws Refusal before it has drawn anything.
+#pragma once
+
+#include "core/plot/hpgl/internal/label_style.h"
+#include "core/plot/hpgl/internal/lexer.h"
+#include "core/plot/hpgl/internal/line_type.h"
+#include "core/plot/hpgl/internal/pen.h"
+#include "core/plot/hpgl/internal/problems.h"
+#include "core/plot/hpgl/internal/user_units.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace millwright::plot::internal {
+
+/// Why a command cannot be followed.
+struct Refusal {
+    std::string message;
+};
+
+/// What fills a polygon (FT). Lengths in plotter units.
+struct Filling {
+    int type = 1;
+    double spacing = 0.0; ///< 0: 1 % of the distance from P1 to P2
+    double angle_deg = 0.0;
+};
+
+/// How far a tick reaches from the line, as a fraction of the span between P1 and P2 (TL).
+struct Ticks {
+    double positive = 0.005;
+    double negative = 0.005;
+};
+
+/// What DF puts back.
+struct Modes {
+    bool relative = false;
+    Ticks ticks;
+    Filling filling;
+    LabelStyle label;
+    bool chord_by_deviation = false; ///< CT1: chords are given by their distance from the arc
+    bool width_relative = false;     ///< WU1: pen widths in percent of the distance from P1 to P2
+    char symbol = '\0';              ///< SM; 0: none
+    std::array<Pattern, 8> patterns = initial_patterns();
+    int line_type = 0; ///< of LT; 0 here is solid, dots are -100
+};
+
+struct Run {
+    Run(const ReaderSettings& chosen, Problems& found, Lexer& source, Plot& made)
+        : settings(chosen), problems(found), lexer(source), plot(made), units(chosen), pen(chosen, found) {}
+
+    const ReaderSettings& settings;
+    Problems& problems;
+    Lexer& lexer;
+    Plot& plot;
+    UserUnits units;
+    Pen pen;
+    Modes modes;
+    bool polygon_damaged = false;
+    std::string buffered_label;
+
+    [[nodiscard]] Vec2 at() const { return units.user(pen.at()); }
+    void refuse_if_lost() const {
+        if (pen.lost()) {
+            throw Refusal{"the pen's position is not known here, because of what was wrong before"};
+        }
+    }
+    /// Distance from P1 to P2, plotter units.
+    [[nodiscard]] double diagonal() const { return units.span().norm(); }
+};
+
+/// One command with its numbers, which are as many as the command may have.
+struct Given {
+    const Command& command;
+    std::span<const double> numbers;
+
+    [[nodiscard]] std::size_t count() const { return numbers.size(); }
+    [[nodiscard]] double operator[](std::size_t n) const { return numbers[n]; }
+    [[nodiscard]] double value(std::size_t n, double otherwise) const {
+        return n < numbers.size() ? numbers[n] : otherwise;
+    }
+    [[nodiscard]] Vec2 point(std::size_t n) const { return {numbers[n], numbers[n + 1]}; }
+};
+
+} // namespace millwright::plot::internal

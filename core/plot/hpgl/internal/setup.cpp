@@ -1,0 +1,234 @@
+#include "core/plot/hpgl/internal/setup.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::plot::internal {
+
+void defaults(Run& run, const Given&) {
+    run.modes = Modes();
+    run.units.no_scale();
+    run.pen.window.reset();
+    run.pen.line.set_solid();
+    run.lexer.end_labels_with('\x03', false);
+}
+
+void initialise(Run& run, const Given& given) {
+    run.pen.lift();
+    defaults(run, given);
+    run.units.reset_points();
+    run.units.rotate(0);
+}
+
+void begin_plot(Run& run, const Given& given) {
+    initialise(run, given);
+}
+
+void input_points(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.units.reset_points();
+        return;
+    }
+    const Vec2 p1 = given.point(0);
+    const Vec2 p2 = given.count() == 4 ? given.point(2) : Vec2(p1 + run.units.span());
+    if (!run.units.set_points(p1, p2)) {
+        throw Refusal{"IP: P1 and P2 are on one line, which makes no scale"};
+    }
+}
+
+void input_relative_points(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.units.reset_points();
+        return;
+    }
+    const Vec2 sheet = run.settings.p2 - run.settings.p1;
+    const Vec2 p1 = given.point(0);
+    const Vec2 p2 =
+        given.count() == 4 ? given.point(2) : Vec2(p1 + 100.0 * run.units.span().cwiseQuotient(sheet));
+    if (!run.units.set_relative_points(p1, p2)) {
+        throw Refusal{"IR: P1 and P2 are on one line, which makes no scale"};
+    }
+}
+
+void scale(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.units.no_scale();
+        return;
+    }
+    if (given.count() < 4) {
+        throw Refusal{fmt::format("SC: {} numbers; there are 0, 4, 5 or 7", given.count())};
+    }
+    const Vec2 first(given[0], given[2]);
+    const Vec2 second(given[1], given[3]);
+    const double type = given.value(4, 0.0);
+    bool done = false;
+    if (type > 1.0) {
+        done = run.units.scale_by_factor(first, second);
+    } else if (type > 0.0) {
+        done = run.units.scale_isotropic(first, second, {given.value(5, 50.0), given.value(6, 50.0)});
+    } else {
+        done = run.units.scale_to_fit(first, second);
+    }
+    if (!done) {
+        throw Refusal{"SC: these numbers make no scale"};
+    }
+}
+
+void rotate(Run& run, const Given& given) {
+    if (!run.units.rotate(static_cast<int>(given.value(0, 0.0)))) {
+        throw Refusal{fmt::format("RO: {} is none of 0, 90, 180, 270 degrees", given[0])};
+    }
+}
+
+void input_window(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.pen.window.reset();
+        return;
+    }
+    const Vec2 a = run.units.plotter(given.point(0));
+    const Vec2 b = run.units.plotter(given.point(2));
+    run.pen.window = Window{.lower = a.cwiseMin(b), .upper = a.cwiseMax(b)};
+}
+
+void select_pen(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.pen.put_away();
+        return;
+    }
+    const double number = given[0];
+    const bool known = number >= 0.0 && number <= run.settings.highest_pen && !(std::floor(number) < number);
+    if (!known) {
+        run.pen.put_away(); // what follows was meant for another pen than any that is there
+        throw Refusal{fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen)};
+    }
+    run.pen.select(static_cast<int>(number));
+    run.plot.pens.try_emplace(static_cast<int>(number));
+}
+
+namespace {
+
+/// The pen that a command names, else the one in use.
+int pen_meant(const Run& run, const Given& given, std::size_t n) {
+    const double number = given.value(n, run.pen.number().value_or(1));
+    if (!(number >= 0.0 && number <= run.settings.highest_pen)) {
+        throw Refusal{fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen)};
+    }
+    return static_cast<int>(number);
+}
+
+} // namespace
+
+void pen_speed(Run& run, const Given& given) {
+    const double cm_per_s = given.value(0, 0.0);
+    if (cm_per_s < 0.0) {
+        throw Refusal{fmt::format("VS: a speed of {} cm/s", cm_per_s)};
+    }
+    constexpr double mm_per_cm = 10.0;
+    run.plot.pens[pen_meant(run, given, 1)].speed = cm_per_s * mm_per_cm;
+}
+
+void pen_width(Run& run, const Given& given) {
+    const double width = given.value(0, 0.0);
+    if (width < 0.0) {
+        throw Refusal{fmt::format("PW: a width of {}", width)};
+    }
+    const double diagonal_mm =
+        run.units.span().cwiseProduct(Vec2(run.settings.unit.x, run.settings.unit.y)).norm();
+    run.plot.pens[pen_meant(run, given, 1)].width =
+        run.modes.width_relative ? width / 100.0 * diagonal_mm : width;
+}
+
+void pen_thickness(Run& run, const Given& given) {
+    pen_width(run, given);
+}
+
+void width_unit(Run& run, const Given& given) {
+    run.modes.width_relative = given.value(0, 0.0) > 0.0;
+}
+
+void line_type(Run& run, const Given& given) {
+    if (given.count() == 0 || !run.settings.dashes) {
+        run.pen.line.set_solid();
+        return;
+    }
+    const double type = given[0];
+    if (!(std::abs(type) <= static_cast<double>(run.modes.patterns.size()))) {
+        throw Refusal{fmt::format("LT: {} is none of the line types -8 to 8", type)};
+    }
+    const auto index = static_cast<int>(type);
+    if (index == 0) {
+        run.pen.line.set_dots();
+        return;
+    }
+    const bool in_mm = given.value(2, 0.0) > 0.0;
+    const double size = given.value(1, in_mm ? 5.0 : 4.0);
+    const double length = in_mm ? size / run.settings.unit.x : size / 100.0 * run.diagonal();
+    if (!(length > 0.0)) {
+        throw Refusal{fmt::format("LT: a pattern of the length {}", size)};
+    }
+    const Pattern& pattern = run.modes.patterns[static_cast<std::size_t>(std::abs(index) - 1)];
+    if (index > 0) {
+        run.pen.line.set_pattern(pattern, length);
+    } else {
+        run.pen.line.set_adaptive(pattern, length);
+    }
+}
+
+void user_line_type(Run& run, const Given& given) {
+    if (given.count() == 0) {
+        run.modes.patterns = initial_patterns();
+        return;
+    }
+    const double index = std::abs(given[0]);
+    if (!(index >= 1.0 && index <= static_cast<double>(run.modes.patterns.size()))) {
+        throw Refusal{fmt::format("UL: {} is none of the line types 1 to 8", given[0])};
+    }
+    const auto n = static_cast<std::size_t>(index) - 1;
+    if (given.count() == 1) {
+        run.modes.patterns[n] = initial_patterns()[n];
+        return;
+    }
+    Pattern pattern;
+    double sum = 0.0;
+    for (const double part : given.numbers.subspan(1)) {
+        if (part < 0.0) {
+            throw Refusal{fmt::format("UL: a part of {} percent", part)};
+        }
+        pattern.push_back(part);
+        sum += part;
+    }
+    if (!(sum > 0.0)) {
+        throw Refusal{"UL: a pattern without length"};
+    }
+    run.modes.patterns[n] = pattern;
+}
+
+namespace {
+
+void tick(Run& run, const Vec2& across) {
+    run.refuse_if_lost();
+    const Vec2 at = run.pen.at();
+    const Vec2 reach = run.units.turned(across);
+    run.pen.place(at - run.modes.ticks.negative * reach);
+    run.pen.draw(at + run.modes.ticks.positive * reach);
+    run.pen.place(at);
+}
+
+} // namespace
+
+void x_tick(Run& run, const Given&) {
+    tick(run, {0.0, run.units.span().y()});
+}
+
+void y_tick(Run& run, const Given&) {
+    tick(run, {run.units.span().x(), 0.0});
+}
+
+void tick_length(Run& run, const Given& given) {
+    run.modes.ticks = given.count() == 0
+                          ? Ticks()
+                          : Ticks{.positive = given[0] / 100.0, .negative = given.value(1, 0.0) / 100.0};
+}
+
+} // namespace millwright::plot::internal

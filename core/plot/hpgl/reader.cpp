@@ -1,0 +1,141 @@
+#include "core/plot/hpgl/reader.h"
+
+#include "core/base/files.h"
+#include "core/plot/hpgl/internal/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace millwright::plot {
+namespace internal {
+namespace {
+
+/// Runs a file through the plotter, command by command.
+class Reading {
+public:
+    Reading(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings)
+        : size_(static_cast<std::int64_t>(bytes.size())), problems_(file, settings),
+          lexer_(bytes, arguments_of, problems_), run_(settings, problems_, lexer_, plot_) {}
+
+    Plot read() {
+        while (const auto command = lexer_.next()) {
+            execute(*command);
+        }
+        run_.pen.finish(plot_, size_);
+        for (const Stroke& stroke : plot_.strokes) {
+            plot_.pens.try_emplace(stroke.pen);
+        }
+        plot_.diagnostics = problems_.take();
+        plot_.more_diagnostics = problems_.more();
+        return std::move(plot_);
+    }
+
+private:
+    void execute(const Command& command) {
+        run_.pen.byte = command.byte;
+        const CommandRow* row = command.name.empty() ? nullptr : find_command(command.name);
+        if (row == nullptr) {
+            if (!command.name.empty()) {
+                problems_.add(command.byte, fmt::format("{} is no command of HPGL", command.name));
+            }
+            lose();
+            return;
+        }
+        ++plot_.commands;
+        if (row->follow == nullptr) {
+            leave_out(*row, command.byte);
+            return;
+        }
+        if (!follow(*row, command) && row->moves) {
+            lose();
+        }
+    }
+
+    bool follow(const CommandRow& row, const Command& command) {
+        if (row.arguments != Arguments::numbers && row.arguments != Arguments::character) {
+            numbers_.clear();
+        } else if (!take_numbers(row, command)) {
+            return false;
+        }
+        try {
+            row.follow(run_, {.command = command, .numbers = numbers_});
+            return true;
+        } catch (const Refusal& refusal) {
+            problems_.add(command.byte, refusal.message);
+            return false;
+        }
+    }
+
+    bool take_numbers(const CommandRow& row, const Command& command) {
+        Command numbers = command;
+        if (row.arguments == Arguments::character && !numbers.arguments.empty()) {
+            numbers.arguments.remove_prefix(1); // the character, and the comma behind it
+            numbers.arguments.remove_prefix(numbers.arguments.starts_with(',') ? 1 : 0);
+        }
+        const LineEnds ends = run_.settings.line_ends;
+        auto fault = read_numbers(numbers, ends == LineEnds::join, numbers_);
+        const bool fits = !fault && row.count.allows(numbers_.size());
+        const bool wrapped = numbers.arguments.find_first_of("\r\n") != std::string_view::npos;
+        if (!fits && wrapped && ends == LineEnds::automatic) {
+            std::vector<double> joined;
+            if (!read_numbers(numbers, true, joined) && row.count.allows(joined.size())) {
+                numbers_ = std::move(joined);
+                fault.reset();
+            }
+        }
+        if (fault) {
+            problems_.add(fault->byte, fmt::format("{}: {}", command.name, fault->message));
+            return false;
+        }
+        if (!row.count.allows(numbers_.size())) {
+            problems_.add(command.byte,
+                          fmt::format("{} cannot have {} numbers", command.name, numbers_.size()));
+            return false;
+        }
+        if (!command.terminated && !numbers_.empty() && row.moves) {
+            problems_.add(command.byte,
+                          fmt::format("the file ends in the middle of {}", command.name),
+                          "its last number may be cut off, so nothing is drawn from it");
+            return false;
+        }
+        return true;
+    }
+
+    void leave_out(const CommandRow& row, std::int64_t byte) {
+        const auto known = std::ranges::find(plot_.left_out, row.name, &LeftOut::name);
+        if (known != plot_.left_out.end()) {
+            ++known->count;
+            return;
+        }
+        plot_.left_out.push_back(
+            {.name = std::string(row.name), .why = std::string(row.why), .byte = byte, .count = 1});
+    }
+
+    void lose() {
+        run_.pen.lose();
+        run_.polygon_damaged = run_.polygon_damaged || run_.pen.in_polygon();
+    }
+
+    std::int64_t size_;
+    Plot plot_;
+    Problems problems_;
+    Lexer lexer_;
+    Run run_;
+    std::vector<double> numbers_;
+};
+
+} // namespace
+} // namespace internal
+
+Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings) {
+    return internal::Reading(bytes, file, settings).read();
+}
+
+Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings) {
+    return read_hpgl(read_file(file), file, settings);
+}
+
+} // namespace millwright::plot

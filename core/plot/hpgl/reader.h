@@ -1,0 +1,58 @@
+// Reads HPGL, the language of HP's pen plotters, into strokes: what AutoCAD's drivers, CAD programs and
+// cutters of today write. Commands and what becomes of each: docs/reference/hpgl.md. The judge is
+// hp2xx 3.4.4.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/plot/hpgl/settings.h"
+#include "core/plot/strokes.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::plot {
+
+/// What a file says about one pen.
+struct PenUse {
+    double speed = 0.0; ///< VS, mm/s; 0: nothing said
+    double width = 0.0; ///< PW or PT, mm; 0: nothing said
+
+    friend bool operator==(const PenUse&, const PenUse&) = default;
+};
+
+/// A command that is understood and that a machine cannot follow: pens' colours, pages, questions to the
+/// plotter.
+struct LeftOut {
+    std::string name;      ///< the two letters
+    std::string why;       ///< one sentence
+    std::int64_t byte = 0; ///< of the first
+    std::int64_t count = 0;
+
+    friend bool operator==(const LeftOut&, const LeftOut&) = default;
+};
+
+struct Plot {
+    Strokes strokes;
+    std::map<int, PenUse> pens; ///< all that drew or that the file says something about
+    Vec2 end = Vec2::Zero();    ///< where the pen is left, mm
+    double air = 0.0;           ///< length of all travel with the pen up, from the origin, mm
+    std::int64_t commands = 0;
+    std::vector<LeftOut> left_out;
+    std::vector<Diagnostic> diagnostics; ///< in the order of the file, each with its byte
+    std::int64_t more_diagnostics = 0;   ///< that are not kept
+};
+
+/// Reads a whole file's bytes; `file` is named in every diagnostic. Nothing is drawn from a command that is
+/// wrong, and the pen is up from there to the next absolute position. Throws Error at the first diagnostic if
+/// reading strictly, and always for more points than `settings.most_points`.
+[[nodiscard]] Plot
+read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings = {});
+
+/// Reads the file itself. Throws Error if it cannot be read, too.
+[[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings = {});
+
+} // namespace millwright::plot

@@ -1,0 +1,152 @@
+// Damaged and hostile plot files: a diagnostic with its byte, nothing drawn from what is wrong, bounded
+// memory.
+#include "core/plot/hpgl/reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace millwright::plot {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct BadCase {
+    const char* text;
+    std::int64_t byte;
+    const char* message;
+};
+
+TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
+    const BadCase cases[] = {
+        {"SP1;PD;PA,,;", 9, "where a number should stand"},
+        {"SP1;PD100,;", 9, "a number is missing behind ','"},
+        {"SP1;PD100,1.2.3;", 10, "'1.2.3' is no number"},
+        {"SP1;PD100;", 4, "PD cannot have 1 numbers"},
+        {"SP1;PA5000000000,1;", 6, "beyond HPGL's range"},
+        {"SP1;;PU;", 4, "an empty command"},
+        {"SP1;...;PU;", 4, "'.' begins no command"},
+        {"SP1;QX4;", 4, "QX is no command"},
+        {"SP1;P5,5;", 4, "are no command"},
+        {"SP999;", 0, "there is no pen 999"},
+        {"SP1.5;", 0, "there is no pen 1.5"},
+        {"SP1;SC0,0,1,2;", 4, "make no scale"},
+        {"SP1;SC1,2;", 4, "SC: 2 numbers"},
+        {"SP1;IP1,1,1,5;", 4, "which makes no scale"},
+        {"SP1;RO45;", 4, "RO: 45 is none of"},
+        {"SP1;LBnever ends", 4, "a label without its end"},
+        {"SP1;CI0;", 4, "an arc without a radius"},
+        {"SP1;FP;", 4, "there is no polygon"},
+        {"SP1;PM1;", 4, "without PM0"},
+        {"SP1;PE<=abc;", 4, "PE: "},
+        {"SP1;PD100,100;PD200,20", 14, "the file ends in the middle of PD"},
+        {"SP1;LT55;", 4, "none of the line types"},
+    };
+    for (const BadCase& bad : cases) {
+        SCOPED_TRACE(bad.text);
+        const Plot plot = read_hpgl(bad.text, "bad.plt");
+        ASSERT_EQ(plot.diagnostics.size(), 1U);
+        EXPECT_EQ(plot.diagnostics.front().place.byte, bad.byte);
+        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr(bad.message));
+        ReaderSettings strict;
+        strict.strictness = Strictness::strict;
+        try {
+            static_cast<void>(read_hpgl(bad.text, "bad.plt", strict));
+            ADD_FAILURE() << "strict reading goes on";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.diagnostic().place.byte, bad.byte);
+            EXPECT_EQ(error.diagnostic().place.file, "bad.plt");
+        }
+    }
+}
+
+// Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers.
+TEST(BadPlots, NothingIsCutFromADamagedToken) {
+    for (const char* damage : {"PA,,;", "...;", "PA15093365,19613365,7;", "PA1.5.3,7;", "PAPA;P;", "A,,,;"}) {
+        SCOPED_TRACE(damage);
+        const std::string text = std::string("SP1;PU;PA1000,1000;PD;PA2000,1000;") + damage +
+                                 "PA2000,2000;PA3000,2000;PU;PA0,0;SP;";
+        const Plot plot = read_hpgl(text, "bad.plt");
+        EXPECT_FALSE(plot.diagnostics.empty());
+        ASSERT_EQ(plot.strokes.size(), 2U); // before the damage, and from the first whole position behind it
+        EXPECT_EQ(plot.strokes[0].points, (std::vector<Vec2>{{25.0, 25.0}, {50.0, 25.0}}));
+        EXPECT_EQ(plot.strokes[1].points, (std::vector<Vec2>{{50.0, 50.0}, {75.0, 50.0}}));
+    }
+}
+
+TEST(BadPlots, RelativeMovesAfterAFaultAreNotDrawn) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PD100,0;PR;PD1.1.1,2;PD100,0,0,100;PA;PU0,0;PD40,0;", "bad.plt");
+    ASSERT_EQ(plot.strokes.size(), 2U);
+    EXPECT_NEAR(draw_length(plot.strokes), 2.5 + 1.0, 1e-12);
+}
+
+TEST(BadPlots, APolygonWithAFaultIsLeftOut) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PM0;PD100,0,100,100;PD1.1.1,2;PM2;EP;FP;", "bad.plt");
+    EXPECT_EQ(plot.diagnostics.size(), 3U);
+    EXPECT_TRUE(plot.strokes.empty());
+}
+
+TEST(BadPlots, APenThatIsNotThereDrawsNothing) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PD100,0;SP777;PD100,100;SP2;PU0,0;PD0,100;", "bad.plt");
+    EXPECT_NEAR(draw_length(plot.strokes), 5.0, 1e-12);
+}
+
+TEST(BadPlots, AGiganticPlotEndsWithAnError) {
+    ReaderSettings settings;
+    settings.most_points = 100'000;
+    for (const char* giant : {"SP1;LT2,0.0001;PU0,0;PD1000000000,0;",
+                              "SP1;IW0,0,1,1;LT2,0.0001;PU10,10;PD1000000000,10;",
+                              "SP1;FT3,0.001;PU0,0;RA1000000,1000000;"}) {
+        SCOPED_TRACE(giant);
+        try {
+            const Plot plot = read_hpgl(giant, "giant.plt", settings);
+            EXPECT_FALSE(plot.diagnostics.empty());
+            EXPECT_TRUE(plot.strokes.empty());
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("more points than are allowed"));
+        }
+    }
+    std::string polygon = "SP1;PU0,0;PM0;PD";
+    for (int n = 0; n < 60'000; ++n) {
+        polygon += "1,2,3,4,";
+    }
+    EXPECT_THROW(static_cast<void>(read_hpgl(polygon + "0,0;PM2;EP;", "giant.plt", settings)), Error);
+}
+
+TEST(BadPlots, AnyBytesGiveFinitePoints) {
+    std::mt19937 random(7475);
+    const std::string letters = "PAUDRCISPLBEWGTMFO0123456789,;-.\x1b\x03\n ";
+    for (int n = 0; n < 3000; ++n) {
+        std::string text = "SP1;PD;";
+        for (int count = 0; count < 60; ++count) {
+            text += n % 2 == 0 ? letters[random() % letters.size()] : static_cast<char>(random() % 256);
+        }
+        ReaderSettings settings;
+        settings.most_points = 10'000;
+        try {
+            for (const Stroke& stroke : read_hpgl(text, "junk.plt", settings).strokes) {
+                for (const Vec2& point : stroke.points) {
+                    ASSERT_TRUE(is_finite(point)) << text;
+                }
+            }
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("more points"));
+        }
+    }
+}
+
+TEST(BadPlots, DiagnosticsAreKeptUpToALimitAndCounted) {
+    std::string text;
+    for (int n = 0; n < 500; ++n) {
+        text += "QX;";
+    }
+    const Plot plot = read_hpgl(text, "bad.plt");
+    EXPECT_EQ(plot.diagnostics.size(), 100U);
+    EXPECT_EQ(plot.more_diagnostics, 400);
+}
+
+} // namespace
+} // namespace millwright::plot

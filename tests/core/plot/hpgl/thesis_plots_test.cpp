@@ -1,0 +1,115 @@
+// The plot files that are printed in the KMITL master's thesis of 2006 (forming software for wood and
+// plastic), as far as their print is whole: points, lengths, gaps. Plotter units of 0.025 mm.
+#include "core/plot/hpgl/reader.h"
+#include "tests/core/plot/thesis_drawings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::plot {
+namespace {
+
+constexpr double printed = 1e-4; // mm
+
+Strokes strokes_of(const std::string& hpgl) {
+    const Plot plot = read_hpgl(hpgl, "thesis.plt");
+    EXPECT_TRUE(plot.diagnostics.empty()) << to_text(plot.diagnostics.front());
+    return plot.strokes;
+}
+
+TEST(ThesisPlots, FirstExampleIsOneRunOfFourPoints) {
+    const Plot plot = read_hpgl(test::first_example(), "thesis.plt");
+    ASSERT_EQ(plot.strokes.size(), 1U);
+    EXPECT_EQ(plot.strokes.front().points.size(), 4U);
+    EXPECT_NEAR(draw_length(plot.strokes), 5.4748, printed);
+    const Vec2 end = plot.strokes.front().points.back();
+    EXPECT_NEAR((plot.end - end).norm(), 2.4296, printed);
+}
+
+TEST(ThesisPlots, SecondExampleIsTwoPensWithOneRunEach) {
+    const Strokes strokes = strokes_of(test::second_example());
+    ASSERT_EQ(strokes.size(), 2U);
+    EXPECT_EQ(strokes[0].pen, 0);
+    EXPECT_EQ(strokes[1].pen, 1);
+}
+
+TEST(ThesisPlots, OutlineOfTheEngravingHasItsLength) {
+    const Strokes strokes = strokes_of(test::outline_fa());
+    ASSERT_EQ(strokes.size(), 1U);
+    EXPECT_NEAR(draw_length(strokes), 14.4582, printed);
+}
+
+TEST(ThesisPlots, HatchesOfTheEngravingHaveTheirLengths) {
+    const Strokes fb = strokes_of(test::hatch_fb());
+    EXPECT_EQ(fb.size(), 6U);
+    EXPECT_NEAR(draw_length(fb), 67.8, printed);
+    const Strokes fcd = strokes_of(test::hatch_fc_fd());
+    EXPECT_EQ(fcd.size(), 13U);
+    EXPECT_NEAR(draw_length(fcd), 230.35, printed);
+}
+
+TEST(ThesisPlots, PlotListingHasItsLengths) {
+    const Strokes first = strokes_of(test::listing_start());
+    ASSERT_EQ(first.size(), 1U);
+    EXPECT_NEAR(draw_length(first), 14.4114, printed);
+    const Strokes later = strokes_of(test::listing_later_part());
+    ASSERT_EQ(later.size(), 2U);
+    EXPECT_NEAR(length(later[0]), 8.9952, printed);
+    EXPECT_NEAR((later[1].points.front() - later[0].points.back()).norm(), 2.7104, printed);
+    EXPECT_NEAR(length(later[1]), 19.9363, printed);
+}
+
+// The head of AutoCAD's driver for the HP 7475, with its escape sequences full of semicolons.
+TEST(ThesisPlots, HeadOfAutocadIsPassedOverAndItsPenKept) {
+    const Plot plot =
+        read_hpgl(test::autocad_head() + "PU;PA893,692;PD;PA893,800;PU;PA0,0;SP;", "thesis.plt");
+    EXPECT_TRUE(plot.diagnostics.empty());
+    EXPECT_TRUE(plot.left_out.empty());
+    ASSERT_EQ(plot.strokes.size(), 1U);
+    EXPECT_EQ(plot.strokes.front().pen, 1);
+    EXPECT_DOUBLE_EQ(plot.pens.at(1).speed, 360.0);
+    EXPECT_EQ(plot.end, Vec2(0.0, 0.0));
+}
+
+TEST(ThesisPlots, WrappedListingReadsLikeTheWholeOne) {
+    const std::string whole = test::autocad_head() + test::hatch_fc_fd();
+    const Plot plain = read_hpgl(whole, "thesis.plt");
+    for (std::size_t width = 17; width < 80; ++width) {
+        std::string wrapped;
+        for (std::size_t n = 0; n < whole.size(); n += width) {
+            wrapped += whole.substr(n, width) + "\r\n";
+        }
+        const Plot plot = read_hpgl(wrapped, "thesis.plt");
+        ASSERT_TRUE(plot.diagnostics.empty()) << width << to_text(plot.diagnostics.front());
+        ASSERT_EQ(plot.strokes.size(), plain.strokes.size()) << width;
+        for (std::size_t n = 0; n < plain.strokes.size(); ++n) {
+            ASSERT_EQ(plot.strokes[n].points, plain.strokes[n].points) << width;
+        }
+    }
+}
+
+// Experiment of the thesis on the decoder: sizes of 1 to 950 mm in steps of 0.5 mm, decoded to two decimals.
+double worst_size_error(const PlotterUnit& unit) {
+    double worst = 0.0;
+    for (int n = 0; n < 1899; ++n) {
+        const double size = 1.0 + 0.5 * n;
+        const auto units = static_cast<int>(std::lround(size / unit.x));
+        ReaderSettings settings;
+        settings.unit = unit;
+        const Plot plot =
+            read_hpgl("IN;SP1;PU0,0;PD" + std::to_string(units) + ",0;PU;", "size.plt", settings);
+        const double decoded = std::round(plot.strokes.at(0).points.at(1).x() * 100.0) / 100.0;
+        worst = std::max(worst, std::abs(decoded - size));
+    }
+    return worst;
+}
+
+TEST(ThesisPlots, SizesOfTheDecoderComeBackWithinTheErrorOfTheThesis) {
+    EXPECT_LT(worst_size_error(nominal_unit), 1e-9);
+    const double worst = worst_size_error(table_unit);
+    EXPECT_LT(worst, 0.01 + 1e-9);
+    EXPECT_GT(worst, 0.01 - 1e-9);
+}
+
+} // namespace
+} // namespace millwright::plot
