@@ -1,5 +1,6 @@
 // The program: finds out which command is meant, runs it, and tells how it ended.
 // Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
+#include "app/commands/cordic_command.h"
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
 #include "app/commands/plan_command.h"
@@ -53,6 +54,7 @@ int main(int argc, char** argv) {
     add_send_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
+    add_cordic_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {

@@ -6,6 +6,8 @@
 #include "core/cordic/angles.h"
 #include "core/cordic/arithmetic.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 namespace millwright::cordic {
@@ -46,6 +48,40 @@ post(const Arithmetic& arithmetic, const Folded<Number>& folded, bool& overflow)
         v.y = arithmetic.negated(v.y, overflow);
     }
     return v;
+}
+
+/// The quarter turns that pre turned back: what post adds to the angle, -2 to 1.
+template <class Number> [[nodiscard]] constexpr int quarter_turns_of(const Folded<Number>& folded) {
+    if (folded.f1) {
+        return folded.f2 ? -1 : 1;
+    }
+    return folded.f2 ? -2 : 0;
+}
+
+/// How far to shift (x, y) to the left (to the right if negative) so that vectoring has all digits of the
+/// word and cannot overflow: a short vector in fixed point has a coarse direction otherwise. Floating point
+/// needs none.
+template <class T>
+[[nodiscard]] constexpr int normalising_shift(const FloatArithmetic<T>& /*format*/, T /*x*/, T /*y*/) {
+    return 0;
+}
+[[nodiscard]] constexpr int normalising_shift(const FixedArithmetic& format, std::int64_t x, std::int64_t y) {
+    const auto bits = [](std::int64_t v) {
+        return static_cast<int>(std::bit_width(static_cast<Word>(v < 0 ? ~v : v)));
+    };
+    const int used = std::max(bits(x), bits(y));
+    const int room = bits(format.largest()) - 2; // gain and diagonal together stay below 4
+    return used == 0 ? 0 : room - used;
+}
+
+template <class T>
+[[nodiscard]] constexpr T normalised(const FloatArithmetic<T>& /*format*/, T value, int /*shift*/) {
+    return value;
+}
+[[nodiscard]] constexpr std::int64_t
+normalised(const FixedArithmetic& format, std::int64_t value, int shift) {
+    return shift >= 0 ? static_cast<std::int64_t>(static_cast<Word>(value) << static_cast<unsigned>(shift))
+                      : shifted_right(value, -shift, format.rounding());
 }
 
 /// The angle `quarter_turns` pi/2 + rest, |rest| about pi/4 at most.

@@ -31,7 +31,13 @@ template <class Arithmetic, class Number = typename Arithmetic::Number>
     const Number dx = arithmetic.difference(x1, x0, overflow);
     const Number dy = arithmetic.difference(y1, y0, overflow);
     const Folded<Number> folded = pre(arithmetic, dx, dy, overflow);
-    const Number z = kernel.vectored({folded.x, folded.y, Number{0}}, overflow).z;
+    const int shift = normalising_shift(arithmetic, folded.x, folded.y);
+    const Number z =
+        kernel
+            .vectored(
+                {normalised(arithmetic, folded.x, shift), normalised(arithmetic, folded.y, shift), Number{0}},
+                overflow)
+            .z;
     const auto along = [&](Number length) {
         const auto turned = kernel.rotated({length, Number{0}, z}, overflow);
         return post(arithmetic, Folded<Number>{turned.x, turned.y, folded.f1, folded.f2}, overflow);

@@ -35,7 +35,7 @@ template <class Arithmetic>
 void add_results(Digest& digest, const Arithmetic& arithmetic, const Sequence& sequence) {
     const Kernel<Arithmetic> kernel(arithmetic, sequence);
     Random random;
-    for (int n = 0; n < 2000; ++n) {
+    for (int n = 0; n < 300; ++n) {
         bool overflow = false;
         const auto number = [&](double scale) {
             return arithmetic.from_double(scale * random.next(), overflow);

@@ -1,0 +1,192 @@
+#include "app/commands/cordic_accuracy.h"
+
+#include "app/interrupt.h"
+#include "app/outputs.h"
+#include "app/progress_printer.h"
+#include "core/base/files.h"
+#include "core/cordic/accuracy.h"
+#include "core/cordic/experiments.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using cordic::Rounding;
+
+constexpr int exhaustive_bits = 16;
+
+struct Options {
+    std::string out;
+    std::int64_t random = 10'000'000;
+    std::uint64_t seed = 2002;
+};
+
+struct Row {
+    cordic::NumberFormat format;
+    cordic::Sequence sequence;
+    cordic::RotationBound rotation_bound;
+    cordic::VectoringBound vectoring_bound;
+    cordic::Accuracy measured;
+};
+
+cordic::Sequence classic(int steps) {
+    return cordic::classic_sequence(cordic::CoordinateSystem::circular, steps);
+}
+
+std::vector<std::pair<cordic::NumberFormat, cordic::Sequence>> cases() {
+    std::vector<std::pair<cordic::NumberFormat, cordic::Sequence>> made;
+    const auto thesis = cordic::thesis_sequence();
+    for (const Rounding rounding :
+         {Rounding::truncate, Rounding::toward_zero, Rounding::nearest, Rounding::nearest_even}) {
+        made.emplace_back(cordic::fixed_format(2, 14, rounding), thesis);
+    }
+    for (const int steps : {4, 6, 8, 10, 12, 14, 16}) {
+        made.emplace_back(cordic::fixed_format(2, 14), classic(steps));
+    }
+    for (const int fraction_bits : {22, 30}) {
+        made.emplace_back(cordic::fixed_format(2, fraction_bits), thesis);
+        made.emplace_back(cordic::fixed_format(2, fraction_bits, Rounding::nearest), thesis);
+        made.emplace_back(cordic::fixed_format(2, fraction_bits), classic(fraction_bits + 2));
+    }
+    made.emplace_back(cordic::binary32, thesis);
+    made.emplace_back(cordic::binary64, thesis);
+    return made;
+}
+
+std::vector<Row> measured_rows(const Options& options, const Progress& progress) {
+    const auto all = cases();
+    std::vector<Row> rows;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        const auto& [format, sequence] = all[n];
+        const auto count = static_cast<double>(all.size());
+        progress.report(static_cast<double>(n) / count, cordic::to_text(format));
+        const double longest = 1.0 + cordic::resolution(format);
+        cordic::Sampling sampling{.random = options.random, .seed = options.seed};
+        if (format.word() <= exhaustive_bits) {
+            sampling.random.reset();
+        }
+        rows.push_back({format,
+                        sequence,
+                        cordic::rotation_bound(format, sequence, longest),
+                        cordic::vectoring_bound(format, sequence, 1.0 - cordic::resolution(format)),
+                        cordic::measure_accuracy(format, sequence, sampling, progress)});
+    }
+    progress.report(1.0);
+    return rows;
+}
+
+std::string name_of(const cordic::Sequence& sequence) {
+    return fmt::format("{} {}", sequence.multiplies ? "classic" : "thesis", sequence.step_count);
+}
+
+std::string table(const std::vector<Row>& rows) {
+    std::string text =
+        "format,rounding,sequence,inputs,rotation_error,rotation_bound,angle_error_rad,angle_bound_rad,"
+        "length_error,length_bound\n";
+    for (const Row& row : rows) {
+        const bool fixed = row.format.kind == cordic::NumberKind::fixed;
+        text += fmt::format("{},{},{},{},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e}\n",
+                            cordic::to_text(row.format),
+                            fixed ? cordic::to_text(row.format.rounding) : "ieee",
+                            name_of(row.sequence),
+                            row.measured.count,
+                            row.measured.rotation,
+                            row.rotation_bound.total,
+                            row.measured.angle,
+                            row.vectoring_bound.angle,
+                            row.measured.length,
+                            row.vectoring_bound.length);
+    }
+    return text;
+}
+
+void print(const std::vector<Row>& rows, const std::vector<cordic::Finding>& findings) {
+    fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10} {:>10} {:>10} {:>10}\n",
+               "format",
+               "rounding",
+               "sequence",
+               "inputs",
+               "rotation",
+               "bound",
+               "angle rad",
+               "bound");
+    for (const Row& row : rows) {
+        const bool fixed = row.format.kind == cordic::NumberKind::fixed;
+        fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}\n",
+                   cordic::to_text(row.format),
+                   fixed ? cordic::to_text(row.format.rounding) : "ieee",
+                   name_of(row.sequence),
+                   row.measured.count,
+                   row.measured.rotation,
+                   row.rotation_bound.total,
+                   row.measured.angle,
+                   row.vectoring_bound.angle);
+    }
+    for (const cordic::Finding& finding : findings) {
+        fmt::print("{}  {:.3e}  {}\n", finding.experiment, finding.largest_error, finding.what);
+    }
+}
+
+/// The proven bound against the number of steps, one line a format: when more steps stop to help.
+std::string bounds_picture() {
+    cordic::Chart chart{.title = "Proven bound of a rotation against the number of steps 0, 1, 2 ...",
+                        .x_label = "steps",
+                        .y_label = "largest error of a unit vector",
+                        .logarithmic = true};
+    for (const char* name : {"q2.14", "q2.22", "q2.30", "f32", "f64"}) {
+        cordic::Series series{.label = name};
+        for (int steps = 2; steps <= 40; ++steps) {
+            series.x.push_back(steps);
+            series.y.push_back(
+                cordic::rotation_bound(cordic::parse_number_format(name), classic(steps), 1.0).total);
+        }
+        chart.series.push_back(std::move(series));
+    }
+    return cordic::to_svg(chart);
+}
+
+int accuracy(const Options& options) {
+    const Interrupt interrupt;
+    make_folder(options.out);
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const auto rows = measured_rows(options, progress);
+    const auto experiments = cordic::run_experiments();
+    printer.finish();
+    std::vector<OutputFile> files = {{"accuracy.csv", table(rows)}, {"bounds.svg", bounds_picture()}};
+    for (const cordic::Picture& picture : experiments.pictures) {
+        files.push_back({picture.name, picture.svg});
+    }
+    write_outputs(options.out, files);
+    print(rows, experiments.findings);
+    return 0;
+}
+
+} // namespace
+
+void add_cordic_accuracy(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *group.add_subcommand(
+        "accuracy", "Proven bounds beside measured errors, and the thesis's experiments");
+    command.add_option("--out", options->out, "Folder for accuracy.csv and the pictures")
+        ->required()
+        ->type_name("DIR");
+    command.add_option("--random", options->random, "Inputs of formats longer than 16 bits")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+        ->capture_default_str();
+    command.add_option("--seed", options->seed, "Of the random inputs")->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return accuracy(*options); }; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,119 @@
+#include "app/commands/cordic_command.h"
+
+#include "app/commands/cordic_accuracy.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/cordic/calculator.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct NumberOptions {
+    double x = 0.0;
+    double y = 0.0;
+    double angle_deg = 0.0;
+    std::string format = "f64";
+    std::string rounding = "truncate";
+    int iterations = 0; ///< 0: the thesis's 29 steps
+    bool json = false;
+};
+
+cordic::NumberFormat format_of(const NumberOptions& options) {
+    cordic::NumberFormat format = cordic::parse_number_format(options.format);
+    format.rounding = cordic::parse_rounding(options.rounding);
+    return format;
+}
+
+cordic::Sequence sequence_of(const NumberOptions& options) {
+    return options.iterations == 0
+               ? cordic::thesis_sequence()
+               : cordic::classic_sequence(cordic::CoordinateSystem::circular, options.iterations);
+}
+
+int rotate(const NumberOptions& options) {
+    const cordic::Rotated found =
+        cordic::rotate(format_of(options), sequence_of(options), options.x, options.y, options.angle_deg);
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["x"] = found.x;
+        answer["y"] = found.y;
+        answer["z"] = found.z;
+        answer["error"] = found.error;
+        answer["clocks"] = found.clocks;
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
+                   shortest(found.x),
+                   shortest(found.y),
+                   shortest(found.z),
+                   shortest(found.error),
+                   found.clocks);
+    }
+    return 0;
+}
+
+int vector(const NumberOptions& options) {
+    const cordic::Polar found = cordic::polar(format_of(options), sequence_of(options), options.x, options.y);
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["magnitude"] = found.length;
+        answer["degrees"] = found.angle_deg;
+        answer["error"] = found.length_error;
+        answer["error_degrees"] = found.angle_error_deg;
+        answer["clocks"] = found.clocks;
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("magnitude {}, error {}\n{} degrees, error {}\n{} clocks\n",
+                   shortest(found.length),
+                   shortest(found.length_error),
+                   shortest(found.angle_deg),
+                   shortest(found.angle_error_deg),
+                   found.clocks);
+    }
+    return 0;
+}
+
+CLI::App& add_numbers(CLI::App& group,
+                      const char* name,
+                      const char* text,
+                      const std::shared_ptr<NumberOptions>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("X", options->x, "First coordinate")->required();
+    command.add_option("Y", options->y, "Second coordinate")->required();
+    command.add_option("--format", options->format, "Number format: f64, f32, or qI.F as in q2.22")
+        ->capture_default_str();
+    command
+        .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
+        ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}))
+        ->capture_default_str();
+    command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+        ->check(CLI::Range(1, cordic::most_steps));
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    return command;
+}
+
+} // namespace
+
+void add_cordic_command(CLI::App& app, Command& chosen) {
+    CLI::App& group =
+        *app.add_subcommand("cordic", "The G-code processor that rotates by shifts and additions");
+    group.require_subcommand(1);
+    const auto options = std::make_shared<NumberOptions>();
+    CLI::App& rotating = add_numbers(group, "rotate", "Turn a vector by any angle", options);
+    rotating.add_option("DEGREES", options->angle_deg, "Counter-clockwise")->required();
+    rotating.callback([&chosen, options] { chosen = [options] { return rotate(*options); }; });
+    CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
+    measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
+    add_cordic_accuracy(group, chosen);
+}
+
+} // namespace millwright::app

@@ -1,0 +1,306 @@
+#include "core/cordic/assembler.h"
+
+#include "core/base/text.h"
+#include "core/cordic/arithmetic.h"
+#include "core/cordic/internal/line_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Opcode>, 6> plain = {{{"NOP", Opcode::nop},
+                                                                       {"HLT", Opcode::hlt},
+                                                                       {"G00", Opcode::g00},
+                                                                       {"G01", Opcode::g01},
+                                                                       {"G02", Opcode::g02},
+                                                                       {"G03", Opcode::g03}}};
+
+std::string upper(std::string_view text) {
+    std::string made(text);
+    std::ranges::transform(made, made.begin(), [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    });
+    return made;
+}
+
+/// The name of an instruction without operands.
+std::string_view name_of(Opcode opcode) {
+    for (const auto& [name, known] : plain) {
+        if (known == opcode) {
+            return name;
+        }
+    }
+    return {};
+}
+
+bool read_real(std::string_view text, double& value) {
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+    }
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, value);
+    return fault == std::errc{} && stop == end && std::isfinite(value);
+}
+
+class Assembler {
+public:
+    Assembler(std::filesystem::path name, const NumberFormat& format) : name_(std::move(name)) {
+        result_.image.format = format;
+    }
+
+    Assembled assemble(std::string_view text) {
+        while (!text.empty()) {
+            ++line_;
+            words_ = words_of(take_line(text));
+            at_ = 0;
+            read_line();
+        }
+        close_labels();
+        if (result_.image.code.size() > rom_size) {
+            result_.errors.push_back({{name_, line_, 0, -1},
+                                      fmt::format("the program has {} bytes, the ROM holds {}",
+                                                  result_.image.code.size(),
+                                                  rom_size),
+                                      {}});
+        }
+        return std::move(result_);
+    }
+
+private:
+    struct OpenLabel {
+        std::size_t at = 0; ///< of the immediate
+        std::string name{};
+        int line = 0;
+        int column = 0;
+    };
+
+    [[nodiscard]] bool more() const { return at_ < words_.size(); }
+    [[nodiscard]] int column() const {
+        if (more()) {
+            return words_[at_].column;
+        }
+        return words_.empty() ? 1 : words_.back().column + static_cast<int>(words_.back().text.size());
+    }
+    void fail(int at, std::string message, std::string hint = {}) {
+        result_.errors.push_back({{name_, line_, at, -1}, std::move(message), std::move(hint)});
+    }
+
+    void read_line() {
+        if (words_.size() >= 2 && words_[1].text == ":") {
+            define_label();
+            at_ = 2;
+        }
+        if (!more()) {
+            return;
+        }
+        const LineWord word = words_[at_++];
+        const std::string name = upper(word.text);
+        const auto* const known = std::ranges::find(plain, name, &std::pair<std::string_view, Opcode>::first);
+        if (known != plain.end()) {
+            append(result_.image.code, {.opcode = known->second}, result_.image.format);
+            begun_ = true;
+        } else if (name == "MOV") {
+            read_mov();
+        } else if (name == ".FORMAT") {
+            read_format();
+        } else if (name == ".BYTE") {
+            read_byte();
+        } else {
+            fail(word.column,
+                 fmt::format("\"{}\" is no instruction", word.text),
+                 "MOV, G00 to G03, NOP or HLT");
+            return;
+        }
+        if (more() && (result_.errors.empty() || result_.errors.back().place.line != line_)) {
+            fail(column(), fmt::format("\"{}\" is too much", words_[at_].text));
+        }
+    }
+
+    void define_label() {
+        if (!is_name(words_[0].text)) {
+            fail(words_[0].column, fmt::format("\"{}\" is no label", words_[0].text));
+        } else if (!labels_.emplace(std::string(words_[0].text), result_.image.code.size()).second) {
+            fail(words_[0].column, fmt::format("label {} is there already", words_[0].text));
+        }
+    }
+
+    void read_format() {
+        if (!more()) {
+            fail(column(), ".format needs a number format");
+            return;
+        }
+        if (begun_) {
+            fail(column(), ".format stands behind the first instruction");
+            return;
+        }
+        try {
+            result_.image.format = parse_number_format(words_[at_].text);
+        } catch (const Error& error) {
+            fail(column(), error.diagnostic().message, error.diagnostic().hint);
+        }
+        ++at_;
+    }
+
+    void read_byte() {
+        long long number = 0;
+        if (!more() || !read_number(words_[at_].text, number) || number < 0 || number > 255) {
+            fail(column(), ".byte needs a number from 0 to 255");
+            return;
+        }
+        ++at_;
+        begun_ = true;
+        result_.image.code.push_back(static_cast<std::uint8_t>(number));
+    }
+
+    void read_mov() {
+        const auto target = more() ? register_of(words_[at_].text) : std::nullopt;
+        if (!target) {
+            fail(column(),
+                 more() ? fmt::format("\"{}\" is no register", words_[at_].text) : "a register is missing");
+            return;
+        }
+        ++at_;
+        if (!more() || words_[at_].text != ",") {
+            fail(column(), "a comma is missing behind the register");
+            return;
+        }
+        ++at_;
+        if (!more()) {
+            fail(column(), "a number is missing");
+            return;
+        }
+        const auto immediate = immediate_of(*target, words_[at_]);
+        ++at_;
+        if (immediate) {
+            append(result_.image.code, {Opcode::mov, *target, *immediate}, result_.image.format);
+            begun_ = true;
+        }
+    }
+
+    /// Bits (0x...), a number of the format, a whole number for N and PC, or a label for PC.
+    std::optional<Word> immediate_of(Register target, const LineWord& word) {
+        const bool bits = word.text.starts_with("0x") || word.text.starts_with("0X");
+        if (bits) {
+            return bits_of(word);
+        }
+        if (target == Register::PC && is_name(word.text)) {
+            open_.push_back({result_.image.code.size() + 1, std::string(word.text), line_, word.column});
+            return Word{0};
+        }
+        if (is_whole(target)) {
+            long long number = 0;
+            const long long most = target == Register::PC ? 0xffff : 0xffffffff;
+            if (!read_number(word.text, number) || number < 0 || number > most) {
+                fail(word.column, fmt::format("\"{}\" is no whole number from 0 to {}", word.text, most));
+                return std::nullopt;
+            }
+            return static_cast<Word>(number);
+        }
+        double value = 0.0;
+        if (!read_real(word.text, value)) {
+            fail(word.column, fmt::format("\"{}\" is no number", word.text));
+            return std::nullopt;
+        }
+        bool overflow = false;
+        const Word number = with_arithmetic(result_.image.format, [&](const auto& arithmetic) {
+            return arithmetic.to_word(arithmetic.from_double(value, overflow));
+        });
+        if (overflow) {
+            fail(word.column,
+                 fmt::format("{} does not fit into {}", word.text, to_text(result_.image.format)));
+            return std::nullopt;
+        }
+        return to_immediate(result_.image.format, number);
+    }
+    std::optional<Word> bits_of(const LineWord& word) {
+        Word bits = 0;
+        const char* const end = word.text.data() + word.text.size();
+        const auto [stop, fault] = std::from_chars(word.text.data() + 2, end, bits, 16);
+        const bool wide = immediate_bytes(result_.image.format) == 4 && bits > 0xffffffffU;
+        if (fault != std::errc{} || stop != end || wide) {
+            fail(word.column,
+                 fmt::format("\"{}\" is no hexadecimal number of {} bytes",
+                             word.text,
+                             immediate_bytes(result_.image.format)));
+            return std::nullopt;
+        }
+        return bits;
+    }
+
+    void close_labels() {
+        for (const OpenLabel& open : open_) {
+            const auto found = labels_.find(open.name);
+            if (found == labels_.end()) {
+                line_ = open.line;
+                fail(open.column, fmt::format("there is no label {}", open.name));
+                continue;
+            }
+            result_.image.code[open.at] = static_cast<std::uint8_t>(found->second);
+            result_.image.code[open.at + 1] = static_cast<std::uint8_t>(found->second >> 8U);
+        }
+    }
+
+    std::filesystem::path name_;
+    Assembled result_;
+    std::vector<LineWord> words_;
+    std::size_t at_ = 0;
+    int line_ = 0;
+    bool begun_ = false;
+    std::map<std::string, std::size_t> labels_;
+    std::vector<OpenLabel> open_;
+};
+
+/// The shortest number that assembles to these bits, else the bits.
+std::string immediate_text(const Instruction& instruction, const NumberFormat& format) {
+    const std::string bits = fmt::format("{:#x}", instruction.immediate);
+    if (is_whole(instruction.target)) {
+        const Word most = instruction.target == Register::PC ? 0xffffU : 0xffffffffU;
+        return instruction.immediate <= most ? fmt::format("{}", instruction.immediate) : bits;
+    }
+    return with_arithmetic(format, [&](const auto& arithmetic) {
+        bool overflow = false;
+        const auto number = arithmetic.from_word(from_immediate(format, instruction.immediate), overflow);
+        if (overflow) {
+            return bits;
+        }
+        const double value = arithmetic.to_double(number);
+        const Word again = to_immediate(format, arithmetic.to_word(arithmetic.from_double(value, overflow)));
+        return again == instruction.immediate && !overflow ? shortest(value) : bits;
+    });
+}
+
+} // namespace
+
+Assembled assemble(std::string_view text, const std::filesystem::path& name, const NumberFormat& format) {
+    return Assembler(name, format).assemble(text);
+}
+
+std::string disassemble(const Image& image) {
+    std::string text = fmt::format("        .format {}\n", to_text(image.format));
+    const std::span<const std::uint8_t> code(image.code);
+    for (std::size_t at = 0; at < code.size();) {
+        const auto found = decode(code.subspan(at), image.format);
+        std::string line = fmt::format(".byte {:#04x}", code[at]);
+        if (found && found->instruction.opcode == Opcode::mov) {
+            line = fmt::format("MOV {}, {}",
+                               to_text(found->instruction.target),
+                               immediate_text(found->instruction, image.format));
+        } else if (found) {
+            line = name_of(found->instruction.opcode);
+        }
+        text += fmt::format("        {:<32}; {:04x}\n", line, at);
+        at += static_cast<std::size_t>(found ? found->size : 1);
+    }
+    return text;
+}
+
+} // namespace millwright::cordic

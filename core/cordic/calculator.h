@@ -1,0 +1,34 @@
+// One rotation or one polar form in any number format, for every angle and every vector: what a person asks
+// for by numbers, with the error against exact arithmetic.
+#pragma once
+
+#include "core/cordic/number_format.h"
+#include "core/cordic/sequence.h"
+
+namespace millwright::cordic {
+
+struct Rotated {
+    double x = 0.0, y = 0.0;
+    double z = 0.0;     ///< angle that is left, rad
+    double error = 0.0; ///< distance from the exactly rotated vector as it was given
+    int clocks = 0;
+};
+
+/// (x, y) turned counter-clockwise by any angle: quarter turns exactly, the rest by `sequence`, which is
+/// circular. Throws Error if a value does not fit the format or is not finite.
+[[nodiscard]] Rotated
+rotate(const NumberFormat& format, const Sequence& sequence, double x, double y, double angle_deg);
+
+struct Polar {
+    double length = 0.0;
+    double angle_deg = 0.0; ///< -180 to 180
+    double length_error = 0.0;
+    double angle_error_deg = 0.0;
+    int clocks = 0;
+};
+
+/// Length and direction of (x, y). Throws Error for (0, 0), and if a value does not fit the format or is not
+/// finite.
+[[nodiscard]] Polar polar(const NumberFormat& format, const Sequence& sequence, double x, double y);
+
+} // namespace millwright::cordic

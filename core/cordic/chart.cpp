@@ -1,0 +1,273 @@
+#include "core/cordic/chart.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr double width = 760.0;
+constexpr double height = 460.0;
+constexpr double left = 90.0;
+constexpr double right = 30.0;
+constexpr double top = 44.0;
+constexpr double bottom = 60.0;
+constexpr double faintest = 1e-18; // what a logarithmic scale shows of a smaller value
+
+constexpr std::array<std::string_view, 6> colours = {
+    "#0b6bb8", "#d1541e", "#2b8a3e", "#8a3ea8", "#b8860b", "#555555"};
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        switch (c) {
+        case '<':
+            safe += "&lt;";
+            break;
+        case '&':
+            safe += "&amp;";
+            break;
+        default:
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+struct Range {
+    double from = std::numeric_limits<double>::max();
+    double to = std::numeric_limits<double>::lowest();
+
+    void include(double value) {
+        expects(std::isfinite(value), "a chart shows finite numbers");
+        from = std::min(from, value);
+        to = std::max(to, value);
+    }
+    [[nodiscard]] double size() const { return to - from; }
+};
+
+/// Never empty, with room at both ends.
+Range widened(const Range& range) {
+    if (range.from > range.to) {
+        return {0.0, 1.0};
+    }
+    const double margin =
+        range.size() > 0.0 ? 0.04 * range.size() : std::max(1e-12, 0.1 * std::abs(range.from));
+    return {range.from - margin, range.to + margin};
+}
+
+/// 1, 2 or 5 times a power of ten, about a sixth of `size`.
+double tick_step(double size) {
+    const double raw = size / 6.0;
+    const double power = std::pow(10.0, std::floor(std::log10(raw)));
+    for (const double factor : {1.0, 2.0, 5.0}) {
+        if (factor * power >= raw) {
+            return factor * power;
+        }
+    }
+    return 10.0 * power;
+}
+
+/// The picture under construction: axes in data coordinates.
+class Canvas {
+public:
+    Canvas(const Range& x, const Range& y) : x_(x), y_(y) {
+        out_ = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+                           "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
+                           "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+                           width,
+                           height);
+    }
+
+    [[nodiscard]] double across(double x) const {
+        return left + (x - x_.from) / x_.size() * (width - left - right);
+    }
+    [[nodiscard]] double down(double y) const {
+        return height - bottom - (y - y_.from) / y_.size() * (height - top - bottom);
+    }
+
+    template <class... Values> void add(fmt::format_string<Values...> format, Values&&... values) {
+        fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+    }
+    void text(double x, double y, std::string_view anchor, std::string_view text) {
+        add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, escaped(text));
+    }
+    void titles(std::string_view title, std::string_view x_label, std::string_view y_label) {
+        add("<text x=\"{}\" y=\"26\" text-anchor=\"middle\" font-size=\"16\">{}</text>\n",
+            width / 2,
+            escaped(title));
+        text(width / 2, height - 14, "middle", x_label);
+        add("<text x=\"20\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {0})\">{1}</text>\n",
+            (height - bottom + top) / 2,
+            escaped(y_label));
+    }
+    void axes(bool logarithmic) {
+        add("<g stroke=\"#dddddd\">\n");
+        for (const double x : ticks(x_)) {
+            add("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>\n",
+                across(x),
+                top,
+                height - bottom);
+        }
+        for (const double y : ticks(y_)) {
+            add("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>\n",
+                left,
+                width - right,
+                down(y));
+        }
+        add("</g>\n");
+        for (const double x : ticks(x_)) {
+            text(across(x), height - bottom + 18, "middle", fmt::format("{:.4g}", x));
+        }
+        for (const double y : ticks(y_)) {
+            text(left - 8,
+                 down(y) + 4,
+                 "end",
+                 logarithmic ? fmt::format("1e{:.3g}", y) : fmt::format("{:.4g}", y));
+        }
+        add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#333333\"/>\n",
+            left,
+            top,
+            width - left - right,
+            height - top - bottom);
+    }
+    [[nodiscard]] std::string done() { return out_ + "</svg>\n"; }
+
+private:
+    static std::vector<double> ticks(const Range& range) {
+        const double step = tick_step(range.size());
+        std::vector<double> found;
+        for (double n = std::ceil(range.from / step); n * step <= range.to; n += 1.0) {
+            found.push_back(n * step + 0.0);
+        }
+        return found;
+    }
+
+    Range x_, y_;
+    std::string out_;
+};
+
+void keep_scale(Range& x, Range& y) {
+    const double across = x.size() / (width - left - right);
+    const double down = y.size() / (height - top - bottom);
+    Range& narrow = across < down ? x : y;
+    const double wanted = across < down ? down * (width - left - right) : across * (height - top - bottom);
+    const double more = 0.5 * (wanted - narrow.size());
+    narrow.from -= more;
+    narrow.to += more;
+}
+
+void draw(Canvas& canvas, const Chart& chart, const Series& series, std::string_view colour) {
+    std::string points;
+    for (std::size_t n = 0; n < series.x.size(); ++n) {
+        if (chart.logarithmic && !(series.y[n] > 0.0)) {
+            continue;
+        }
+        const double x = canvas.across(series.x[n]);
+        const double y = canvas.down(chart.logarithmic ? std::log10(series.y[n]) : series.y[n]);
+        if (series.mark == Mark::dots) {
+            canvas.add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\"/>\n", x, y, colour);
+        } else {
+            points += fmt::format("{:.1f},{:.1f} ", x, y);
+        }
+    }
+    if (!points.empty()) {
+        canvas.add(
+            "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"{}\"/>\n", colour, points);
+    }
+}
+
+/// From blue (small) over yellow to red.
+std::string colour_at(double fraction) {
+    const double f = std::clamp(fraction, 0.0, 1.0);
+    const auto channel = [](double v) {
+        return static_cast<int>(std::lround(255.0 * std::clamp(v, 0.0, 1.0)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}",
+                       channel(2.0 * f),
+                       channel(f < 0.5 ? 0.3 + 1.2 * f : 1.8 * (1.0 - f)),
+                       channel(1.0 - 1.6 * f));
+}
+
+} // namespace
+
+std::string to_svg(const Chart& chart) {
+    Range x;
+    Range y;
+    for (const Series& series : chart.series) {
+        expects(series.x.size() == series.y.size(), "a series has as many x as y");
+        for (std::size_t n = 0; n < series.x.size(); ++n) {
+            x.include(series.x[n]);
+            if (!chart.logarithmic || series.y[n] > 0.0) {
+                y.include(chart.logarithmic ? std::log10(series.y[n]) : series.y[n]);
+            }
+        }
+    }
+    x = widened(x);
+    y = widened(y);
+    if (chart.same_scale) {
+        keep_scale(x, y);
+    }
+    Canvas canvas(x, y);
+    canvas.titles(chart.title, chart.x_label, chart.y_label);
+    canvas.axes(chart.logarithmic);
+    double legend = top + 18.0;
+    for (std::size_t n = 0; n < chart.series.size(); ++n) {
+        const auto colour = colours[n % colours.size()];
+        draw(canvas, chart, chart.series[n], colour);
+        if (!chart.series[n].label.empty()) {
+            canvas.add("<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"3\" fill=\"{}\"/>\n",
+                       width - right - 150,
+                       legend - 5,
+                       colour);
+            canvas.text(width - right - 130, legend, "start", chart.series[n].label);
+            legend += 18.0;
+        }
+    }
+    return canvas.done();
+}
+
+std::string to_svg(const HeatMap& map) {
+    expects(map.x.size() > 1 && map.y.size() > 1 && map.values.size() == map.x.size() * map.y.size(),
+            "a heat map has a value for each of its points");
+    const Range x{map.x.front(), map.x.back()};
+    const Range y{map.y.front(), map.y.back()};
+    Range value;
+    const auto power = [](double v) { return std::log10(std::max(v, faintest)); };
+    for (const double v : map.values) {
+        value.include(power(v));
+    }
+    Canvas canvas(x, y);
+    const double cell_width = (width - left - right) / static_cast<double>(map.x.size() - 1);
+    const double cell_height = (height - top - bottom) / static_cast<double>(map.y.size() - 1);
+    for (std::size_t row = 0; row < map.y.size(); ++row) {
+        for (std::size_t column = 0; column < map.x.size(); ++column) {
+            const double v = power(map.values[row * map.x.size() + column]);
+            canvas.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                       canvas.across(map.x[column]) - 0.5 * cell_width,
+                       canvas.down(map.y[row]) - 0.5 * cell_height,
+                       cell_width + 0.3,
+                       cell_height + 0.3,
+                       colour_at((v - value.from) / std::max(value.size(), 1e-9)));
+        }
+    }
+    canvas.titles(fmt::format("{}  ({} from 1e{:.1f}, blue, to 1e{:.1f}, red)",
+                              map.title,
+                              map.value_label,
+                              value.from,
+                              value.to),
+                  map.x_label,
+                  map.y_label);
+    canvas.axes(false);
+    return canvas.done();
+}
+
+} // namespace millwright::cordic

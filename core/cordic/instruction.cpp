@@ -1,0 +1,135 @@
+#include "core/cordic/instruction.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr std::array<std::string_view, register_count> names = {
+    "XI", "YJ", "Vmax", "Amax", "Dz", "N", "X0", "Y0", "Vx", "Vy", "Ax", "Ay", "PC"};
+
+constexpr std::array<std::uint8_t, 4> magic = {'M', 'W', 'C', 'P'};
+constexpr std::uint8_t version = 1;
+constexpr std::size_t head_size = 12; // magic, version, kind, integer bits, fraction bits, length in 4 bytes
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t n = 0; n < bytes.size(); ++n) {
+        value |= std::uint64_t{bytes[n]} << (8 * n);
+    }
+    return value;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::int64_t byte, std::string message) {
+    throw Error(Diagnostic{{file, 0, 0, byte}, std::move(message), "write it with millwright cordic asm"});
+}
+
+} // namespace
+
+std::string_view to_text(Register name) {
+    return names[static_cast<std::size_t>(name)];
+}
+
+std::optional<Register> register_of(std::string_view name) {
+    const auto same = [&](std::string_view known) {
+        return std::ranges::equal(known, name, {}, lower, lower);
+    };
+    const auto* const found = std::ranges::find_if(names, same);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<Register>(found - names.begin()));
+}
+
+void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format) {
+    const auto opcode = static_cast<std::uint8_t>(instruction.opcode);
+    if (instruction.opcode != Opcode::mov) {
+        code.push_back(opcode);
+        return;
+    }
+    code.push_back(static_cast<std::uint8_t>(opcode + static_cast<unsigned>(instruction.target)));
+    for (int byte = 0; byte < immediate_bytes(format); ++byte) {
+        code.push_back(static_cast<std::uint8_t>(instruction.immediate >> (8 * byte)));
+    }
+}
+
+std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFormat& format) {
+    if (code.empty()) {
+        return std::nullopt;
+    }
+    const int target = code[0] - static_cast<int>(Opcode::mov);
+    if (target >= 0 && target < register_count) {
+        const auto size = static_cast<std::size_t>(immediate_bytes(format));
+        if (code.size() <= size) {
+            return std::nullopt;
+        }
+        return Decoded{{Opcode::mov, static_cast<Register>(target), little_endian(code.subspan(1, size))},
+                       1 + immediate_bytes(format)};
+    }
+    for (const Opcode known :
+         {Opcode::nop, Opcode::hlt, Opcode::g00, Opcode::g01, Opcode::g02, Opcode::g03}) {
+        if (code[0] == static_cast<std::uint8_t>(known)) {
+            return Decoded{{.opcode = known}, 1};
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<std::uint8_t> to_bytes(const Image& image) {
+    std::vector<std::uint8_t> bytes(magic.begin(), magic.end());
+    bytes.push_back(version);
+    bytes.push_back(static_cast<std::uint8_t>(image.format.kind));
+    bytes.push_back(static_cast<std::uint8_t>(image.format.integer_bits));
+    bytes.push_back(static_cast<std::uint8_t>(image.format.fraction_bits));
+    for (unsigned byte = 0; byte < 4; ++byte) {
+        bytes.push_back(static_cast<std::uint8_t>(image.code.size() >> (8 * byte)));
+    }
+    bytes.insert(bytes.end(), image.code.begin(), image.code.end());
+    return bytes;
+}
+
+Image parse_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
+    if (bytes.size() < head_size || !std::ranges::equal(bytes.first(magic.size()), magic)) {
+        fail(file, 0, "no program of the CORDIC processor");
+    }
+    if (bytes[4] != version) {
+        fail(file, 4, fmt::format("version {} of the program file is not known", bytes[4]));
+    }
+    Image image;
+    switch (bytes[5]) {
+    case static_cast<std::uint8_t>(NumberKind::binary64):
+        image.format = binary64;
+        break;
+    case static_cast<std::uint8_t>(NumberKind::binary32):
+        image.format = binary32;
+        break;
+    case static_cast<std::uint8_t>(NumberKind::fixed):
+        try {
+            image.format = fixed_format(bytes[6], bytes[7]);
+        } catch (const Error& error) {
+            fail(file, 6, error.diagnostic().message);
+        }
+        break;
+    default:
+        fail(file, 5, fmt::format("kind {} of numbers is not known", bytes[5]));
+    }
+    const std::uint64_t size = little_endian(bytes.subspan(8, 4));
+    if (size != bytes.size() - head_size) {
+        fail(file,
+             8,
+             fmt::format("{} bytes of code are announced, {} are there", size, bytes.size() - head_size));
+    }
+    if (size > rom_size) {
+        fail(file, 8, fmt::format("{} bytes of code, the program ROM holds {}", size, rom_size));
+    }
+    image.code.assign(bytes.begin() + head_size, bytes.end());
+    return image;
+}
+
+} // namespace millwright::cordic

@@ -1,0 +1,91 @@
+// The processor's instructions as bytes. The thesis names them (Mov, G00 to G03) and leaves their bits open;
+// the encoding is ours: docs/reference/cordic.md#instructions.
+#pragma once
+
+#include "core/cordic/arithmetic.h"
+#include "core/cordic/number_format.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace millwright::cordic {
+
+/// The thirteen registers of the thesis. N and PC hold whole numbers, the others numbers of the format.
+enum class Register : std::uint8_t { XI, YJ, Vmax, Amax, Dz, N, X0, Y0, Vx, Vy, Ax, Ay, PC };
+
+inline constexpr int register_count = 13;
+
+[[nodiscard]] std::string_view to_text(Register name);
+/// Upper and lower case alike.
+[[nodiscard]] std::optional<Register> register_of(std::string_view name);
+[[nodiscard]] constexpr bool is_whole(Register name) {
+    return name == Register::N || name == Register::PC;
+}
+
+enum class Opcode : std::uint8_t {
+    nop = 0x00,
+    hlt = 0x01,
+    mov = 0x10, ///< + register number; the immediate follows, lowest byte first
+    g00 = 0x20,
+    g01 = 0x21,
+    g02 = 0x22,
+    g03 = 0x23,
+};
+
+struct Instruction {
+    Opcode opcode = Opcode::nop;
+    Register target = Register::XI; ///< mov
+    Word immediate = 0;             ///< mov: as it stands in the program, not sign-extended
+
+    friend bool operator==(const Instruction&, const Instruction&) = default;
+};
+
+/// 4, or 8 for words of more than 32 bits.
+[[nodiscard]] constexpr int immediate_bytes(const NumberFormat& format) {
+    return format.word() > 32 ? 8 : 4;
+}
+
+/// A word as an immediate: its lowest bytes; and back, sign-extended for fixed point.
+[[nodiscard]] constexpr Word to_immediate(const NumberFormat& format, Word word) {
+    return immediate_bytes(format) == 8 ? word : word & 0xffffffffU;
+}
+[[nodiscard]] constexpr Word from_immediate(const NumberFormat& format, Word immediate) {
+    if (format.kind != NumberKind::fixed || immediate_bytes(format) == 8) {
+        return immediate;
+    }
+    return static_cast<Word>(static_cast<std::int64_t>(static_cast<std::int32_t>(immediate)));
+}
+
+void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format);
+
+struct Decoded {
+    Instruction instruction;
+    int size = 1; ///< bytes
+};
+
+/// The instruction at the front of `code`; nothing if there is none, or not all of it.
+[[nodiscard]] std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFormat& format);
+
+/// A program as it lies in memory from address 0, with the format it was made for.
+struct Image {
+    NumberFormat format;
+    std::vector<std::uint8_t> code{};
+
+    friend bool operator==(const Image&, const Image&) = default;
+};
+
+inline constexpr int rom_size = 0x8000;
+
+/// The bytes of an image file.
+[[nodiscard]] std::vector<std::uint8_t> to_bytes(const Image& image);
+
+/// Reads an image file. Throws Error with file and byte for anything but a whole and valid one; its
+/// instructions are not looked at.
+[[nodiscard]] Image parse_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
+
+} // namespace millwright::cordic

@@ -1,0 +1,124 @@
+#include "core/cordic/microprogram.h"
+
+#include "core/base/error.h"
+#include "core/cordic/instruction.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr int record_words = 6; // X, Y, Vx, Vy, Ax, Ay
+
+constexpr std::string_view fetch_and_move = R"(
+; Fetch. Reset begins here, and so does every instruction.
+FETCH:  CONT                            | read_program
+F1:     CJP   bus_busy F1
+        CONT                            | load_opcode
+        JMAP
+
+NOP:    JZ
+HLT:    JZ                              | halt
+
+; Mov: the bytes of the immediate, lowest first.
+MOV:    PUSH  always LAST_BYTE
+        CONT                            | read_program
+M2:     CJP   bus_busy M2
+        RFCT                            | shift_byte
+        JZ                              | store_register
+)";
+
+constexpr std::string_view line_head = R"(
+; G00 and G01: a line to (XI, YJ).
+LINE:   CJS   always SETPOINT           | take_end
+)";
+
+constexpr std::string_view arc_body = R"(
+; G02 and G03: N chords about (XI, YJ).
+ARC:    LDCT  LAST_STEP                 | fold_radius
+A1:     RPCT  A1                        | rotate
+        LDCT  LAST_CORRECTION
+A3:     RPCT  A3                        | correct
+        CJS   always SETPOINT           | unfold_radius
+)";
+
+constexpr std::string_view arc_tail = R"(
+        CJP   chords_left ARC
+        JZ
+)";
+
+constexpr std::string_view set_point = R"(
+; Speed and acceleration of the axes on the way from (X0, Y0) to (XE, YE): vectoring, then rotation, 74 clocks.
+SETPOINT: LDCT LAST_STEP                | fold_move
+S1:     RPCT  S1                        | vector
+        LDCT  LAST_CORRECTION
+S3:     RPCT  S3                        | correct
+        LDCT  LAST_STEP                 | load_speed
+S5:     RPCT  S5                        | rotate, rotate_both
+        LDCT  LAST_CORRECTION
+S7:     RPCT  S7                        | correct, correct_both
+        CRTN  always                    | unfold_speed
+)";
+
+constexpr std::string_view latch_line = R"(        JZ                              | take_position, publish
+)";
+constexpr std::string_view latch_arc =
+    R"(        CONT                            | take_position, publish, count_chord
+)";
+constexpr std::string_view bus_line = R"(        CJS   always STORE              | take_position, publish
+        JZ
+)";
+constexpr std::string_view bus_arc =
+    R"(        CJS   always STORE              | take_position, publish, count_chord
+)";
+constexpr std::string_view store = R"(
+; The record, byte by byte to the motion controller.
+STORE:  LDCT  LAST_RECORD_BYTE
+W1:     CONT                            | write_byte
+W2:     CJP   bus_busy W2
+        RPCT  W1
+        CRTN  always
+)";
+
+constexpr std::string_view dispatch = R"(
+.map 0x00 NOP
+.map 0x01 HLT
+.map 0x10 0x1c MOV
+.map 0x20 0x21 LINE
+.map 0x22 0x23 ARC
+)";
+
+} // namespace
+
+std::string microprogram_text(Publishing publishing) {
+    const bool by_bus = publishing == Publishing::bus;
+    std::string text(fetch_and_move.substr(1));
+    text += line_head;
+    text += by_bus ? bus_line : latch_line;
+    text += arc_body;
+    text += by_bus ? bus_arc : latch_arc;
+    text += arc_tail.substr(1);
+    text += set_point;
+    text += by_bus ? store : std::string_view();
+    text += dispatch;
+    return text;
+}
+
+Microprogram make_microprogram(const Sequence& sequence, const NumberFormat& format, Publishing publishing) {
+    const int corrections = sequence.clock_count() - sequence.step_count;
+    expects(corrections > 0, "a sequence has something to correct");
+    const std::array<std::pair<std::string, int>, 4> constants = {{
+        {"LAST_STEP", sequence.step_count - 1},
+        {"LAST_CORRECTION", corrections - 1},
+        {"LAST_BYTE", immediate_bytes(format) - 1},
+        {"LAST_RECORD_BYTE", record_words * immediate_bytes(format) - 1},
+    }};
+    AssembledMicroprogram made =
+        assemble_microprogram(microprogram_text(publishing), "microprogram", constants);
+    expects(made.errors.empty(), "our microprogram has no errors");
+    return std::move(made.program);
+}
+
+} // namespace millwright::cordic

@@ -1,0 +1,121 @@
+#include "core/cordic/sequencer.h"
+
+#include <algorithm>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr std::array<std::string_view, micro_op_count> names = {"JZ",
+                                                                "CJS",
+                                                                "JMAP",
+                                                                "CJP",
+                                                                "PUSH",
+                                                                "JSRP",
+                                                                "CJV",
+                                                                "JRP",
+                                                                "RFCT",
+                                                                "RPCT",
+                                                                "CRTN",
+                                                                "CJPP",
+                                                                "LDCT",
+                                                                "LOOP",
+                                                                "CONT",
+                                                                "TWB"};
+
+/// What an operation does besides choosing the address.
+enum class Stack : std::uint8_t { keep, push, pop, peek, clear };
+enum class Counter : std::uint8_t { keep, load, count };
+
+struct Plan {
+    std::uint8_t next = 0;
+    Stack stack = Stack::keep;
+    Counter counter = Counter::keep;
+};
+
+/// The rows of the truth table. `top` is what the stack shows; `next` is the address behind this one.
+Plan plan_of(
+    const SequencerState& state, MicroOp op, const SequencerInputs& in, std::uint8_t next, std::uint8_t top) {
+    const bool more = state.counter != 0;
+    switch (op) {
+    case MicroOp::JZ:
+        return {0, Stack::clear};
+    case MicroOp::CJS:
+        return in.pass ? Plan{in.branch, Stack::push} : Plan{next};
+    case MicroOp::JMAP:
+        return {in.map};
+    case MicroOp::CJP:
+        return {in.pass ? in.branch : next};
+    case MicroOp::PUSH:
+        return {next, Stack::push, in.pass ? Counter::load : Counter::keep};
+    case MicroOp::JSRP:
+        return {in.pass ? in.branch : state.counter, Stack::push};
+    case MicroOp::CJV:
+        return {in.pass ? in.vector : next};
+    case MicroOp::JRP:
+        return {in.pass ? in.branch : state.counter};
+    case MicroOp::RFCT:
+        return more ? Plan{top, Stack::peek, Counter::count} : Plan{next, Stack::pop};
+    case MicroOp::RPCT:
+        return more ? Plan{in.branch, Stack::keep, Counter::count} : Plan{next};
+    case MicroOp::CRTN:
+        return in.pass ? Plan{top, Stack::pop} : Plan{next};
+    case MicroOp::CJPP:
+        return in.pass ? Plan{in.branch, Stack::pop} : Plan{next};
+    case MicroOp::LDCT:
+        return {next, Stack::keep, Counter::load};
+    case MicroOp::LOOP:
+        return in.pass ? Plan{next, Stack::pop} : Plan{top, Stack::peek};
+    case MicroOp::CONT:
+        return {next};
+    case MicroOp::TWB:
+        if (in.pass) {
+            return {next, Stack::pop, more ? Counter::count : Counter::keep};
+        }
+        return more ? Plan{top, Stack::peek, Counter::count} : Plan{in.branch, Stack::pop};
+    }
+    return {next};
+}
+
+} // namespace
+
+std::string_view to_text(MicroOp op) {
+    return names[static_cast<std::size_t>(op)];
+}
+
+std::optional<MicroOp> micro_op_of(std::string_view name) {
+    const auto* const found = std::ranges::find(names, name);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<MicroOp>(found - names.begin()));
+}
+
+void step(SequencerState& state, MicroOp op, const SequencerInputs& inputs) {
+    const auto next = static_cast<std::uint8_t>(state.address + 1);
+    const std::uint8_t top = state.depth > 0 ? state.stack[state.depth - 1U] : std::uint8_t{0};
+    const Plan plan = plan_of(state, op, inputs, next, top);
+    state.fault = StackFault::none;
+    if (plan.stack != Stack::keep) {
+        const bool takes = plan.stack == Stack::pop || plan.stack == Stack::peek;
+        if (takes && state.depth == 0) {
+            state.fault = StackFault::underflow;
+            return;
+        }
+        if (plan.stack == Stack::push) {
+            if (state.depth == stack_depth) {
+                state.fault = StackFault::overflow;
+                return;
+            }
+            state.stack[state.depth++] = next;
+        } else if (plan.stack == Stack::pop) {
+            --state.depth;
+        } else if (plan.stack == Stack::clear) {
+            state.depth = 0;
+        }
+    }
+    if (plan.counter == Counter::load) {
+        state.counter = inputs.branch;
+    } else if (plan.counter == Counter::count) {
+        --state.counter;
+    }
+    state.address = plan.next;
+}
+
+} // namespace millwright::cordic

@@ -1,0 +1,63 @@
+#include "core/cordic/calculator.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+TEST(Calculator, RotatesByAnyAngleAndKnowsItsError) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> any(-1000.0, 1000.0);
+    for (int n = 0; n < 2000; ++n) {
+        const double deg = any(random);
+        const Rotated found = rotate(binary64, thesis_sequence(), 3.0, 4.0, deg);
+        const double x = 3.0 * std::cos(deg * degree) - 4.0 * std::sin(deg * degree);
+        const double y = 4.0 * std::cos(deg * degree) + 3.0 * std::sin(deg * degree);
+        EXPECT_LT(found.error, 5.0 * 6.4e-8);
+        EXPECT_NEAR(std::hypot(found.x - x, found.y - y), found.error, 1e-11);
+        EXPECT_EQ(found.clocks, 37);
+    }
+}
+
+TEST(Calculator, TurnsByAFullCircleAsByNothing) {
+    const Rotated none = rotate(binary64, thesis_sequence(), 1.0, 0.5, 0.0);
+    const Rotated full = rotate(binary64, thesis_sequence(), 1.0, 0.5, -720.0);
+    EXPECT_EQ(none.x, full.x);
+    EXPECT_EQ(none.y, full.y);
+}
+
+TEST(Calculator, FindsLengthAndDirectionInEveryQuadrant) {
+    for (const NumberFormat& format : {binary64, binary32, fixed_format(8, 24), fixed_format(8, 40)}) {
+        for (int deg = -179; deg <= 180; ++deg) {
+            const Polar found = polar(
+                format, thesis_sequence(), 0.01 * std::cos(deg * degree), 0.01 * std::sin(deg * degree));
+            const double close = 60.0 * resolution(format) / degree + 6.1e-8 / degree;
+            EXPECT_NEAR(std::remainder(found.angle_deg - deg, 360.0), 0.0, close * 100)
+                << to_text(format) << ' ' << deg;
+            EXPECT_NEAR(found.length, 0.01, 2e-8 + 60.0 * resolution(format))
+                << to_text(format) << ' ' << deg;
+        }
+    }
+}
+
+TEST(Calculator, RefusesWhatDoesNotFit) {
+    EXPECT_THROW(static_cast<void>(rotate(fixed_format(2, 22), thesis_sequence(), 2.5, 0.0, 10.0)), Error);
+    EXPECT_THROW(static_cast<void>(rotate(fixed_format(2, 22), thesis_sequence(), 1.9, 0.0, 10.0)), Error);
+    EXPECT_THROW(static_cast<void>(
+                     rotate(binary64, thesis_sequence(), 1.0, 0.0, std::numeric_limits<double>::infinity())),
+                 Error);
+    EXPECT_THROW(static_cast<void>(rotate(binary32, thesis_sequence(), 1e300, 0.0, 1.0)), Error);
+    EXPECT_THROW(static_cast<void>(polar(binary64, thesis_sequence(), 0.0, 0.0)), Error);
+    EXPECT_THROW(static_cast<void>(polar(fixed_format(2, 14), thesis_sequence(), 1e-9, 0.0)), Error);
+}
+
+} // namespace
+} // namespace millwright::cordic

@@ -1,0 +1,100 @@
+#include "core/cordic/microcode.h"
+
+#include "core/cordic/microprogram.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace millwright::cordic {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(MicroAssembler, TurnsTextIntoWords) {
+    const std::array<std::pair<std::string, int>, 1> constants = {{{"TIMES", 28}}};
+    const auto [program, errors] =
+        assemble_microprogram("; a comment\n"
+                              "START: LDCT TIMES | fold_move\n"
+                              "LOOP1: RPCT LOOP1 | rotate, rotate_both ; 29 times\n"
+                              "  CJS bus_busy SUB\n"
+                              "  JZ\n"
+                              "SUB:\n"
+                              "  CRTN always\n"
+                              ".map 0x20 0x21 START\n",
+                              "loop.mic",
+                              constants);
+    EXPECT_TRUE(errors.empty());
+    EXPECT_EQ(program.count, 5);
+    EXPECT_EQ(program.words[0], (MicroWord{MicroOp::LDCT, Condition::never, 28, bit_of(Control::fold_move)}));
+    EXPECT_EQ(
+        program.words[1],
+        (MicroWord{
+            MicroOp::RPCT, Condition::never, 1, bit_of(Control::rotate) | bit_of(Control::rotate_both)}));
+    EXPECT_EQ(program.words[2], (MicroWord{MicroOp::CJS, Condition::bus_busy, 4, 0}));
+    EXPECT_EQ(program.words[4], (MicroWord{MicroOp::CRTN, Condition::always, 0, 0}));
+    EXPECT_EQ(program.lines[4], 7);
+    EXPECT_EQ(program.map[0x20], 0);
+    EXPECT_EQ(program.map[0x21], 0);
+    EXPECT_FALSE(program.map[0x22]);
+    EXPECT_EQ(program.labels.at("SUB"), 4);
+}
+
+struct Wrong {
+    const char* text;
+    int line, column;
+    const char* message;
+};
+
+TEST(MicroAssembler, NamesLineAndColumnOfEveryMistake) {
+    for (const Wrong& wrong : {
+             Wrong{"  JUMP always A", 1, 3, "\"JUMP\" is no micro-operation"},
+             Wrong{"CONT\n CJP always NOWHERE", 2, 13, "there is no label NOWHERE"},
+             Wrong{"CJP sometimes 0", 1, 5, "CJP needs a condition"},
+             Wrong{"CJP", 1, 4, "CJP needs a condition"},
+             Wrong{"LDCT", 1, 5, "a branch address or count is missing"},
+             Wrong{"LDCT 256", 1, 6, "256 is not from 0 to 255"},
+             Wrong{"LDCT -1", 1, 6, "-1 is not from 0 to 255"},
+             Wrong{"CONT | fly", 1, 8, "\"fly\" is no control signal"},
+             Wrong{"CONT | rotate,", 1, 15, "a control signal is missing"},
+             Wrong{"CONT rotate", 1, 6, "\"rotate\" is too much"},
+             Wrong{"A: CONT\nA: CONT", 2, 1, "label A is there already"},
+             Wrong{"1A: CONT", 1, 1, "\"1A\" is no label"},
+             Wrong{".map 300 A", 1, 6, ".map needs an opcode from 0 to 255"},
+             Wrong{".map 3", 1, 7, ".map needs a label"},
+             Wrong{".map 3 B", 1, 8, "there is no label B"},
+             Wrong{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is mapped already"},
+         }) {
+        const auto errors = assemble_microprogram(wrong.text, "wrong.mic").errors;
+        ASSERT_EQ(errors.size(), 1U) << wrong.text;
+        EXPECT_EQ(errors[0].place.line, wrong.line) << wrong.text;
+        EXPECT_EQ(errors[0].place.column, wrong.column) << wrong.text;
+        EXPECT_THAT(errors[0].message, HasSubstr(wrong.message)) << wrong.text;
+    }
+}
+
+TEST(MicroAssembler, RefusesMoreThanTheRomHolds) {
+    std::string text;
+    for (int n = 0; n < micro_rom_size + 1; ++n) {
+        text += "CONT\n";
+    }
+    const auto errors = assemble_microprogram(text, "long.mic").errors;
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_EQ(errors[0].place.line, micro_rom_size + 1);
+}
+
+TEST(Microprogram, FitsItsRomAndIsListed) {
+    for (const Publishing publishing : {Publishing::latch, Publishing::bus}) {
+        const Microprogram program = make_microprogram(thesis_sequence(), binary32, publishing);
+        EXPECT_EQ(program.labels.at("FETCH"), 0);
+        EXPECT_LE(program.count, 64);
+        EXPECT_THAT(listing(program), HasSubstr("FETCH:     CONT"));
+        EXPECT_THAT(listing(program), HasSubstr("rotate rotate_both"));
+    }
+}
+
+} // namespace
+} // namespace millwright::cordic

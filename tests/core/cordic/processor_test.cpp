@@ -1,0 +1,381 @@
+#include "core/cordic/processor.h"
+
+#include "core/base/error.h"
+#include "tests/core/cordic/golden.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace millwright::cordic {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::int64_t long_enough = 10'000'000;
+
+/// Builds a program of numbers.
+class Code {
+public:
+    explicit Code(const NumberFormat& format) { image_.format = format; }
+
+    Code& mov(Register target, double value) {
+        const Word word = with_arithmetic(image_.format, [&](const auto& arithmetic) {
+            bool overflow = false;
+            const Word made = arithmetic.to_word(arithmetic.from_double(value, overflow));
+            EXPECT_FALSE(overflow);
+            return made;
+        });
+        return whole(target, to_immediate(image_.format, word));
+    }
+    Code& whole(Register target, Word word) {
+        append(image_.code, {Opcode::mov, target, word}, image_.format);
+        return *this;
+    }
+    Code& op(Opcode opcode) {
+        append(image_.code, {.opcode = opcode}, image_.format);
+        return *this;
+    }
+    [[nodiscard]] const Image& image() const { return image_; }
+
+private:
+    Image image_;
+};
+
+Code line_to(const NumberFormat& format, double x, double y, Opcode opcode = Opcode::g01) {
+    Code code(format);
+    code.mov(Register::Vmax, 0.5).mov(Register::Amax, 0.3);
+    code.mov(Register::XI, x).mov(Register::YJ, y).op(opcode).op(Opcode::hlt);
+    return code;
+}
+
+Processor run_to_end(const ProcessorSettings& settings, const Image& image) {
+    Processor processor(settings, image);
+    processor.run(long_enough);
+    return processor;
+}
+
+TEST(Processor, ComputesLinesWithTheExactBitsOfBinary64) {
+    ProcessorSettings settings;
+    settings.halves_acceleration = false;
+    for (const Opcode opcode : {Opcode::g00, Opcode::g01}) {
+        for (const auto& line : golden::lines) {
+            const Processor done = run_to_end(settings, line_to(binary64, line.x, line.y, opcode).image());
+            EXPECT_EQ(done.state().stop, Stop::halted);
+            ASSERT_EQ(done.published().size(), 1U);
+            const SetPoint<double> set = done.set_point(done.published()[0]);
+            EXPECT_EQ(set.x, line.x);
+            EXPECT_EQ(set.y, line.y);
+            EXPECT_EQ(set.vx, line.vx);
+            EXPECT_EQ(set.vy, line.vy);
+            EXPECT_NEAR(set.ax, 0.6 * line.vx, 1e-15);
+        }
+    }
+}
+
+Code arc_of_fifty(const NumberFormat& format, Opcode opcode) {
+    Code code(format);
+    code.mov(Register::X0, 10.0).mov(Register::Y0, 10.0).mov(Register::Vmax, 0.5).mov(Register::Amax, 0.3);
+    code.mov(Register::XI, 5.0)
+        .mov(Register::YJ, 10.0)
+        .mov(Register::Dz, 1.5 * pi / 50)
+        .whole(Register::N, 50);
+    code.op(opcode).op(Opcode::hlt);
+    return code;
+}
+
+TEST(Processor, ComputesTheArcOfTheThesisWithTheExactBitsOfBinary64InBothDirections) {
+    for (const ArcSense sense : {ArcSense::iso, ArcSense::thesis}) {
+        for (const Opcode opcode : {Opcode::g02, Opcode::g03}) {
+            ProcessorSettings settings;
+            settings.sense = sense;
+            const Processor done = run_to_end(settings, arc_of_fifty(binary64, opcode).image());
+            EXPECT_EQ(done.state().stop, Stop::halted);
+            ASSERT_EQ(done.published().size(), 50U);
+            const bool left = (opcode == Opcode::g03) == (sense == ArcSense::iso);
+            for (const auto& point : golden::arc_points) {
+                if (point.counter_clockwise == left) {
+                    const auto set =
+                        done.set_point(done.published()[static_cast<std::size_t>(point.chord - 1)]);
+                    EXPECT_EQ(set.x, point.x) << point.chord;
+                    EXPECT_EQ(set.y, point.y) << point.chord;
+                    EXPECT_NEAR(set.vx, point.vx, 5.1e-13);
+                    EXPECT_NEAR(set.vy, point.vy, 5.1e-13);
+                }
+            }
+        }
+    }
+}
+
+/// Clocks from the one behind the load of the opcode to the last of instruction `n` (from 0), as the thesis
+/// counts.
+std::int64_t clocks_of_instruction(const Image& image, int n, std::int64_t& cordic) {
+    Processor processor({}, image);
+    for (int before = 0; before < n; ++before) {
+        processor.run_instruction(long_enough);
+    }
+    const ClockCounts start = processor.state().clocks;
+    processor.run_instruction(long_enough);
+    const ClockCounts end = processor.state().clocks;
+    cordic = end.cordic - start.cordic;
+    constexpr int fetch = 3; // FETCH, F1 and the load of IR
+    EXPECT_EQ(end.fetch - start.fetch, fetch);
+    return end.total - start.total - fetch;
+}
+
+TEST(Clocks, OfALineAre74OfCordicAnd82InAll) {
+    std::int64_t cordic = 0;
+    EXPECT_EQ(clocks_of_instruction(line_to(binary32, 8.0, 6.0).image(), 4, cordic), 82);
+    EXPECT_EQ(cordic, 74);
+}
+
+TEST(Clocks, OfAMovAreFifteenAndNineteenMoreForFourMoreBytes) {
+    std::int64_t cordic = 0;
+    EXPECT_EQ(clocks_of_instruction(line_to(binary32, 8.0, 6.0).image(), 2, cordic), 15);
+    EXPECT_EQ(clocks_of_instruction(line_to(binary64, 8.0, 6.0).image(), 2, cordic), 27);
+    EXPECT_EQ(cordic, 0);
+}
+
+TEST(Clocks, OfAnArcAre111OfCordicAChord) {
+    std::int64_t cordic = 0;
+    EXPECT_EQ(clocks_of_instruction(arc_of_fifty(binary32, Opcode::g03).image(), 8, cordic), 6052);
+    EXPECT_EQ(cordic, 50 * 111);
+}
+
+TEST(Clocks, AddUp) {
+    ProcessorSettings settings;
+    settings.publishing = Publishing::bus;
+    settings.wait_states = 2;
+    const Processor done = run_to_end(settings, arc_of_fifty(binary32, Opcode::g02).image());
+    const ClockCounts& clocks = done.state().clocks;
+    EXPECT_EQ(clocks.cordic, 50 * 111);
+    EXPECT_EQ(clocks.fetch, 10 * (3 + 2)); // opcodes, two wait states each
+    EXPECT_EQ(clocks.immediate, 8 * 4 * (3 + 2));
+    EXPECT_EQ(clocks.publish, 50 * 24 * (2 + 2));
+    EXPECT_EQ(clocks.total,
+              clocks.cordic + clocks.fetch + clocks.immediate + clocks.publish + clocks.control());
+}
+
+TEST(Publishing, OverTheBusPutsTheRecordBehindTheAddressDecoder) {
+    ProcessorSettings settings;
+    settings.publishing = Publishing::bus;
+    Processor processor(settings, line_to(binary32, 6.0, 8.0).image());
+    processor.run(long_enough);
+    ASSERT_EQ(processor.published().size(), 1U);
+    for (std::size_t word = 0; word < 6; ++word) {
+        std::uint32_t bits = 0;
+        for (std::size_t byte = 0; byte < 4; ++byte) {
+            bits |= std::uint32_t{processor.memory().port[4 * word + byte]} << (8 * byte);
+        }
+        EXPECT_EQ(bits, processor.published()[0].words[word]);
+    }
+    EXPECT_NEAR(
+        std::bit_cast<float>(static_cast<std::uint32_t>(processor.published()[0].words[2])), 0.3, 1e-6);
+}
+
+TEST(Bus, ReadsWithAleThenPsenAndWritesWithAleThenWr) {
+    ProcessorSettings settings;
+    settings.publishing = Publishing::bus;
+    settings.wait_states = 1;
+    Processor processor(settings, line_to(binary32, 6.0, 8.0).image());
+    processor.clock();
+    EXPECT_EQ(processor.state().bus.pins, (BusPins{.ale = true, .address = 0, .data = 0}));
+    processor.clock();
+    EXPECT_TRUE(processor.state().bus.pins.psen);
+    EXPECT_FALSE(processor.state().bus.pins.ale);
+    processor.clock();
+    EXPECT_EQ(processor.state().bus.pins, (BusPins{.psen = true, .address = 0, .data = 0x12})); // Mov Vmax
+    processor.clock();
+    EXPECT_FALSE(processor.state().bus.pins.psen);
+    int writes = 0;
+    bool before_was_ale = false;
+    while (processor.state().stop == Stop::none) {
+        processor.clock();
+        const BusPins& pins = processor.state().bus.pins;
+        EXPECT_LE(int{pins.ale} + int{pins.psen} + int{pins.rd} + int{pins.wr}, 1);
+        if (pins.wr && before_was_ale) {
+            EXPECT_EQ(pins.address, port_begin + writes);
+            ++writes;
+        }
+        before_was_ale = pins.ale;
+    }
+    EXPECT_EQ(writes, 24);
+}
+
+TEST(Memory, IsReachedThroughTheDecoderAndTheRomTakesNoWrites) {
+    EXPECT_EQ(device_at(0x7fff), Device::rom);
+    EXPECT_EQ(device_at(0x8000), Device::ram);
+    EXPECT_EQ(device_at(0xbfff), Device::ram);
+    EXPECT_EQ(device_at(0xc000), Device::port);
+    Memory memory;
+    EXPECT_FALSE(memory.write(0x10, 1));
+    EXPECT_TRUE(memory.write(0x8010, 2));
+    EXPECT_EQ(memory.read(0x8010), 2);
+    EXPECT_EQ(memory.ram[0x10], 2); // what the host sees on its port
+}
+
+TEST(Processor, RunsFromTheDualPortRamThatAHostFilled) {
+    Code jump(binary32);
+    jump.whole(Register::PC, ram_begin);
+    Processor processor({}, jump.image());
+    const Code in_ram = line_to(binary32, 3.0, 4.0);
+    std::copy(in_ram.image().code.begin(), in_ram.image().code.end(), processor.memory().ram.begin());
+    processor.run(long_enough);
+    EXPECT_EQ(processor.state().stop, Stop::halted);
+    ASSERT_EQ(processor.published().size(), 1U);
+    EXPECT_GE(processor.published()[0].instruction_at, ram_begin);
+    EXPECT_NEAR(processor.set_point(processor.published()[0]).vx, 0.3, 1e-6);
+}
+
+// The same numbers as the formulas of interpolation.h, in every format: the schedule changes nothing.
+TEST(Processor, HasTheBitsOfTheFormulasInEveryFormat) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1.5, 1.5);
+    for (const NumberFormat& format :
+         {binary64, binary32, fixed_format(4, 12), fixed_format(4, 20), fixed_format(4, 40)}) {
+        for (int n = 0; n < 50; ++n) {
+            const double x = number(random);
+            const double y = number(random);
+            const Processor done = run_to_end({}, line_to(format, x, y).image());
+            ASSERT_EQ(done.state().stop, Stop::halted);
+            with_arithmetic(format, [&](const auto& arithmetic) {
+                const Kernel kernel(arithmetic, thesis_sequence());
+                bool overflow = false;
+                const auto value = [&](double v) { return arithmetic.from_double(v, overflow); };
+                const auto zero = value(0.0);
+                const auto set = line_set_point(kernel,
+                                                value(x),
+                                                value(y),
+                                                zero,
+                                                zero,
+                                                value(0.5),
+                                                arithmetic.shifted(value(0.3), 1),
+                                                overflow);
+                const auto& words = done.published()[0].words;
+                EXPECT_EQ(words[2], arithmetic.to_word(set.vx));
+                EXPECT_EQ(words[3], arithmetic.to_word(set.vy));
+                EXPECT_EQ(words[4], arithmetic.to_word(set.ax));
+                EXPECT_EQ(words[5], arithmetic.to_word(set.ay));
+            });
+        }
+    }
+}
+
+TEST(Processor, RunsWithAnyClassicSequence) {
+    ProcessorSettings settings;
+    settings.sequence = classic_sequence(CoordinateSystem::circular, 24);
+    const Processor done = run_to_end(settings, line_to(fixed_format(8, 24), 6.0, 8.0).image());
+    EXPECT_EQ(done.state().stop, Stop::halted);
+    EXPECT_NEAR(done.set_point(done.published()[0]).vx, 0.3, 2e-6);
+    EXPECT_EQ(done.state().clocks.cordic, 2 * 25);
+}
+
+TEST(Processor, StandsStillForAMoveWithoutLength) {
+    const Processor done = run_to_end({}, line_to(binary64, 0.0, 0.0).image());
+    EXPECT_EQ(done.state().stop, Stop::halted);
+    const SetPoint<double> set = done.set_point(done.published()[0]);
+    EXPECT_EQ(set.vx, 0.0);
+    EXPECT_EQ(set.ay, 0.0);
+}
+
+TEST(Stop, OverflowEndsTheProgramInsteadOfWrapping) {
+    Code code(fixed_format(4, 12));
+    code.mov(Register::Vmax, 1.0)
+        .mov(Register::X0, -7.0)
+        .mov(Register::XI, 7.0)
+        .op(Opcode::g01)
+        .op(Opcode::hlt);
+    const Processor done = run_to_end({}, code.image());
+    EXPECT_EQ(done.state().stop, Stop::overflow);
+    EXPECT_TRUE(done.published().empty());
+}
+
+TEST(Stop, AnImmediateThatDoesNotFitTheWordIsAnOverflow) {
+    Code code(fixed_format(4, 12));
+    code.whole(Register::XI, 0x8000).op(Opcode::hlt);
+    EXPECT_EQ(run_to_end({}, code.image()).state().stop, Stop::overflow);
+}
+
+TEST(Stop, NoNumberIsAnOverflowToo) {
+    Code code(binary32);
+    code.whole(Register::XI, 0x7fc00000).op(Opcode::hlt);
+    EXPECT_EQ(run_to_end({}, code.image()).state().stop, Stop::overflow);
+}
+
+TEST(Stop, UnknownOpcodesAndEmptyMemoryAreIllegalInstructions) {
+    Image image{.format = binary32, .code = {0x77}};
+    EXPECT_EQ(run_to_end({}, image).state().stop, Stop::illegal_instruction);
+    image.code.clear();
+    EXPECT_EQ(run_to_end({}, image).state().stop, Stop::illegal_instruction);
+}
+
+TEST(Stop, ArcsBeyondConvergenceAndWithoutChordsAreRefused) {
+    Code wide(binary64);
+    wide.mov(Register::X0, 1.0).mov(Register::Dz, 1.8).whole(Register::N, 2).op(Opcode::g02);
+    EXPECT_EQ(run_to_end({}, wide.image()).state().stop, Stop::arc_too_coarse);
+    Code none(binary64);
+    none.mov(Register::X0, 1.0).mov(Register::Dz, 0.1).op(Opcode::g02);
+    EXPECT_EQ(run_to_end({}, none.image()).state().stop, Stop::arc_too_coarse);
+}
+
+TEST(Stop, AMicroprogramThatCallsTooDeepOrReturnsFromNothingIsStopped) {
+    const auto run = [](const char* text) {
+        auto [program, errors] = assemble_microprogram(text, "deep");
+        EXPECT_TRUE(errors.empty());
+        Processor processor({}, Image{.format = binary32}, program);
+        processor.run(100);
+        return processor.state().stop;
+    };
+    EXPECT_EQ(run("A: CJS always A"), Stop::stack_overflow);
+    EXPECT_EQ(run("CRTN always"), Stop::stack_underflow);
+}
+
+TEST(Processor, StaysAsItIsOnceItStands) {
+    Processor processor({}, line_to(binary64, 3.0, 4.0).image());
+    processor.run(long_enough);
+    const ProcessorState stood = processor.state();
+    EXPECT_EQ(processor.run(1000), 0);
+    EXPECT_EQ(processor.state(), stood);
+    processor.reset();
+    processor.run(long_enough);
+    EXPECT_EQ(processor.state(), stood);
+    EXPECT_EQ(processor.published().size(), 1U);
+}
+
+TEST(Processor, CanBeCopiedBetweenTwoClocksAndGoesOnTheSame) {
+    Processor processor({}, arc_of_fifty(binary32, Opcode::g02).image());
+    processor.run(1234);
+    Processor copy = processor;
+    processor.run(long_enough);
+    while (copy.state().stop == Stop::none) {
+        copy.clock();
+    }
+    EXPECT_EQ(copy.state(), processor.state());
+}
+
+TEST(SignOfZero, OfTheMatlabModelIsASwitchOfTheProcessor) {
+    ProcessorSettings settings;
+    settings.zero = SignOfZero::zero;
+    const Processor done = run_to_end(settings, line_to(binary64, 8.0, 0.0).image());
+    EXPECT_NEAR(done.set_point(done.published()[0]).vx, 0.3920199815, 1e-10);
+}
+
+TEST(Image, ReadsBackAndRefusesWhatIsNone) {
+    const Image image = line_to(fixed_format(8, 24), 1.0, 2.0).image();
+    const auto bytes = to_bytes(image);
+    EXPECT_EQ(parse_image(bytes, "a.bin"), image);
+    for (std::size_t at : {0U, 4U, 5U, 6U, 8U}) {
+        auto broken = bytes;
+        broken[at] = 0xee;
+        EXPECT_THROW(static_cast<void>(parse_image(broken, "a.bin")), Error) << at;
+    }
+    auto cut = bytes;
+    cut.pop_back();
+    EXPECT_THROW(static_cast<void>(parse_image(cut, "a.bin")), Error);
+    EXPECT_THROW(static_cast<void>(parse_image({}, "a.bin")), Error);
+}
+
+} // namespace
+} // namespace millwright::cordic
