@@ -40,6 +40,9 @@ struct Options {
     std::string dialect = "linuxcnc";
     std::string tools;
     std::string machine;
+    double path_tolerance = 0.0;     ///< mm; 0: exact path
+    double junction_deviation = 0.0; ///< mm; 0: corners by small steps
+    int look_ahead = 0;
     bool block_delete = false;
     bool json = false;
 };
@@ -129,6 +132,19 @@ void throw_first(const std::vector<Diagnostic>& errors) {
     }
 }
 
+motion::PlannerSettings planner_settings(const Options& options) {
+    motion::PlannerSettings settings;
+    if (options.path_tolerance > 0.0) {
+        settings.path = {gcode::PathMode::continuous, options.path_tolerance};
+    }
+    if (options.junction_deviation > 0.0) {
+        settings.corner_rule = motion::CornerRule::junction_deviation;
+        settings.junction_deviation = options.junction_deviation;
+    }
+    settings.look_ahead = options.look_ahead;
+    return settings;
+}
+
 /// How long the machine takes: the duration of the motion that is planned for it.
 int time(const Options& options) {
     const auto machine = kinematics::read_machine(
@@ -139,7 +155,8 @@ int time(const Options& options) {
     throw_first(program.errors());
     const gcode::MachineProgram found = builder.take();
     throw_first(found.faults);
-    const double duration = motion::plan(found.program, machine, {}, Progress()).duration();
+    const double duration =
+        motion::plan(found.program, machine, planner_settings(options), Progress()).duration();
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["time_s"] = duration;
@@ -181,6 +198,18 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
         add_reader(group, "canon", "Print what the machine does, as LinuxCNC's rs274 prints it", options);
     CLI::App& timing = add_reader(group, "time", "Say how long a machine takes for it", options);
     timing.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    constexpr double most_mm = 100.0;
+    constexpr int most_blocks = 1'000'000;
+    timing
+        .add_option("--path-tolerance",
+                    options->path_tolerance,
+                    "Tolerance of corners where the program says none, mm")
+        ->check(CLI::Range(0.0, most_mm));
+    timing.add_option("--junction-deviation", options->junction_deviation, "Corners as Grbl takes them, mm")
+        ->check(CLI::Range(0.0, most_mm));
+    timing
+        .add_option("--look-ahead", options->look_ahead, "Moves that the controller knows at a time; 0: all")
+        ->check(CLI::Range(0, most_blocks));
     timing.add_flag("--json", options->json, "Print the answer as JSON");
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });
     printing.callback([&chosen, options] { chosen = [options] { return canon(*options); }; });

@@ -124,6 +124,12 @@ public:
 
     PostResult take() {
         add(BlockKind::end);
+        const bool exact = !(settings_.path_tolerance > 0.0);
+        for (Block& block : result_.program.blocks) {
+            if (block.moves()) {
+                block.path = {exact ? PathMode::exact_path : PathMode::continuous, settings_.path_tolerance};
+            }
+        }
         return std::move(result_);
     }
 

@@ -2,8 +2,10 @@
 // times s, speeds mm/s. Positions are programmed ones (zero offsets not yet added), as in the listing.
 #pragma once
 
+#include "core/gcode/path_mode.h"
 #include "core/kinematics/machine_model.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +49,10 @@ struct Block {
     double duration = 0.0;            ///< feed: of the move, s; dwell: s
     double feed = 0.0;                ///< feed: mean speed of the tool tip on the part, mm/s
     double spindle_rpm = 0.0;
-    int path_point = -1; ///< the point of the tool path where the block ends, or -1
-    int source_line = 0; ///< of the G-code file that it was read from, from 1; 0: none
-    std::string text;    ///< of a comment or a pause
+    int path_point = -1;             ///< the point of the tool path where the block ends, or -1
+    int source_line = 0;             ///< of the G-code file that it was read from, from 1; 0: none
+    std::optional<PathControl> path; ///< of a move, up to its end; none: the program does not say
+    std::string text;                ///< of a comment or a pause
 
     [[nodiscard]] bool moves() const { return kind == BlockKind::rapid || kind == BlockKind::feed; }
 };

@@ -171,6 +171,11 @@ inverse_branches(const MachineModel& machine, const geometry::ToolPose& pose, co
     constexpr double unit_tolerance = 1e-9;
     expects(std::abs(pose.axis.norm() - 1.0) < unit_tolerance, "a tool axis is a unit vector");
     expects(previous.size() == machine.axis_count(), "axis positions belong to their machine");
+    if (!has_inverse(machine)) {
+        throw Error(fmt::format("machine '{}' has {} rotary axes, tool paths need one with two or none",
+                                machine.name(),
+                                machine.rotary_axes().size()));
+    }
     const Vec3& t = machine.description().tool_axis;
     if (machine.rotary_axes().empty()) {
         const bool parallel = t.cross(pose.axis).norm() < pole_tolerance && t.dot(pose.axis) > 0.0;
@@ -219,13 +224,18 @@ inverse(const MachineModel& machine, const geometry::ToolPose& pose, const AxisP
     return solution;
 }
 
+bool has_inverse(const MachineModel& machine) {
+    return machine.rotary_axes().empty() || machine.rotary_axes().size() == 2;
+}
+
 Vec3 pole_direction(const MachineModel& machine) {
-    expects(!machine.rotary_axes().empty(), "a machine without rotary axes has no pole");
+    expects(machine.rotary_axes().size() == 2, "a machine with a pole has two rotary axes");
     return machine.axis(machine.rotary_axes()[1]).direction;
 }
 
 bool at_pole(const MachineModel& machine, const Vec3& tool_axis) {
-    return !machine.rotary_axes().empty() && tool_axis.cross(pole_direction(machine)).norm() < pole_tolerance;
+    return machine.rotary_axes().size() == 2 &&
+           tool_axis.cross(pole_direction(machine)).norm() < pole_tolerance;
 }
 
 } // namespace millwright::kinematics

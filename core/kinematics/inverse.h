@@ -24,6 +24,9 @@ struct InverseSolution {
 /// A tool axis nearer than this to the direction of the free rotary axis counts as lying on the pole, rad.
 inline constexpr double pole_tolerance = 1e-7;
 
+/// Whether there are two rotary axes or none; else the functions below throw Error.
+[[nodiscard]] bool has_inverse(const MachineModel& machine);
+
 /// Solves for `pose`; forward(machine, branch) returns to its tip within `round_trip_mm` for each branch.
 /// Rotary axes with limits are given in every turn that fits, those without in the turn nearest to
 /// `previous`. At a pole the free angle is taken from `previous`, so that a path does not spin there. Out of

@@ -17,6 +17,7 @@ constexpr double farthest_mm = 1e5;
 constexpr double most_degrees = 36000.0;
 constexpr double fastest = 1e5;
 constexpr double hardest = 1e7;
+constexpr double sharpest = 1e10;
 
 Vec3 point(const JsonValue& value) {
     const auto items = value.items(3);
@@ -50,8 +51,15 @@ AxisKind kind(const JsonValue& value) {
 }
 
 MachineAxis axis(const JsonValue& value) {
-    value.expect_only(
-        {"axis", "kind", "direction", "point", "zero_offset", "limits", "max_velocity", "max_acceleration"});
+    value.expect_only({"axis",
+                       "kind",
+                       "direction",
+                       "point",
+                       "zero_offset",
+                       "limits",
+                       "max_velocity",
+                       "max_acceleration",
+                       "max_jerk"});
     MachineAxis result;
     result.letter = letter(value.at("axis"));
     result.kind = kind(value.at("kind"));
@@ -76,6 +84,9 @@ MachineAxis axis(const JsonValue& value) {
     constexpr double slowest = 1e-6;
     result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest);
     result.max_acceleration = unit * value.at("max_acceleration").number(slowest, hardest);
+    if (const auto jerk = value.find("max_jerk")) {
+        result.max_jerk = unit * jerk->number(slowest, sharpest);
+    }
     return result;
 }
 

@@ -42,6 +42,9 @@ void check(const MachineDescription& machine, const MachineAxis& axis) {
         !(axis.max_acceleration > 0.0 && std::isfinite(axis.max_acceleration))) {
         refuse(machine, where + ": velocity and acceleration limits must be positive");
     }
+    if (!(axis.max_jerk > 0.0)) {
+        refuse(machine, where + ": the limit of jerk must be positive");
+    }
 }
 
 void check(const MachineDescription& machine, const MachineBody& body) {
@@ -89,8 +92,9 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
     for (const int n : from_tool) {
         (axis(n).kind == AxisKind::rotary ? rotary_axes_ : linear).push_back(n);
     }
-    if (linear.size() != 3 || (!rotary_axes_.empty() && rotary_axes_.size() != 2)) {
-        refuse(description_, "three linear axes and two or no rotary ones are needed");
+    constexpr std::size_t most_rotary = 3;
+    if (linear.size() != 3 || rotary_axes_.size() > most_rotary) {
+        refuse(description_, "three linear axes and three rotary ones at most are needed");
     }
     std::sort(linear.begin(), linear.end());
     std::copy(linear.begin(), linear.end(), linear_axes_.begin());
@@ -101,7 +105,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
     if (std::abs(span.determinant()) < flat) {
         refuse(description_, "the linear axes do not span space");
     }
-    if (!rotary_axes_.empty() &&
+    if (rotary_axes_.size() == 2 &&
         axis(rotary_axes_[0]).direction.cross(axis(rotary_axes_[1]).direction).norm() < flat) {
         refuse(description_, "the rotary axes are parallel");
     }

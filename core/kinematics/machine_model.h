@@ -29,8 +29,9 @@ struct MachineAxis {
     double zero_offset = 0.0;       ///< physical position = programmed position + zero_offset
     double min = -std::numeric_limits<double>::infinity(); ///< programmed; -infinity: no limit
     double max = std::numeric_limits<double>::infinity();
-    double max_velocity = 0.0;     ///< mm/s or rad/s
-    double max_acceleration = 0.0; ///< mm/s^2 or rad/s^2
+    double max_velocity = 0.0;                                 ///< mm/s or rad/s
+    double max_acceleration = 0.0;                             ///< mm/s^2 or rad/s^2
+    double max_jerk = std::numeric_limits<double>::infinity(); ///< mm/s^3 or rad/s^3; infinity: no limit
 };
 
 /// A simple solid that shows a part of the machine, carried by one axis ('\0': fixed to the base).
@@ -62,8 +63,9 @@ struct MachineDescription {
 
 class MachineModel {
 public:
-    /// Throws Error unless there are exactly three linear axes that span space, two or no rotary ones that
-    /// are not parallel, distinct letters, unit directions, finite numbers, positive rates and min < max.
+    /// Throws Error unless there are exactly three linear axes that span space, at most three rotary ones
+    /// (two must not be parallel; tool paths need two or none), distinct letters, unit directions, finite
+    /// numbers, positive rates and min < max.
     explicit MachineModel(MachineDescription description);
 
     [[nodiscard]] const std::string& name() const { return description_.name; }

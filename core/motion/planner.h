@@ -1,10 +1,10 @@
 // The look-ahead planner: as fast as the program and the axes allow, ending at rest. Speeds along the whole
-// path by one pass backward (what can still be braked) and one forward (what can be reached).
+// path by one pass backward (what can still be braked) and one forward (what can be reached); then a filter
+// in time limits the jerk (timing.h). Formulas and proofs: docs/reference/motion.md.
 //
-// Corners: until blending exists, the path is followed exactly and an axis may change its velocity in a
-// corner by a step of at most max_acceleration * corner_time (3 mm/s for 1500 mm/s^2 and the default of 2 ms,
-// which is what a servo follows within one or two of its cycles). Apart from these steps no axis ever exceeds
-// its acceleration; none exceeds its velocity anywhere.
+// Corners: in exact path mode the path is followed exactly, and the velocity of an axis changes in a corner
+// by a step. In continuous mode corners are rounded within a tolerance, and no axis exceeds any limit. Apart
+// from the steps no axis ever exceeds its velocity, acceleration or jerk.
 #pragma once
 
 #include "core/base/progress.h"
@@ -15,21 +15,36 @@
 
 namespace millwright::motion {
 
-enum class Corners {
-    small_step, ///< through corners with the velocity steps described above
-    exact_stop  ///< to rest after every move
+/// How fast corners that are not rounded are passed.
+enum class CornerRule : std::uint8_t {
+    small_step,        ///< every axis changes its velocity by max_acceleration * corner_time at most
+    junction_deviation ///< as fast as a circle that stays within the deviation of the corner could be
+                       ///< followed
+};
+
+/// What a programmed feed means.
+enum class FeedRule : std::uint8_t {
+    programmed_time, ///< a block takes the time that it carries, if the axes can (inverse time feed)
+    on_part          ///< the tip goes along the part at Block::feed, nowhere faster
 };
 
 struct PlannerSettings {
-    Corners corners = Corners::small_step;
-    double corner_time = 0.002; ///< s, >= 0
+    gcode::PathControl path;          ///< of moves that do not say
+    double rounding_tolerance = 0.01; ///< of a continuous path without a tolerance of its own, mm, > 0
+    double rounding_angle = 0.001;    ///< by which a rounding may turn a rotary axis off the path, rad, > 0
+    CornerRule corner_rule = CornerRule::small_step;
+    double corner_time = 0.002;       ///< s, >= 0
+    double junction_deviation = 0.01; ///< mm, degrees of rotary axes counted as mm (as Grbl does), >= 0
+    FeedRule feed_rule = FeedRule::programmed_time;
+    int look_ahead = 0; ///< blocks that are known at a time, to predict a small controller; 0: all
 
     friend bool operator==(const PlannerSettings&, const PlannerSettings&) = default;
 };
 
 /// Plans from `start`, or from the program's own start if none is given. Blocks that are no moves stop the
 /// axes (comments do not), moves of no length take no time. The duration of the trajectory is the time
-/// estimate. Throws Error if the program's axes are not the machine's, Defect if a target is not finite.
+/// estimate. Throws Error if the program's axes are not the machine's, Defect if a target is not finite or a
+/// setting out of range.
 [[nodiscard]] Trajectory plan(const gcode::Program& program,
                               const kinematics::MachineModel& machine,
                               const PlannerSettings& settings,

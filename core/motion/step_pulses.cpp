@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/motion/internal/axis_way.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@
 namespace millwright::motion {
 
 namespace {
+
+using internal::Part;
 
 constexpr std::int64_t usual_most_pulses = 10'000'000; // a block: 400 MB
 constexpr double farthest = 1e15;                      // steps: as integers still exact in a double
@@ -40,26 +43,22 @@ public:
     Motor(int axis, double steps_per_unit, double start, const StepSettings& settings)
         : axis_(axis), steps_per_unit_(steps_per_unit), settings_(settings), position_(nearest_step(start)) {}
 
-    /// Adds the pulses of one block as far as `end`, in the order in which they are due.
-    void add(const Trajectory& trajectory,
-             int block,
-             const kinematics::AxisPositions& end,
-             std::vector<StepPulse>& pulses) {
-        const auto n = static_cast<std::size_t>(block);
-        const double from = steps_at(trajectory.path().positions[n]);
-        const double to = steps_at(trajectory.path().positions[n + 1]);
-        const int direction = to > from ? 1 : -1;
-        // The middle that is passed next, while it lies on this block's way.
-        for (double middle = next_middle(direction); direction * (steps_at(end) - middle) > 0.0;
-             middle = next_middle(direction)) {
-            const double fraction = std::clamp((middle - from) / (to - from), 0.0, 1.0);
-            add(trajectory.time_at(block, fraction), direction, block, pulses);
+    /// Adds the pulses of a part of one block, in the order in which they are due.
+    void add(const Trajectory& trajectory, int block, const Part& part, std::vector<StepPulse>& pulses) {
+        const Path& path = trajectory.path();
+        const double length = path.segments[static_cast<std::size_t>(block)].length;
+        for (const Part& piece : internal::monotone_parts(path, block, axis_, part)) {
+            const double end = steps_at(path.at(block, piece.end).position);
+            const int direction = end > steps_at(path.at(block, piece.begin).position) ? 1 : -1;
+            check_number(block, std::abs(end - static_cast<double>(position_)));
+            // The middle that is passed next, while it lies on this piece.
+            for (double middle = next_middle(direction); direction * (end - middle) > 0.0;
+                 middle = next_middle(direction)) {
+                const double offset =
+                    internal::offset_of(path, block, axis_, piece, middle / steps_per_unit_);
+                add(trajectory.time_at(block, offset / length), direction, block, pulses);
+            }
         }
-    }
-
-    /// Pulses that a block at least needs, to be asked before they are made.
-    [[nodiscard]] double pulses_to(const kinematics::AxisPositions& target) const {
-        return std::abs(steps_at(target) - static_cast<double>(position_));
     }
 
     [[nodiscard]] StepJitter report(const kinematics::AxisPositions& end) const {
@@ -95,6 +94,16 @@ private:
         return static_cast<double>(position_) + 0.5 * direction;
     }
 
+    void check_number(int block, double pulses) const {
+        const double most = static_cast<double>(
+            settings_.most_pulses_a_block > 0 ? settings_.most_pulses_a_block : usual_most_pulses);
+        if (pulses > most) {
+            throw Error(fmt::format("block {} needs {:.0f} pulses", block, pulses),
+                        {},
+                        "fewer steps a unit, or shorter blocks");
+        }
+    }
+
     void add(double due, int direction, int block, std::vector<StepPulse>& pulses) {
         std::int64_t tick = std::llround(due * settings_.timer_frequency);
         if (report_.pulses > 0) {
@@ -119,6 +128,19 @@ private:
     }
 };
 
+/// What of a block the trajectory executes.
+Part executed_part(const Trajectory& trajectory, int block) {
+    const double length = trajectory.path().segments[static_cast<std::size_t>(block)].length;
+    Part part{0.0, length};
+    if (block == trajectory.first_block()) {
+        part.begin = trajectory.at(0.0).block == block ? trajectory.at(0.0).fraction * length : length;
+    }
+    if (block == trajectory.last_block()) {
+        part.end = trajectory.at(trajectory.duration()).fraction * length;
+    }
+    return part;
+}
+
 } // namespace
 
 std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
@@ -126,8 +148,6 @@ std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
                                     const StepSink& sink,
                                     const Progress& progress) {
     check(trajectory, settings);
-    const double most = static_cast<double>(settings.most_pulses_a_block > 0 ? settings.most_pulses_a_block
-                                                                             : usual_most_pulses);
     const kinematics::AxisPositions start = trajectory.at(0.0).position;
     const kinematics::AxisPositions end = trajectory.at(trajectory.duration()).position;
     std::vector<Motor> motors;
@@ -137,17 +157,10 @@ std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
     std::vector<StepPulse> pulses;
     for (int block = trajectory.first_block(); block <= trajectory.last_block(); ++block) {
         progress.check();
-        const bool is_last = block == trajectory.last_block();
-        const auto after = static_cast<std::size_t>(block) + 1;
-        const kinematics::AxisPositions& target = is_last ? end : trajectory.path().positions[after];
+        const Part part = executed_part(trajectory, block);
         pulses.clear();
         for (Motor& motor : motors) {
-            if (motor.pulses_to(target) > most) {
-                throw Error(fmt::format("block {} needs {:.0f} pulses", block, motor.pulses_to(target)),
-                            {},
-                            "fewer steps a unit, or shorter blocks");
-            }
-            motor.add(trajectory, block, target, pulses);
+            motor.add(trajectory, block, part, pulses);
         }
         std::ranges::stable_sort(pulses, {}, &StepPulse::tick);
         sink(pulses);

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/motion/internal/piece.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,27 +11,43 @@ namespace millwright::motion {
 
 namespace {
 
-double fraction_of(const Segment& segment, double offset) {
-    const double whole = segment.length > 0.0 ? segment.length : segment.standing_time;
-    return whole > 0.0 ? std::clamp(offset / whole, 0.0, 1.0) : 1.0;
+constexpr double at_the_limit = 1.0 - 1e-9; // of an axis: what rounding leaves of it
+
+/// The axis that uses most of its limit.
+struct Use {
+    int axis = -1;
+    double share = 0.0;
+};
+
+Use greatest_use(const Path& path, const kinematics::AxisPositions& values, double AxisLimits::*limit) {
+    Use use;
+    for (std::size_t n = 0; n < path.limits.size(); ++n) {
+        const double share = std::abs(values[static_cast<Eigen::Index>(n)]) / (path.limits[n].*limit);
+        if (share > use.share) {
+            use = {static_cast<int>(n), share};
+        }
+    }
+    return use;
+}
+
+Cause cause(Limit limit, int axis) {
+    return {limit, static_cast<std::int8_t>(axis)};
 }
 
 } // namespace
 
-Trajectory::Trajectory(std::shared_ptr<const Path> path, int first_block, std::vector<Piece> pieces)
-    : path_(std::move(path)), first_block_(first_block), pieces_(std::move(pieces)) {
-    expects(path_ != nullptr && first_block >= 0, "a trajectory has a path");
-    expects(first_block + std::ssize(pieces_) <= path_->block_count() &&
-                (!pieces_.empty() || block_count() == 0),
+Trajectory::Trajectory(std::shared_ptr<const Path> path, Timing timing, Schedule schedule)
+    : path_(std::move(path)), timing_(std::move(timing)), first_block_(schedule.first_block),
+      standing_done_(schedule.standing_done) {
+    expects(path_ != nullptr && first_block_ >= 0, "a trajectory has a path");
+    expects(first_block_ + std::ssize(schedule.ends) <= path_->block_count() &&
+                (!schedule.ends.empty() || block_count() == 0),
             "a trajectory executes blocks of its path");
-    piece_starts_.reserve(pieces_.size() + 1);
-    double time = 0.0;
-    for (const Piece& piece : pieces_) {
-        piece_starts_.push_back(time);
-        time += piece.duration();
-    }
-    piece_starts_.push_back(time);
-    expects(std::isfinite(time), "a trajectory takes a finite time");
+    times_.reserve(schedule.ends.size() + 1);
+    times_.push_back(0.0);
+    times_.insert(times_.end(), schedule.ends.begin(), schedule.ends.end());
+    expects(std::isfinite(times_.back()) && std::ranges::is_sorted(times_),
+            "the blocks of a trajectory end one after another");
 }
 
 int Trajectory::axis_count() const {
@@ -40,99 +55,101 @@ int Trajectory::axis_count() const {
 }
 
 int Trajectory::last_block() const {
-    return first_block_ + static_cast<int>(pieces_.size()) - 1;
+    return first_block_ + static_cast<int>(times_.size()) - 2;
 }
 
-int Trajectory::piece_index(int block) const {
+std::size_t Trajectory::index_of(int block) const {
     expects(block >= first_block_ && block <= last_block(), "the trajectory executes the block asked for");
-    return block - first_block_;
-}
-
-const Piece& Trajectory::piece(int block) const {
-    return pieces_[static_cast<std::size_t>(piece_index(block))];
+    return static_cast<std::size_t>(block - first_block_);
 }
 
 int Trajectory::block_at(double time) const {
     expects(!std::isnan(time), "a time is a number");
-    const auto after = std::upper_bound(piece_starts_.begin(), piece_starts_.end(), time);
-    const auto index = static_cast<int>(after - piece_starts_.begin()) - 1;
-    return first_block_ + std::clamp(index, 0, std::max(0, static_cast<int>(pieces_.size()) - 1));
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto index = static_cast<int>(after - times_.begin()) - 1;
+    return std::clamp(first_block_ + index, first_block_, std::max(first_block_, last_block()));
 }
 
-/// The time into a block's piece: exactly its duration at the end, whatever the sums of durations rounded to.
-double Trajectory::time_inside(int block, double time) const {
-    const double whole = piece(block).duration();
-    return time >= end_of(block) ? whole : std::clamp(time - start_of(block), 0.0, whole);
-}
-
-PathState Trajectory::state_at(double time) const {
-    if (pieces_.empty()) {
-        return {};
+Trajectory::Place Trajectory::place_at(double time) const {
+    Place place;
+    place.block = block_at(time);
+    time = std::clamp(time, 0.0, duration());
+    place.motion = timing_.at(time);
+    const Segment& block = segment(place.block);
+    const std::size_t n = index_of(place.block);
+    if (block.length > 0.0) {
+        place.offset = std::clamp(place.motion.way - block.start, 0.0, block.length);
+        if (!(place.motion.way < block.end())) {
+            place.offset = block.length; // exactly
+        }
+        place.fraction = place.offset / block.length;
+    } else if (block.standing_time > 0.0) {
+        const double done = time - times_[n] + (n == 0 ? standing_done_ : 0.0);
+        place.fraction = std::clamp(done / block.standing_time, 0.0, 1.0);
     }
-    const int block = block_at(time);
-    const Piece& now = piece(block);
-    const double inside = time_inside(block, time);
-    const auto& segment = path_->segments[static_cast<std::size_t>(block)];
-    const internal::Moment moment = internal::moment(now, segment, inside);
-    return {block, moment.offset, moment.speed};
+    return place;
 }
 
 Sample Trajectory::at(double time) const {
     Sample sample;
-    const auto axes = static_cast<Eigen::Index>(axis_count());
-    sample.position = path_->positions.front();
-    sample.velocity = sample.acceleration = kinematics::AxisPositions::Zero(axes);
-    if (pieces_.empty()) {
+    if (block_count() == 0) {
+        expects(!std::isnan(time), "a time is a number");
+        sample.position = path_->positions.front();
+        sample.velocity = sample.acceleration = sample.jerk =
+            kinematics::AxisPositions::Zero(sample.position.size());
         return sample;
     }
-    sample.block = block_at(time);
-    const auto n = static_cast<std::size_t>(sample.block);
-    const Segment& segment = path_->segments[n];
-    const Piece& now = piece(sample.block);
-    const double inside = time_inside(sample.block, time);
-    const internal::Moment moment = internal::moment(now, segment, inside);
-    sample.fraction = fraction_of(segment, moment.offset);
-
-    const kinematics::AxisPositions& a = path_->positions[n];
-    const kinematics::AxisPositions& b = path_->positions[n + 1];
-    sample.position = b; // exactly, not but for rounding
-    if (sample.fraction < 1.0) {
-        sample.position = a + sample.fraction * (b - a);
-    }
-    if (segment.length > 0.0) {
-        sample.velocity = (b - a) * (moment.speed / segment.length);
-        sample.acceleration = (b - a) * (moment.acceleration / segment.length);
+    const Place place = place_at(time);
+    const PathPoint point = path_->at(place.block, place.offset);
+    const Motion& s = place.motion;
+    sample.block = place.block;
+    sample.fraction = place.fraction;
+    sample.position = point.position;
+    sample.velocity = point.first * s.speed;
+    sample.acceleration = point.first * s.acceleration + point.second * square(s.speed);
+    sample.jerk = kinematics::AxisPositions::Zero(sample.position.size());
+    if (timing_.filter_time() > 0.0) {
+        sample.jerk = point.first * s.jerk + 3.0 * s.speed * s.acceleration * point.second +
+                      square(s.speed) * s.speed * point.third;
     }
     return sample;
 }
 
 double Trajectory::start_of(int block) const {
-    return piece_starts_[static_cast<std::size_t>(piece_index(block))];
+    return times_[index_of(block)];
 }
 
 double Trajectory::end_of(int block) const {
-    return piece_starts_[static_cast<std::size_t>(piece_index(block)) + 1];
+    return times_[index_of(block) + 1];
 }
 
 double Trajectory::time_at(int block, double fraction) const {
-    expects(block >= 0 && block < block_count(), "a block belongs to the program");
-    const Segment& segment = path_->segments[static_cast<std::size_t>(block)];
-    const double whole = segment.length > 0.0 ? segment.length : segment.standing_time;
-    return start_of(block) + internal::time_of(piece(block), segment, fraction * whole);
+    const std::size_t n = index_of(block);
+    const Segment& asked = segment(block);
+    if (fraction <= 0.0) {
+        return times_[n];
+    }
+    if (fraction >= 1.0) {
+        return times_[n + 1];
+    }
+    if (asked.length > 0.0) {
+        return timing_.time_of(asked.start + fraction * asked.length, times_[n], times_[n + 1]);
+    }
+    const double done = n == 0 ? standing_done_ : 0.0;
+    return std::clamp(times_[n] + fraction * asked.standing_time - done, times_[n], times_[n + 1]);
 }
 
 double Trajectory::part_length_at(double time) const {
-    if (pieces_.empty()) {
+    if (block_count() == 0) {
         return 0.0;
     }
-    const PathState state = state_at(time);
-    const auto n = static_cast<std::size_t>(state.block);
-    const double fraction = fraction_of(path_->segments[n], state.offset);
-    return mix(path_->part_length[n], path_->part_length[n + 1], fraction);
+    const Place place = place_at(time);
+    const auto n = static_cast<std::size_t>(place.block);
+    return mix(path_->part_length[n], path_->part_length[n + 1], place.fraction);
 }
 
 double Trajectory::time_at_part_length(double length) const {
-    if (pieces_.empty()) {
+    if (block_count() == 0) {
         return 0.0;
     }
     const auto& lengths = path_->part_length;
@@ -146,18 +163,42 @@ double Trajectory::time_at_part_length(double length) const {
     return time_at(block, std::clamp(fraction, 0.0, 1.0));
 }
 
-Trajectory::BlockLimit Trajectory::limit_of(int block) const {
-    expects(block >= 0 && block < block_count(), "a block belongs to the program");
-    const Segment& segment = path_->segments[static_cast<std::size_t>(block)];
-    if (!(segment.length > 0.0)) {
+// The limit that is in force shows itself: an axis at its jerk, at its acceleration, at its velocity. Else
+// the unfiltered motion knows, at the middle of what the filter sees.
+Cause Trajectory::limit_at(double time) const {
+    if (block_count() == 0) {
         return {};
     }
-    constexpr double nearly = 1.0 - 1e-12; // rounding of the peak's square root
-    if (piece(block).peak_speed >= nearly * segment.max_speed) {
-        const bool by_axis = segment.velocity_axis >= 0;
-        return {by_axis ? Limit::axis_velocity : Limit::programmed_feed, segment.velocity_axis};
+    const Sample now = at(time);
+    const Place place = place_at(time);
+    if (!(place.motion.speed > 0.0) && !(std::abs(place.motion.acceleration) > 0.0) &&
+        !(segment(place.block).length > 0.0)) {
+        return {};
     }
-    return {Limit::axis_acceleration, segment.acceleration_axis};
+    const Use velocity = greatest_use(*path_, now.velocity, &AxisLimits::velocity);
+    if (velocity.share > at_the_limit) {
+        return cause(Limit::axis_velocity, velocity.axis);
+    }
+    if (std::abs(place.motion.jerk) > 0.0) {
+        return cause(Limit::axis_jerk, greatest_use(*path_, now.jerk, &AxisLimits::jerk).axis);
+    }
+    const double middle = std::clamp(time, 0.0, duration()) - 0.5 * timing_.filter_time();
+    const Motion raw = timing_.unfiltered_at(middle);
+    if (std::abs(raw.acceleration) > 0.0) {
+        return cause(Limit::axis_acceleration,
+                     greatest_use(*path_, now.acceleration, &AxisLimits::acceleration).axis);
+    }
+    const auto step = std::ranges::lower_bound(path_->speed, raw.way, {}, &Step::end);
+    const bool by_axes = step != path_->speed.end() && raw.speed > at_the_limit * step->value;
+    return by_axes ? step->cause : cause(Limit::programmed_feed, -1);
+}
+
+Cause Trajectory::limit_of(int block) const {
+    const std::size_t n = index_of(block);
+    if (!(segment(block).length > 0.0)) {
+        return {};
+    }
+    return limit_at(mix(times_[n], times_[n + 1], 0.5));
 }
 
 } // namespace millwright::motion

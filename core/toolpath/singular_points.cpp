@@ -56,7 +56,7 @@ std::optional<Vec2> descend(const geometry::BezierPatch& patch, Vec2 uv, const V
 std::vector<SingularPoint> singular_points(const geometry::BezierPatch& patch,
                                            const kinematics::MachineModel& machine) {
     std::vector<SingularPoint> found;
-    if (machine.rotary_axes().empty()) {
+    if (machine.rotary_axes().size() != 2) {
         return found;
     }
     const Vec3 pole = kinematics::pole_direction(machine);

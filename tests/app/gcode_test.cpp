@@ -101,6 +101,26 @@ TEST(Gcode, TimeIsThatOfThePlannedMotion) {
     EXPECT_EQ(answer.at("blocks").get<int>(), 3); // the feed, and M2: the spindle off, the end
 }
 
+TEST(Gcode, TimeDependsOnHowCornersAreTaken) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "corner.ngc";
+    write_content(file, "G21 G90\nG1 X50 F3000\nY50\nX0\nY0\nM2\n");
+    const auto time = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"gcode", "time", file.string(), "--machine", "router-xyz", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        return ended.exit_code == 0 ? nlohmann::json::parse(ended.out).at("time_s").get<double>() : -1.0;
+    };
+    const double rest = time({"--look-ahead", "1"});
+    const double exact = time({});
+    const double rounded = time({"--path-tolerance", "1"});
+    EXPECT_NEAR(rest, 4.0 * (50.0 / 50.0 + 50.0 / 800.0), 1e-9);
+    EXPECT_LT(exact, rest);
+    EXPECT_LT(rounded, exact);
+    EXPECT_GT(time({"--junction-deviation", "0.01"}), 200.0 / 50.0);
+    EXPECT_EQ(time({"--path-tolerance", "-1"}), -1.0);
+}
+
 TEST(Gcode, TimeNeedsAMachineWithTheAxes) {
     const ScratchFolder folder;
     const auto file = folder.path() / "turn.ngc";

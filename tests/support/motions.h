@@ -45,6 +45,17 @@ inline gcode::Program random_program(const kinematics::MachineModel& machine, in
     return program;
 }
 
+/// A machine whose axes reach their greatest acceleration in 1 / `rate` seconds.
+inline kinematics::MachineModel with_jerk(const kinematics::MachineModel& machine, double rate) {
+    kinematics::MachineDescription description = machine.description();
+    for (auto* axes : {&description.table, &description.head}) {
+        for (kinematics::MachineAxis& axis : *axes) {
+            axis.max_jerk = rate * axis.max_acceleration;
+        }
+    }
+    return kinematics::MachineModel(std::move(description));
+}
+
 /// What is wrong with one axis between two samples `dt` apart; empty if nothing is.
 inline std::string limit_fault(const kinematics::MachineAxis& axis,
                                Eigen::Index n,

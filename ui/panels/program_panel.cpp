@@ -11,15 +11,20 @@ namespace millwright::panels {
 
 namespace {
 
-std::string limit_text(const motion::Trajectory::BlockLimit& limit, const gcode::Program& program) {
+std::string limit_text(const motion::Cause& limit, const gcode::Program& program) {
     switch (limit.limit) {
     case motion::Limit::standing:
         return "stands still";
     case motion::Limit::programmed_feed:
         return "programmed feed";
+    case motion::Limit::corner:
+        return "corner";
     case motion::Limit::axis_velocity:
-    case motion::Limit::axis_acceleration: {
-        const std::string what = limit.limit == motion::Limit::axis_velocity ? "velocity" : "acceleration";
+    case motion::Limit::axis_acceleration:
+    case motion::Limit::axis_jerk: {
+        const std::string what = limit.limit == motion::Limit::axis_velocity ? "velocity"
+                                 : limit.limit == motion::Limit::axis_jerk   ? "jerk"
+                                                                             : "acceleration";
         const bool known = limit.axis >= 0 && limit.axis < static_cast<int>(program.axes.size());
         return known
                    ? fmt::format("{} of {}", what, program.axes[static_cast<std::size_t>(limit.axis)].letter)

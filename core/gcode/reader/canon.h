@@ -4,6 +4,7 @@
 // as commands of their own. The reader calls a sink; nothing is kept.
 #pragma once
 
+#include "core/gcode/path_mode.h"
 #include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/tool_table.h"
 
@@ -124,8 +125,6 @@ enum class CommandKind : std::uint8_t {
     finish, ///< the text ended with %, without M2
     on_reset
 };
-
-enum class PathMode : std::uint8_t { exact_path, exact_stop, continuous };
 
 struct Command {
     CommandKind kind = CommandKind::comment;

@@ -111,6 +111,9 @@ public:
         frame_.command(command);
         set_feed(command);
         switch (command.kind) {
+        case CommandKind::set_motion_control_mode:
+            path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
+            break;
         case CommandKind::dwell:
             add(BlockKind::dwell, command.source).duration = command.value;
             break;
@@ -162,8 +165,9 @@ private:
     MachineProgram result_;
     internal::CanonFrame frame_;
     Feed feed_;
-    AxisValues at_;          ///< on the machine, mm and degrees
-    std::set<char> missing_; ///< axes that were complained about
+    std::optional<PathControl> path_; ///< none: not said yet
+    AxisValues at_;                   ///< on the machine, mm and degrees
+    std::set<char> missing_;          ///< axes that were complained about
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -239,6 +243,7 @@ private:
         Block& block = add(kind, source);
         block.named = AxisSet::all(machine_.axis_count());
         block.duration = duration;
+        block.path = path_;
         for (int n = 0; n < machine_.axis_count(); ++n) {
             const kinematics::MachineAxis& axis = machine_.axis(n);
             const double value = end[index_of(axis.letter)];

@@ -2,13 +2,19 @@
 
 #include "core/base/error.h"
 #include "core/kinematics/forward.h"
+#include "core/motion/internal/corner_speed.h"
+#include "core/motion/internal/leg.h"
+#include "core/motion/internal/profile.h"
+#include "core/motion/internal/rounding.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace millwright::motion::internal {
 
@@ -41,6 +47,14 @@ void check_axes(const Program& program, const MachineModel& machine) {
     }
 }
 
+void check_settings(const PlannerSettings& settings) {
+    expects(settings.corner_time >= 0.0 && settings.junction_deviation >= 0.0,
+            "a corner time and a junction deviation are not negative");
+    expects(settings.rounding_tolerance > 0.0 && settings.rounding_angle > 0.0,
+            "the tolerances of roundings are positive");
+    expects(settings.look_ahead >= 0, "a look-ahead is a number of blocks");
+}
+
 bool keeps_moving(BlockKind kind) {
     return kind == BlockKind::comment || kind == BlockKind::rapid || kind == BlockKind::feed;
 }
@@ -59,93 +73,190 @@ AxisPositions position_after(const Block& block, const AxisPositions& before) {
     return after;
 }
 
+/// The time over which the motion is averaged: so long that no axis that moves changes its acceleration from
+/// one limit to the other faster than its jerk allows.
+double
+filter_time(const Program& program, const std::vector<AxisLimits>& limits, const AxisPositions& start) {
+    AxisPositions moved = AxisPositions::Zero(start.size());
+    for (const Block& block : program.blocks) {
+        const AxisPositions after = position_after(block, start);
+        moved = moved.cwiseMax((after - start).cwiseAbs());
+    }
+    double time = 0.0;
+    for (int n = 0; n < static_cast<int>(start.size()); ++n) {
+        const AxisLimits& axis = limits[static_cast<std::size_t>(n)];
+        time = std::max(time, moved[n] > 0.0 ? 2.0 * axis.acceleration / axis.jerk : 0.0);
+    }
+    return time;
+}
+
 class Builder {
 public:
-    Builder(const MachineModel& machine, const PlannerSettings& settings, const AxisPositions& start)
-        : machine_(machine), settings_(settings), direction_(AxisPositions::Zero(start.size())),
-          last_tip_(kinematics::forward(machine, start).tip) {
+    Builder(const MachineModel& machine,
+            const PlannerSettings& settings,
+            const Program& program,
+            const AxisPositions& start)
+        : machine_(machine), settings_(settings), last_tip_(kinematics::forward(machine, start).tip) {
+        path_.limits = limits_of(machine);
+        path_.filter_time = filter_time(program, path_.limits, start);
+        path_.look_ahead = settings.look_ahead;
+        path_.positions.reserve(program.blocks.size() + 1);
+        path_.part_length.reserve(program.blocks.size() + 1);
+        path_.segments.reserve(program.blocks.size());
+        speeds_.reserve(program.blocks.size());
+        accelerations_.reserve(program.blocks.size());
+        path_.programmed.reserve(program.blocks.size());
         path_.positions.push_back(start);
         path_.part_length.push_back(0.0);
-    }
-
-    void reserve(std::size_t blocks) {
-        path_.positions.reserve(blocks + 1);
-        path_.part_length.reserve(blocks + 1);
-        path_.segments.reserve(blocks);
     }
 
     void add(const Block& block) {
         const AxisPositions before = path_.positions.back();
         const AxisPositions after = position_after(block, before);
         Segment segment;
+        segment.start = way_;
+        segment.before = last_ ? last_->block : -1;
         if (block.kind == BlockKind::dwell) {
             segment.standing_time = block.duration;
         }
-        if (!keeps_moving(block.kind)) {
-            speed_before_ = 0.0;
-        }
-        const AxisPositions step = after - before;
-        if (step.cwiseAbs().maxCoeff() > 0.0) {
-            move(segment, step, block);
-        }
         path_.segments.push_back(segment);
         path_.positions.push_back(after);
-        add_part_length(after, segment.length > 0.0);
+        const bool moves = (after - before).cwiseAbs().maxCoeff() > 0.0;
+        if (moves) {
+            add_move(block, before, after);
+        } else if (!keeps_moving(block.kind)) {
+            stop();
+        }
+        add_part_length(after, moves);
     }
 
-    Path take() { return std::move(path_); }
+    Path take(const Progress& progress) {
+        stop();
+        progress.check();
+        path_.speed = profile_of(speeds_, 0.0);
+        progress.check();
+        path_.acceleration = profile_of(accelerations_, 0.0);
+        return std::move(path_);
+    }
 
 private:
     const MachineModel& machine_;
     const PlannerSettings& settings_;
     Path path_;
-    AxisPositions direction_;   ///< of the last move, scaled, unit
-    double speed_before_ = 0.0; ///< top speed of the last move; 0 after a stop
+    std::vector<Zone> speeds_, accelerations_;
+    std::optional<Leg> last_; ///< the last move
+    bool open_ = false;       ///< its end has no limits yet
+    double limited_to_ = 0.0; ///< the way that has limits
+    double way_ = 0.0;        ///< up to the end of the last block
     Vec3 last_tip_;
 
-    void move(Segment& segment, const AxisPositions& step, const Block& block) {
-        AxisPositions direction = step;
-        for (int n = 0; n < machine_.axis_count(); ++n) {
-            direction[n] = step[n] / machine_.axis(n).max_acceleration;
+    Segment& segment_of(const Leg& leg) { return path_.segments[static_cast<std::size_t>(leg.block)]; }
+
+    void add_move(const Block& block, const AxisPositions& before, const AxisPositions& after) {
+        Leg leg = leg_of(machine_, path_.limits, settings_, block, before, after);
+        leg.block = path_.block_count() - 1;
+        segment_of(leg).length = leg.length;
+        if (open_) {
+            meet(leg, before);
         }
-        segment.length = direction.norm();
-        direction /= segment.length;
-        set_limits(segment, direction, block);
-        const double corner = std::min(corner_speed(direction), speed_before_);
-        segment.max_start_speed = std::min(corner, segment.max_speed);
-        direction_ = direction;
-        speed_before_ = settings_.corners == Corners::exact_stop ? 0.0 : segment.max_speed;
+        way_ += leg.length;
+        last_ = std::move(leg);
+        open_ = true;
     }
 
-    void set_limits(Segment& segment, const AxisPositions& direction, const Block& block) const {
-        segment.max_speed = std::numeric_limits<double>::infinity();
-        if (block.kind == BlockKind::feed && block.duration > 0.0) {
-            segment.max_speed = segment.length / block.duration;
-        }
-        segment.max_acceleration = std::numeric_limits<double>::infinity();
-        for (int n = 0; n < machine_.axis_count(); ++n) {
-            const double share = std::abs(direction[n]);
-            if (!(share > 0.0)) {
-                continue;
-            }
-            const kinematics::MachineAxis& axis = machine_.axis(n);
-            const double speed = axis.max_velocity / axis.max_acceleration / share;
-            if (speed < segment.max_speed) {
-                segment.max_speed = speed;
-                segment.velocity_axis = n;
-            }
-            if (1.0 / share < segment.max_acceleration) {
-                segment.max_acceleration = 1.0 / share;
-                segment.acceleration_axis = n;
-            }
+    /// The last move ends at rest.
+    void stop() {
+        if (open_) {
+            limit_last_up_to(way_);
+            limit_corner(0.0);
+            open_ = false;
         }
     }
 
-    /// In a corner each scaled velocity jumps by speed * |change of direction|, allowed is corner_time.
-    [[nodiscard]] double corner_speed(const AxisPositions& direction) const {
-        const double turn = (direction - direction_).cwiseAbs().maxCoeff();
+    void limit_last_up_to(double end) {
+        if (end > limited_to_) {
+            limit_up_to(
+                end, last_->speed, last_->speed_cause, last_->acceleration, last_->acceleration_cause);
+        }
+        add_feed(*last_, way_ - last_->length, end);
+    }
+
+    void limit_up_to(double end, double speed, Cause by, double acceleration, Cause acceleration_by) {
+        const double reach = 0.5 * path_.filter_time * speed;
+        speeds_.push_back({end, speed, reach, by});
+        accelerations_.push_back({end, acceleration, reach, acceleration_by});
+        limited_to_ = end;
+    }
+
+    void limit_corner(double speed) {
+        const double reach = 0.5 * path_.filter_time * speed;
+        speeds_.push_back({limited_to_, speed, reach, {Limit::corner, -1}});
+    }
+
+    /// The programmed speeds of a move that starts at `start`, on what of it is not done yet and before
+    /// `end`.
+    void add_feed(const Leg& leg, double start, double end) {
+        for (const FeedStep& step : leg.feed) {
+            const bool last = &step == &leg.feed.back();
+            const double until = last ? end : std::min(end, start + step.end);
+            if (until > programmed_to()) {
+                path_.programmed.push_back({until, step.speed, leg.rapid});
+            }
+        }
+    }
+    [[nodiscard]] double programmed_to() const {
+        return path_.programmed.empty() ? 0.0 : path_.programmed.back().end;
+    }
+
+    /// The corner between the last move and the next one, which starts where it ends.
+    void meet(const Leg& next, const AxisPositions& position) {
         constexpr double straight = 1e-15; // rounding of a unit vector
-        return turn > straight ? settings_.corner_time / turn : std::numeric_limits<double>::infinity();
+        const Leg& last = *last_;
+        const double turn = (next.unit - last.unit).cwiseAbs().maxCoeff();
+        const bool rounded = last.path.mode == gcode::PathMode::continuous && turn > straight;
+        if (last.path.mode == gcode::PathMode::exact_stop || (rounded && last.rapid != next.rapid)) {
+            return stop();
+        }
+        if (rounded) {
+            return round({position, last.direction, next.direction}, next);
+        }
+        limit_last_up_to(way_);
+        const double speed = corner_speed(machine_, settings_, last, next);
+        if (speed < std::min(last.speed, next.speed)) {
+            limit_corner(speed);
+        }
+    }
+
+    void round(const Corner& corner, const Leg& next) {
+        const Leg& last = *last_;
+        const RoundingTolerance tolerance{last.path.tolerance > 0.0 ? last.path.tolerance
+                                                                    : settings_.rounding_tolerance,
+                                          settings_.rounding_angle};
+        const double longest = 0.5 * std::min(last.length, next.length);
+        const double d = rounding_length(machine_, corner, tolerance, longest);
+        const RoundingLimits limits =
+            rounding_limits(path_.limits, corner, d, std::min(last.speed, next.speed), path_.filter_time);
+        segment_of(last).rounding_end = segment_of(next).rounding_start = d;
+        segment_of(last).after = next.block;
+        segment_of(next).before = last.block;
+        limit_last_up_to(std::max(limited_to_, way_ - d));
+        limit_up_to(
+            way_ + d, limits.speed, limits.speed_cause, limits.acceleration, limits.acceleration_cause);
+        path_.programmed.push_back({way_ + d, slowest_feed(last, next, d), last.rapid});
+    }
+
+    /// Of the parts of both moves that are rounded.
+    [[nodiscard]] static double slowest_feed(const Leg& last, const Leg& next, double d) {
+        double slowest = std::numeric_limits<double>::infinity();
+        for (const FeedStep& step : last.feed) {
+            slowest = step.end > last.length - d ? std::min(slowest, step.speed) : slowest;
+        }
+        double begin = 0.0;
+        for (const FeedStep& step : next.feed) {
+            slowest = begin < d ? std::min(slowest, step.speed) : slowest;
+            begin = step.end;
+        }
+        return slowest;
     }
 
     void add_part_length(const AxisPositions& position, bool moved) {
@@ -169,9 +280,8 @@ Path lay_out(const Program& program,
     check_axes(program, machine);
     expects(start.size() == machine.axis_count() && start.allFinite(),
             "a start has a finite position an axis");
-    expects(settings.corner_time >= 0.0, "a corner time is not negative");
-    Builder builder(machine, settings, start);
-    builder.reserve(program.blocks.size());
+    check_settings(settings);
+    Builder builder(machine, settings, program, start);
     constexpr std::size_t blocks_between_looks = 4096; // about 1 ms
     for (std::size_t n = 0; n < program.blocks.size(); ++n) {
         if (n % blocks_between_looks == 0) {
@@ -180,7 +290,7 @@ Path lay_out(const Program& program,
         }
         builder.add(program.blocks[n]);
     }
-    return builder.take();
+    return builder.take(progress);
 }
 
 } // namespace millwright::motion::internal

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <string>
 
 namespace millwright::kinematics {
@@ -43,6 +44,14 @@ TEST(MachineFile, ReadsDegreesIntoRadians) {
     EXPECT_EQ(machine.description().angle_formulas, AngleFormulas::rotary_tilt);
 }
 
+TEST(MachineFile, ReadsTheJerkWhereThereIsOne) {
+    const MachineModel table = read_machine("assets/machines/ac-table.json");
+    EXPECT_DOUBLE_EQ(table.axis(0).max_jerk, 50000.0);
+    EXPECT_DOUBLE_EQ(table.axis(table.axis_index('A')).max_jerk, from_degrees(16000.0));
+    const MachineModel router = read_machine("assets/machines/router-xyz.json");
+    EXPECT_EQ(router.axis(0).max_jerk, std::numeric_limits<double>::infinity());
+}
+
 TEST(MachineFile, EveryShippedMachineReads) {
     int count = 0;
     for (const auto& entry : fs::directory_iterator("assets/machines")) {
@@ -55,6 +64,7 @@ TEST(MachineFile, EveryShippedMachineReads) {
 TEST(MachineFile, FaultsAreReportedWithLineAndField) {
     EXPECT_NE(fault("\"max_velocity\": 60", "\"max_velocity\": \"fast\"").find("table[0]/max_velocity"),
               std::string::npos);
+    EXPECT_NE(fault("\"max_jerk\": 50000", "\"max_jerk\": 0").find("max_jerk"), std::string::npos);
     EXPECT_NE(fault("\"rotary\"", "\"round\"").find("'round' is neither"), std::string::npos);
     EXPECT_NE(fault("[-1, 0, 0]", "[0, 0, 0]").find("needs a length"), std::string::npos);
     EXPECT_NE(fault("\"tool_tip\"", "\"tool_top\"").find("tool_top"), std::string::npos);

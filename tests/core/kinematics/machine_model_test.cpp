@@ -1,6 +1,7 @@
 #include "core/kinematics/machine_model.h"
 
 #include "core/base/error.h"
+#include "core/kinematics/inverse.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,13 @@ TEST(MachineModel, OrdersAxesByLetterAndChainsFromTheBase) {
 TEST(MachineModel, RefusesMachinesThatAreNone) {
     EXPECT_EQ(fault([](auto&) {}), "");
     EXPECT_NE(fault([](auto& m) { m.head.pop_back(); }).find("three linear axes"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.table.pop_back(); }).find("two or no rotary"), std::string::npos);
+    EXPECT_NE(fault([](auto& m) {
+                  m.table.insert(m.table.end(), 2, m.table[0]);
+                  m.table[2].letter = 'B';
+                  m.table[3].letter = 'U';
+              }).find("three rotary ones at most"),
+              std::string::npos);
+    EXPECT_NE(fault([](auto& m) { m.table[0].max_jerk = 0.0; }).find("jerk"), std::string::npos);
     EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Y'; }).find("stands twice"), std::string::npos);
     EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Q'; }).find("none of X Y Z"), std::string::npos);
     EXPECT_NE(fault([](auto& m) { m.head[0].direction = m.head[1].direction; }).find("span"),
@@ -55,6 +62,19 @@ TEST(MachineModel, RefusesMachinesThatAreNone) {
     EXPECT_NE(fault([](auto& m) { m.tool_axis = Vec3::Zero(); }).find("tool axis"), std::string::npos);
     EXPECT_NE(fault([](auto& m) { m.bodies[0].carried_by = 'W'; }).find("axis W"), std::string::npos);
     EXPECT_NE(fault([](auto& m) { m.bodies[0].size.x() = 0.0; }).find("body"), std::string::npos);
+}
+
+TEST(MachineModel, OfOneOrThreeRotaryAxesHasNoInverse) {
+    MachineDescription description = test::machine("ac-table").description();
+    description.table.pop_back();
+    description.bodies.clear();
+    const MachineModel machine(description);
+    EXPECT_EQ(machine.axis_count(), 4);
+    EXPECT_FALSE(has_inverse(machine));
+    EXPECT_TRUE(has_inverse(test::machine("ac-table")));
+    EXPECT_TRUE(has_inverse(test::machine("router-xyz")));
+    EXPECT_THROW((void)inverse(machine, {Vec3::Zero(), Vec3::UnitZ()}, AxisPositions::Zero(4)), Error);
+    EXPECT_FALSE(at_pole(machine, Vec3::UnitZ()));
 }
 
 TEST(MachineModel, AnotherWorkpieceOffsetMovesOnlyTheWorkpiece) {

@@ -1,7 +1,9 @@
 #include "core/motion/planner.h"
 
 #include "core/base/error.h"
+#include "core/kinematics/forward.h"
 #include "tests/support/motions.h"
+#include "tests/support/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,10 +99,154 @@ TEST(Planner, TurnsACornerWithTheAllowedStepAndNoMore) {
 
 TEST(Planner, StopsInEveryCornerIfAskedTo) {
     PlannerSettings exact;
-    exact.corners = Corners::exact_stop;
+    exact.path.mode = gcode::PathMode::exact_stop;
     const double one = planned(moves({at(50.0)})).duration();
     EXPECT_NEAR(
         planned(moves({at(50.0), at(100.0), at(100.0, 50.0)}), exact).duration(), 3.0 * one, rounding_s);
+}
+
+TEST(Planner, ObeysThePathModeOfEachBlock) {
+    const double one = planned(moves({at(50.0)})).duration();
+    const double through = planned(moves({at(100.0)})).duration();
+    Program program = moves({at(50.0), at(100.0), at(150.0)});
+    program.blocks[0].path = gcode::PathControl{gcode::PathMode::exact_stop, 0.0};
+    EXPECT_NEAR(planned(program).duration(), one + through, rounding_s);
+}
+
+TEST(Planner, RoundsACornerWithoutAnyStepOfVelocity) {
+    Program program = moves({at(50.0), at(50.0, 50.0)}, 1.0);
+    const double exact = planned(program).duration();
+    program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 0.1};
+    const Trajectory rounded = planned(program);
+    EXPECT_LT(rounded.duration(), exact);
+    const double corner = rounded.end_of(0);
+    EXPECT_EQ(rounded.limit_at(corner).limit, Limit::corner);
+    EXPECT_NEAR(rounded.at(corner).velocity[0], rounded.at(corner).velocity[1], 1e-9);
+    EXPECT_LT((rounded.at(corner - 1e-7).velocity - rounded.at(corner + 1e-7).velocity).norm(), 1e-3);
+}
+
+TEST(Planner, RestsBetweenRapidAndFeedOfAContinuousPath) {
+    Program program = moves({at(50.0)});
+    test::add_move(program, at(50.0, 50.0), 1.0);
+    program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 1.0};
+    const Trajectory trajectory = planned(program);
+    EXPECT_EQ(trajectory.at(trajectory.end_of(0)).velocity.norm(), 0.0);
+    EXPECT_EQ(trajectory.at(trajectory.end_of(0)).position, at(50.0));
+}
+
+TEST(Planner, PassesACornerByJunctionDeviation) {
+    PlannerSettings settings;
+    settings.corner_rule = CornerRule::junction_deviation;
+    settings.junction_deviation = 0.02;
+    const Trajectory trajectory = planned(moves({at(50.0), at(50.0, 50.0)}), settings);
+    // A right angle: sin(45 deg); X and Y can do 1500 each, so 1500 * sqrt(2) in the direction of the change.
+    const double sine = std::sqrt(0.5);
+    const double speed = std::sqrt(1500.0 * std::sqrt(2.0) * 0.02 * sine / (1.0 - sine));
+    EXPECT_NEAR(trajectory.at(trajectory.end_of(0) - 1e-9).velocity[0], speed, 1e-4);
+}
+
+/// With a jerk that takes 1 / rate seconds to reach the acceleration.
+Trajectory planned_with_jerk(const Program& program, double rate) {
+    return plan(program, test::with_jerk(machine(), rate), {}, {});
+}
+
+TEST(Planner, NeedsForALimitOfJerkTheTimeOfItsFilterAtEachRest) {
+    const Program once = moves({at(100.0)});
+    EXPECT_NEAR(planned_with_jerk(once, 20.0).duration(), planned(once).duration() + 0.1, rounding_s);
+    Program twice = moves({at(100.0)});
+    test::add_block(twice, BlockKind::dwell);
+    twice.blocks.back().duration = 1.5;
+    test::add_move(twice, at(200.0));
+    const Trajectory trajectory = planned_with_jerk(twice, 20.0);
+    EXPECT_NEAR(trajectory.duration(), 2.0 * planned_with_jerk(once, 20.0).duration() + 1.5, rounding_s);
+    EXPECT_NEAR(trajectory.end_of(1) - trajectory.start_of(1), 1.5, rounding_s);
+    EXPECT_EQ(trajectory.at(trajectory.start_of(1)).velocity.norm(), 0.0);
+    EXPECT_EQ(trajectory.at(trajectory.end_of(1)).position, at(100.0));
+}
+
+TEST(Planner, LimitsTheJerkOnlyOfAxesThatMove) {
+    kinematics::MachineDescription description = machine().description();
+    description.table.front().max_jerk = 1e-3; // a rotary axis
+    const MachineModel slow_table(std::move(description));
+    const Program program = moves({at(100.0)});
+    EXPECT_NEAR(plan(program, slow_table, {}, {}).duration(), planned(program).duration(), rounding_s);
+}
+
+TEST(Planner, SaysThatTheJerkKeepsAMoveFromBeingFaster) {
+    const Trajectory trajectory = planned_with_jerk(moves({at(100.0)}), 20.0);
+    EXPECT_EQ(trajectory.limit_at(0.05).limit, Limit::axis_jerk);
+    EXPECT_EQ(trajectory.limit_at(0.05).axis, 0);
+    EXPECT_EQ(trajectory.limit_at(0.13).limit, Limit::axis_acceleration);
+    EXPECT_EQ(trajectory.limit_at(0.5 * trajectory.duration()).limit, Limit::axis_velocity);
+}
+
+TEST(Planner, IsNeverSlowerThanWithALookAheadOf16Blocks) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const MachineModel model = test::with_jerk(machine(), seed % 2 == 0 ? 30.0 : 1e9);
+        const Program program = test::random_program(model, 200, seed);
+        PlannerSettings settings;
+        settings.path = {seed % 3 == 0 ? gcode::PathMode::exact_path : gcode::PathMode::continuous, 0.01};
+        const double whole = plan(program, model, settings, {}).duration();
+        settings.look_ahead = 16;
+        const double sixteen = plan(program, model, settings, {}).duration();
+        EXPECT_LE(whole, sixteen * (1.0 + 1e-12)) << "seed " << seed;
+        settings.look_ahead = 1;
+        EXPECT_LT(sixteen, plan(program, model, settings, {}).duration()) << "seed " << seed;
+    }
+}
+
+TEST(Planner, IsNeverSlowerThanWithALookAheadOf16BlocksOnAnySample) {
+    const MachineModel model = test::machine("ac-table");
+    const auto samples = test::sample_programs(model);
+    EXPECT_GE(samples.size(), 20U);
+    PlannerSettings sixteen;
+    sixteen.look_ahead = 16;
+    for (const auto& [name, program] : samples) {
+        EXPECT_LE(plan(program, model, {}, {}).duration(),
+                  plan(program, model, sixteen, {}).duration() * (1.0 + 1e-12))
+            << name;
+    }
+}
+
+TEST(Planner, StopsAfterEachMoveWithALookAheadOfOneBlock) {
+    PlannerSettings settings;
+    settings.look_ahead = 1;
+    const double one = planned(moves({at(50.0)})).duration();
+    EXPECT_NEAR(planned(moves({at(50.0), at(100.0), at(150.0)}), settings).duration(), 3.0 * one, rounding_s);
+}
+
+/// A cut on a dome, each block with the feed of its tip.
+TEST(Planner, NeverTakesTheTipFasterOverThePartThanTheFeed) {
+    const MachineModel model = machine();
+    Program program = test::post_over("dome", model, 8, 8).program;
+    PlannerSettings settings;
+    settings.feed_rule = FeedRule::on_part;
+    const Trajectory trajectory = plan(program, model, settings, {});
+    double closest = 0.0;
+    for (int k = 0; k < 200'000; ++k) {
+        const Sample sample = trajectory.at(trajectory.duration() * k / 200'000);
+        const gcode::Block& block = program.blocks[static_cast<std::size_t>(sample.block)];
+        if (block.kind == BlockKind::feed) {
+            const auto J = kinematics::jacobian(model, sample.position);
+            const double speed = (J.topRows<3>() * sample.velocity).norm();
+            ASSERT_LE(speed, block.feed * (1.0 + 1e-9)) << "block " << sample.block;
+            closest = std::max(closest, speed / block.feed);
+        }
+    }
+    EXPECT_GT(closest, 0.98);
+}
+
+TEST(Planner, RefusesSettingsWithoutSense) {
+    const auto refused = [&](auto change) {
+        PlannerSettings settings;
+        change(settings);
+        EXPECT_THROW((void)planned(moves({at(1.0)}), settings), Defect);
+    };
+    refused([](PlannerSettings& s) { s.corner_time = -1.0; });
+    refused([](PlannerSettings& s) { s.junction_deviation = -1.0; });
+    refused([](PlannerSettings& s) { s.rounding_tolerance = 0.0; });
+    refused([](PlannerSettings& s) { s.rounding_angle = 0.0; });
+    refused([](PlannerSettings& s) { s.look_ahead = -1; });
 }
 
 TEST(Planner, StandsForADwellAndStopsForTheSpindleButNotForAComment) {

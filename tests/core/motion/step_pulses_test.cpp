@@ -132,9 +132,8 @@ TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
 TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
     const Trajectory whole = feeds({at(10.0), at(20.0, 10.0)});
     const StepSettings settings = hundred_a_mm();
-    const PathState somewhere = whole.state_at(0.7 * whole.duration());
-    const Trajectory braking = brake(whole, somewhere);
-    const Trajectory rest = rejoin(whole, end_state(braking));
+    const Trajectory braking = brake(whole, 0.7 * whole.duration());
+    const Trajectory rest = go_on(braking, braking.duration(), {});
     const std::int64_t steps =
         pulsed(braking, settings).axes[0].pulses + pulsed(rest, settings).axes[0].pulses;
     EXPECT_NEAR(static_cast<double>(steps), 100.0 * (20.0 - braking.at(0.0).position[0]), 2.0);

@@ -113,6 +113,7 @@ void VirtualMachine::close() noexcept {
 
 Capabilities VirtualMachine::capabilities() const {
     Capabilities able;
+    able.overrides = true;
     if (const kinematics::MachineModel* model = axes_->model()) {
         for (const kinematics::MachineAxis& axis : model->axes()) {
             able.axes.push_back({axis.letter, axis.kind});
@@ -120,6 +121,13 @@ Capabilities VirtualMachine::capabilities() const {
         able.jog = able.home = able.command = true;
     }
     return able;
+}
+
+void VirtualMachine::set_overrides(const Overrides& wanted) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->set_overrides(wanted);
+    changed_.notify_all();
 }
 
 void VirtualMachine::jog(const Jog& jog) {

@@ -59,6 +59,7 @@ public:
     void emergency_stop() override;
     void reset() override;
     void close() noexcept override;
+    void set_overrides(const Overrides& wanted) override;
     void jog(const Jog& jog) override;
     void stop_jog() override;
     void home() override;

@@ -50,6 +50,18 @@ TEST(MachineProgram, MovesAtTheFeedOfTheProgram) {
     EXPECT_EQ(xyz(moves[1]), Vec3(15, 0, 0));
 }
 
+TEST(MachineProgram, KnowsThePathModeOfEveryMove) {
+    const auto moves = moves_of(
+        read("G20 G90 F10\nG1 X1\nG64 P0.1\nX2\nG61\nX3\nG61.1\nX4\nG64\nX5\nG64 P0.02 G21\nX6\nM2\n"));
+    ASSERT_EQ(moves.size(), 6U);
+    EXPECT_EQ(moves[0].path, std::nullopt);
+    EXPECT_EQ(moves[1].path, (PathControl{PathMode::continuous, 2.54}));
+    EXPECT_EQ(moves[2].path, (PathControl{PathMode::exact_path, 0.0}));
+    EXPECT_EQ(moves[3].path, (PathControl{PathMode::exact_stop, 0.0}));
+    EXPECT_EQ(moves[4].path, (PathControl{PathMode::continuous, 0.0}));
+    EXPECT_EQ(moves[5].path, (PathControl{PathMode::continuous, 0.02}));
+}
+
 TEST(MachineProgram, KeepsTheLineOfEveryBlock) {
     const auto moves = moves_of(read("G21\n\n(nothing)\nG1 X1 F60\nG2 X3 I1\nM2\n"));
     ASSERT_GT(moves.size(), 3U);

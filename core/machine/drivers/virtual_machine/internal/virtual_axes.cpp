@@ -16,6 +16,12 @@ namespace millwright::machine::internal {
 using kinematics::AxisPositions;
 using motion::Trajectory;
 
+namespace {
+
+constexpr double percent = 0.01;
+
+}
+
 VirtualAxes::VirtualAxes(AxisPositions position, std::shared_ptr<const kinematics::MachineModel> model)
     : model_(std::move(model)), rest_position_(std::move(position)) {
     expects(rest_position_.size() > 0 && rest_position_.allFinite(), "a machine stands at a finite position");
@@ -47,7 +53,8 @@ DriverStatus VirtualAxes::status() const {
     status.spindle = spindle_rpm_ > 0.0   ? SpindleTurning::clockwise
                      : spindle_rpm_ < 0.0 ? SpindleTurning::counterclockwise
                                           : SpindleTurning::stopped;
-    status.spindle_rpm = std::abs(spindle_rpm_);
+    status.spindle_rpm = std::abs(spindle_rpm_) * percent * overrides_.spindle;
+    status.overrides = overrides_;
     status.flood = coolant_;
     if (now_ != nullptr) {
         const motion::Sample sample = now_->at(time_);
@@ -190,6 +197,7 @@ void VirtualAxes::execute(Work work, Activity activity) {
     state_ = DriverState::running;
     activity_ = activity;
     message_.clear();
+    overrides_ = {};
     switched_blocks_ = 0;
     advance(0.0);
 }
@@ -257,12 +265,10 @@ bool VirtualAxes::extend_jog(const Jog& jog) {
     }
     leg_->way = way;
     gcode::Program longer = straight_program(*model_, start, start + way, jog.speed);
-    const Trajectory planned = motion::plan(longer, *model_, {}, Progress(), start);
-    const motion::PathState state = now_->state_at(time_);
-    work_ = {std::make_shared<const gcode::Program>(std::move(longer)),
-             std::make_shared<const Trajectory>(planned),
-             nullptr};
-    follow(motion::rejoin(planned, state), DriverState::running);
+    auto planned = std::make_shared<const Trajectory>(motion::plan(longer, *model_, {}, Progress(), start));
+    Trajectory next = motion::go_on_along(planned->shared_path(), *now_, time_, {});
+    work_ = {std::make_shared<const gcode::Program>(std::move(longer)), std::move(planned), nullptr};
+    follow(std::move(next), DriverState::running);
     return true;
 }
 
@@ -272,7 +278,27 @@ void VirtualAxes::stop_jog() {
         return;
     }
     jog_ends_ = true;
-    follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::running);
+    follow(motion::brake(*now_, time_), DriverState::running);
+}
+
+void VirtualAxes::set_overrides(const Overrides& wanted) {
+    if (state_ == DriverState::disconnected) {
+        throw Error("the virtual machine is disconnected and takes no overrides");
+    }
+    constexpr int least = 1;
+    constexpr int most = 200;
+    constexpr int most_rapid = 100;
+    overrides_ = {std::clamp(wanted.feed, least, most),
+                  std::clamp(wanted.rapid, least, most_rapid),
+                  std::clamp(wanted.spindle, least, most)};
+    if (state_ == DriverState::running &&
+        (activity_ == Activity::program || activity_ == Activity::command)) {
+        follow(motion::go_on(*now_, time_, rates()), DriverState::running);
+    }
+}
+
+motion::Override VirtualAxes::rates() const {
+    return {percent * overrides_.feed, percent * overrides_.rapid};
 }
 
 void VirtualAxes::home() {
@@ -308,20 +334,20 @@ void VirtualAxes::hold() {
     if (activity_ == Activity::jog) {
         stop_jog();
     } else if (state_ == DriverState::running) {
-        follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::holding);
+        follow(motion::brake(*now_, time_), DriverState::holding);
     }
 }
 
 void VirtualAxes::resume() {
     if (state_ == DriverState::holding) {
-        follow(motion::rejoin(*work_.trajectory, now_->state_at(time_)), DriverState::running);
+        follow(motion::go_on(*now_, time_, rates()), DriverState::running);
     }
 }
 
 void VirtualAxes::stop() {
     legs_.clear();
     if (state_ == DriverState::running) {
-        follow(motion::brake(*work_.trajectory, now_->state_at(time_)), DriverState::stopping);
+        follow(motion::brake(*now_, time_), DriverState::stopping);
     } else if (state_ == DriverState::holding) {
         state_ = at_rest_ ? DriverState::stopped : DriverState::stopping;
     }

@@ -3,6 +3,7 @@
 
 #include "core/machine/driver.h"
 #include "core/machine/drivers/virtual_machine/internal/hand_control.h"
+#include "core/motion/override.h"
 
 #include <deque>
 #include <optional>
@@ -37,6 +38,7 @@ public:
     /// Without the dead man: whoever knows the time, calls stop_jog().
     void jog(const Jog& jog);
     void stop_jog();
+    void set_overrides(const Overrides& wanted);
     void home();
     int command(const std::string& lines);
     /// Brakes to rest within this call, whatever time that would take, and disconnects.
@@ -55,6 +57,7 @@ private:
     void follow(motion::Trajectory next, DriverState state);
     void execute(Work work, Activity activity);
     void execute(gcode::Program program, Activity activity);
+    [[nodiscard]] motion::Override rates() const;
     [[nodiscard]] bool begin_leg(const Leg& leg);
     [[nodiscard]] bool extend_jog(const Jog& jog);
     void take_accessories(int executed_blocks);
@@ -65,11 +68,12 @@ private:
     DriverState state_ = DriverState::disconnected;
     Activity activity_ = Activity::none;
     Work work_;
-    std::shared_ptr<const motion::Trajectory> now_; ///< the plan, or a way to leave or rejoin it; null: none
+    std::shared_ptr<const motion::Trajectory> now_; ///< the plan, or what became of it; null: none
     double time_ = 0.0;                             ///< into `now_`
     bool at_rest_ = true;
     kinematics::AxisPositions rest_position_; ///< where the axes stand if at rest
     std::string message_;
+    Overrides overrides_;
     std::deque<Leg> legs_;
     std::optional<Leg> leg_; ///< the present jog, from the start of `work_`
     bool jog_ends_ = false;  ///< it brakes

@@ -55,6 +55,48 @@ TEST(VirtualAxes, CountABlockOnlyWhenItIsCompletelyExecuted) {
     }
 }
 
+TEST(VirtualAxes, GoSlowerAndFasterAsTheyAreTold) {
+    const auto time_with = [](const Overrides& overrides) {
+        Bench bench;
+        bench.axes.start(bench.work);
+        bench.axes.set_overrides(overrides);
+        EXPECT_EQ(bench.axes.status().overrides, overrides);
+        double time = 0.0;
+        for (; bench.axes.moving(); time += 0.1) {
+            bench.axes.advance(0.1);
+        }
+        EXPECT_EQ(bench.axes.status().position, bench.job.program->blocks.back().target);
+        EXPECT_EQ(bench.axes.status().executed_blocks, bench.job.program->block_count());
+        return time;
+    };
+    const double normal = time_with({});
+    EXPECT_NEAR(normal, Bench().duration(), 0.2);
+    EXPECT_GT(time_with({.feed = 50}), 1.5 * normal);
+    EXPECT_LT(time_with({.feed = 200}), 0.8 * normal);
+    EXPECT_GT(time_with({.rapid = 10}), normal);
+}
+
+TEST(VirtualAxes, KeepOverridesThroughAHoldAndForgetThemWithTheProgram) {
+    Bench bench;
+    EXPECT_THROW(VirtualAxes(bench.job.program->start).set_overrides({}), Error);
+    bench.axes.start(bench.work);
+    bench.axes.set_overrides({.feed = 1000, .rapid = 0, .spindle = -5});
+    EXPECT_EQ(bench.axes.status().overrides, (Overrides{.feed = 200, .rapid = 1, .spindle = 1}));
+    bench.axes.advance(1.0);
+    bench.axes.hold();
+    bench.axes.set_overrides({.feed = 20});
+    bench.axes.advance(10.0);
+    EXPECT_FALSE(bench.axes.moving()) << "an override is no resume";
+    bench.axes.resume();
+    EXPECT_EQ(bench.axes.status().overrides.feed, 20);
+    bench.axes.advance(1e6);
+    const auto back =
+        motion::plan(*bench.job.program, *bench.job.machine, {}, {}, bench.axes.status().position);
+    bench.axes.start(
+        {bench.job.program, std::make_shared<const motion::Trajectory>(back), bench.job.listing});
+    EXPECT_EQ(bench.axes.status().overrides, Overrides{});
+}
+
 TEST(VirtualAxes, HoldOnThePathAndResumeToTheSameEnd) {
     std::mt19937 random(7);
     Bench first;

@@ -1,0 +1,14 @@
+// The speed through a corner that is not rounded.
+#pragma once
+
+#include "core/motion/internal/leg.h"
+
+namespace millwright::motion::internal {
+
+/// By the settings' rule for corners; infinite where the way goes straight on.
+[[nodiscard]] double corner_speed(const kinematics::MachineModel& machine,
+                                  const PlannerSettings& settings,
+                                  const Leg& before,
+                                  const Leg& after);
+
+} // namespace millwright::motion::internal

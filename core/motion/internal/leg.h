@@ -1,0 +1,39 @@
+// One move on its own: direction, limits and the speeds that the program asks for along it.
+#pragma once
+
+#include "core/gcode/program.h"
+#include "core/motion/planner.h"
+
+namespace millwright::motion::internal {
+
+/// Up to `end` of the scaled length.
+struct FeedStep {
+    double end = 0.0;
+    double speed = 0.0; ///< scaled
+};
+
+struct Leg {
+    int block = 0;
+    double length = 0.0;                 ///< scaled
+    kinematics::AxisPositions unit;      ///< scaled, of length 1
+    kinematics::AxisPositions direction; ///< by the way, in axis units
+    bool rapid = false;
+    std::vector<FeedStep> feed; ///< of a rapid: the top speed of the axes
+    double speed = 0.0;         ///< that it never exceeds, by axes and feed with the highest override
+    double acceleration = 0.0;
+    Cause speed_cause, acceleration_cause;
+    gcode::PathControl path;
+};
+
+/// The limits of a machine's axes.
+[[nodiscard]] std::vector<AxisLimits> limits_of(const kinematics::MachineModel& machine);
+
+/// The move from `from` to `to`, which must differ.
+[[nodiscard]] Leg leg_of(const kinematics::MachineModel& machine,
+                         const std::vector<AxisLimits>& limits,
+                         const PlannerSettings& settings,
+                         const gcode::Block& block,
+                         const kinematics::AxisPositions& from,
+                         const kinematics::AxisPositions& to);
+
+} // namespace millwright::motion::internal

@@ -1,0 +1,150 @@
+#include "core/motion/internal/profile.h"
+
+#include "core/base/numbers.h"
+
+#include <algorithm>
+
+namespace millwright::motion::internal {
+
+namespace {
+
+/// A piece of a zone, with the least value that is known for it.
+struct Stretch {
+    double from = 0.0, to = 0.0;
+    double value = 0.0;
+    Cause cause;
+    double own_value = 0.0; ///< of its zone
+    Cause own_cause;
+    double reach = 0.0;
+};
+
+struct Active {
+    double value = 0.0;
+    double until = 0.0;
+    Cause cause;
+};
+
+/// The zones behind that still hold. Of two that hold equally long only the lower one counts, so both value
+/// and end rise through the list.
+class Staircase {
+public:
+    void add(const Active& zone) {
+        auto place = steps_.end();
+        while (place != begin() && (place - 1)->value >= zone.value) {
+            --place;
+        }
+        if (place != begin() && (place - 1)->until >= zone.until) {
+            return;
+        }
+        auto beyond = place;
+        while (beyond != steps_.end() && beyond->until <= zone.until) {
+            ++beyond;
+        }
+        if (beyond == place) {
+            steps_.insert(place, zone);
+        } else {
+            *place = zone;
+            steps_.erase(place + 1, beyond);
+        }
+    }
+
+    void pass(double position) {
+        while (first_ < steps_.size() && !(steps_[first_].until > position)) {
+            ++first_;
+        }
+        if (first_ == steps_.size()) {
+            steps_.clear();
+            first_ = 0;
+        }
+    }
+
+    [[nodiscard]] std::vector<Active>::iterator begin() {
+        return steps_.begin() + static_cast<std::ptrdiff_t>(first_);
+    }
+    [[nodiscard]] std::vector<Active>::iterator end() { return steps_.end(); }
+
+private:
+    std::vector<Active> steps_;
+    std::size_t first_ = 0; ///< those before it are passed
+};
+
+/// Each zone's limit also on what comes after it, as far as it reaches.
+std::vector<Stretch> carried_on(const std::vector<Stretch>& stretches) {
+    std::vector<Stretch> result;
+    result.reserve(stretches.size() + stretches.size() / 2);
+    Staircase active;
+    for (const Stretch& stretch : stretches) {
+        active.pass(stretch.from);
+        double from = stretch.from;
+        for (const Active& zone : active) {
+            if (!(zone.value < stretch.value) || !(from < stretch.to)) {
+                break;
+            }
+            Stretch part = stretch;
+            part.from = from;
+            part.to = std::min(zone.until, stretch.to);
+            part.value = zone.value;
+            part.cause = zone.cause;
+            from = part.to;
+            result.push_back(part);
+        }
+        if (from < stretch.to || !(stretch.from < stretch.to)) {
+            Stretch rest = stretch;
+            rest.from = from;
+            result.push_back(rest);
+        }
+        active.add({stretch.own_value, stretch.to + stretch.reach, stretch.own_cause});
+    }
+    return result;
+}
+
+void turn_round(std::vector<Stretch>& stretches) {
+    std::ranges::reverse(stretches);
+    for (Stretch& stretch : stretches) {
+        const double from = stretch.from;
+        stretch.from = -stretch.to;
+        stretch.to = -from;
+    }
+}
+
+bool same(const Step& a, double value, const Cause& cause) {
+    return exactly_equal(a.value, value) && a.cause == cause;
+}
+
+void append(Profile& profile, double end, double value, const Cause& cause) {
+    if (!profile.empty() && same(profile.back(), value, cause)) {
+        profile.back().end = end;
+    } else {
+        profile.push_back({end, value, cause});
+    }
+}
+
+} // namespace
+
+Profile profile_of(const std::vector<Zone>& zones, double begin) {
+    Profile profile;
+    profile.reserve(zones.size());
+    if (std::ranges::all_of(zones, [](const Zone& zone) { return !(zone.reach > 0.0); })) {
+        for (const Zone& zone : zones) {
+            append(profile, zone.end, zone.value, zone.cause);
+        }
+        return profile;
+    }
+    std::vector<Stretch> stretches;
+    stretches.reserve(zones.size());
+    double from = begin;
+    for (const Zone& zone : zones) {
+        stretches.push_back({from, zone.end, zone.value, zone.cause, zone.value, zone.cause, zone.reach});
+        from = zone.end;
+    }
+    stretches = carried_on(stretches);
+    turn_round(stretches);
+    stretches = carried_on(stretches);
+    turn_round(stretches);
+    for (const Stretch& stretch : stretches) {
+        append(profile, stretch.to, stretch.value, stretch.cause);
+    }
+    return profile;
+}
+
+} // namespace millwright::motion::internal

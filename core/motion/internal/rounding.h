@@ -1,0 +1,43 @@
+// Roundings of corners: how large they may be and how fast they can be gone through. Between two points at
+// the scaled distance d from the corner the direction turns from that of one block to that of the other by
+// w(u) = 3 u^2 - 2 u^3 with the share u of the way; no point is further from its place on the programmed
+// path than 3/16 d |change of direction| (docs/reference/motion.md#roundings).
+#pragma once
+
+#include "core/motion/planner.h"
+
+namespace millwright::motion::internal {
+
+/// Two straight ways that meet. Directions by the scaled way, in axis units: mm, rad.
+struct Corner {
+    kinematics::AxisPositions position;
+    kinematics::AxisPositions before, after;
+};
+
+struct RoundingTolerance {
+    double tip = 0.0;   ///< mm
+    double angle = 0.0; ///< of each rotary axis, rad
+};
+
+/// The greatest d that keeps the tip on the part within its tolerance of where it would be on the programmed
+/// path, and each rotary axis within its own; at most `longest`.
+[[nodiscard]] double rounding_length(const kinematics::MachineModel& machine,
+                                     const Corner& corner,
+                                     const RoundingTolerance& tolerance,
+                                     double longest);
+
+/// Speed and acceleration along the way that keep all axes within their limits on a rounding.
+struct RoundingLimits {
+    double speed = 0.0;
+    double acceleration = 0.0;
+    Cause speed_cause, acceleration_cause;
+};
+
+/// `fastest` is what the blocks themselves allow; `filter_time` as in Path.
+[[nodiscard]] RoundingLimits rounding_limits(const std::vector<AxisLimits>& limits,
+                                             const Corner& corner,
+                                             double d,
+                                             double fastest,
+                                             double filter_time);
+
+} // namespace millwright::motion::internal
