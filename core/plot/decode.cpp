@@ -1,0 +1,150 @@
+#include "core/plot/decode.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::plot {
+namespace {
+
+void check(const DecodeSettings& settings) {
+    const auto positive = [](double value, const char* what) {
+        if (!(value > 0.0) || !std::isfinite(value)) {
+            throw Error(fmt::format("the {} is {}; it has to be above 0", what, value));
+        }
+    };
+    positive(settings.velocity, "velocity");
+    positive(settings.period, "period");
+    positive(settings.travel_velocity.value_or(1.0), "velocity with the pen up");
+    positive(settings.plunge_velocity.value_or(1.0), "velocity up and down");
+    positive(settings.velocity * settings.period, "step of a period");
+    if (!std::isfinite(settings.pen_up_z) || !std::isfinite(settings.pen_down_z)) {
+        throw Error("the height of the pen is no number");
+    }
+}
+
+/// Eq. 3-3 with a whole number of samples.
+double sample_count(double q, SampleRounding rounding) {
+    constexpr double slack = 1e-9; // of a step: 4 mm at 0.4 mm are 10 steps, whatever the last bit says
+    switch (rounding) {
+    case SampleRounding::down:
+        return std::max(1.0, std::floor(q + slack));
+    case SampleRounding::nearest:
+        return std::max(1.0, std::round(q));
+    case SampleRounding::up:
+    case SampleRounding::exact:
+        return std::max(1.0, std::ceil(q - slack));
+    }
+    return 1.0;
+}
+
+class Decoder {
+public:
+    Decoder(const DecodeSettings& settings, const Vec2& start) : settings_(settings) {
+        points_.emplace_back(start.x(), start.y(), settings.pen_up_z);
+    }
+
+    void travel(const Vec2& to) {
+        lift(settings_.pen_up_z);
+        segment(at(to), settings_.travel_velocity.value_or(settings_.velocity), settings_.rounding);
+    }
+
+    void stroke(const Stroke& stroke) {
+        travel(stroke.points.front());
+        lift(settings_.pen_down_z);
+        if (settings_.mode == DecodeMode::path) {
+            whole_path(stroke);
+            return;
+        }
+        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+            segment(at(stroke.points[n]), settings_.velocity, settings_.rounding);
+        }
+    }
+
+    void raise() { lift(settings_.pen_up_z); }
+
+    std::vector<Vec3> take() { return std::move(points_); }
+
+private:
+    [[nodiscard]] Vec3 at(const Vec2& p) const { return {p.x(), p.y(), points_.back().z()}; }
+
+    void lift(double z) {
+        const Vec3 here = points_.back();
+        segment({here.x(), here.y(), z},
+                settings_.plunge_velocity.value_or(settings_.velocity),
+                settings_.rounding);
+    }
+
+    /// Eqs 3-3 to 3-7. The points are computed from the start and not added up, so that nothing drifts.
+    void segment(const Vec3& to, double velocity, SampleRounding rounding) {
+        const Vec3 from = points_.back();
+        const double distance = (to - from).norm();
+        if (!(distance > 0.0)) {
+            return;
+        }
+        const double q = distance / (velocity * settings_.period);
+        const double count = sample_count(q, rounding);
+        reserve(count);
+        const double step = rounding == SampleRounding::exact ? 1.0 / q : 1.0 / count;
+        for (double n = 1.0; n < count; n += 1.0) {
+            points_.emplace_back(from + (n * step) * (to - from));
+        }
+        points_.push_back(to);
+    }
+
+    /// Points at whole multiples of the step along the stroke.
+    void whole_path(const Stroke& stroke) {
+        const double step = settings_.velocity * settings_.period;
+        reserve(length(stroke) / step);
+        const double z = settings_.pen_down_z;
+        double passed = 0.0; // length of the stroke up to the segment
+        double k = 1.0;      // the next multiple
+        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+            const Vec2& a = stroke.points[n - 1];
+            const Vec2& b = stroke.points[n];
+            const double distance = (b - a).norm();
+            for (; k * step < passed + distance; k += 1.0) {
+                const Vec2 p = a + (k * step - passed) / distance * (b - a);
+                points_.emplace_back(p.x(), p.y(), z);
+            }
+            passed += distance;
+        }
+        const Vec3 end = at(stroke.points.back());
+        constexpr double same = 1e-9; // of a step
+        if ((points_.back() - end).norm() > same * step) {
+            points_.push_back(end);
+        } else {
+            points_.back() = end;
+        }
+    }
+
+    void reserve(double count) const {
+        if (!(static_cast<double>(points_.size()) + count <= static_cast<double>(settings_.most_points))) {
+            throw Error(fmt::format("more than {} points: the velocity times the period is too small",
+                                    settings_.most_points));
+        }
+    }
+
+    const DecodeSettings& settings_;
+    std::vector<Vec3> points_;
+};
+
+} // namespace
+
+std::vector<Vec3> decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
+    check(settings);
+    Decoder decoder(settings, start);
+    for (const Stroke& stroke : strokes) {
+        decoder.stroke(stroke);
+    }
+    decoder.raise();
+    if (settings.end) {
+        decoder.travel(*settings.end);
+    }
+    return decoder.take();
+}
+
+} // namespace millwright::plot

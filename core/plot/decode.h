@@ -1,0 +1,47 @@
+// Strokes as points for a table that takes one point a sampling period: equally far apart on the path, so
+// that its speed is constant. Lengths mm, speeds mm/s, times s. Source: KMITL thesis, HPGL decoder and
+// constant-velocity control of an XYZ table, ch. 3, eqs 3-1 to 3-7.
+#pragma once
+
+#include "core/plot/strokes.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace millwright::plot {
+
+/// How the number of samples on a segment, S / (V T), becomes a whole one.
+enum class SampleRounding {
+    down,
+    nearest,
+    up,
+    exact ///< steps of exactly V T and a shorter last one
+};
+
+enum class DecodeMode {
+    segments, ///< the thesis: each segment has a whole number of equal steps, at least one
+    path ///< steps of exactly V T along the whole stroke, the rest carried over its corners; a shorter last
+         ///< one
+};
+
+struct DecodeSettings {
+    double velocity = 10.0;                ///< along the path with the pen down, > 0
+    double period = 0.01;                  ///< between points, > 0
+    std::optional<double> travel_velocity; ///< with the pen up; not given: as with the pen down
+    std::optional<double> plunge_velocity; ///< up and down; not given: as with the pen down
+    double pen_up_z = 0.0;                 ///< the thesis has 0 for both
+    double pen_down_z = 0.0;
+    DecodeMode mode = DecodeMode::segments;
+    SampleRounding rounding = SampleRounding::nearest; ///< of segments
+    std::optional<Vec2> end = std::nullopt;                           ///< where to go with the pen up behind the last stroke
+    std::int64_t most_points = 50'000'000;
+};
+
+/// The points from `start` (pen up) on, one a period. The end of each segment (mode segments) or stroke (mode
+/// path) is exactly hit. Without strokes and `end` there is `start` alone. Throws Error for a speed, period
+/// or height that is none, and for more points than are allowed.
+[[nodiscard]] std::vector<Vec3>
+decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start = Vec2::Zero());
+
+} // namespace millwright::plot

@@ -1,0 +1,26 @@
+// The point file of the table: one point a line, X, Y, Z in mm, commas between, as the KMITL thesis on the
+// HPGL decoder of an XYZ table prints it (two decimals).
+#pragma once
+
+#include "core/base/error.h"
+#include "core/geometry/vectors.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::plot {
+
+/// Throws Defect if a coordinate is not finite.
+[[nodiscard]] std::string point_file_text(const std::vector<Vec3>& points, int decimals = 2);
+
+struct PointFile {
+    std::vector<Vec3> points;
+    std::vector<Diagnostic> diagnostics; ///< a bad line each, with its number; the first 100
+};
+
+/// Reads the points; blank lines are passed over, lines that are no point are left out and reported.
+[[nodiscard]] PointFile read_points(std::string_view text, const std::filesystem::path& file);
+
+} // namespace millwright::plot

@@ -1,0 +1,35 @@
+// How long a plot takes to cut, and how far the tool goes, before anything is sent. mm, mm/s, s.
+#pragma once
+
+#include "core/plot/strokes.h"
+
+#include <string>
+
+namespace millwright::plot {
+
+/// Speeds of the machine without acceleration. The values explain the two jobs of the KMITL master's thesis
+/// of 2006 whose geometry is known: 214 s for a square of 412 mm, 193 s for a circle of 323.58 mm.
+struct TimeModel {
+    double cutting = 2.0;     ///< > 0
+    double travelling = 10.0; ///< pen up, > 0
+    double lifting = 6.0;     ///< going down and up once, s, >= 0
+};
+
+struct WorkTime {
+    double cut_length = 0.0;
+    double travel_length = 0.0;
+    int runs = 0; ///< times the tool goes down
+    double seconds = 0.0;
+
+    /// The distance that the thesis shows: all but up and down.
+    [[nodiscard]] double distance() const { return cut_length + travel_length; }
+};
+
+/// From `start` through the strokes in their order and back to `end`. Throws Error for a speed that is none.
+[[nodiscard]] WorkTime
+work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end);
+
+/// m:ss, or h:mm:ss from an hour on; seconds rounded.
+[[nodiscard]] std::string minutes_and_seconds(double seconds);
+
+} // namespace millwright::plot

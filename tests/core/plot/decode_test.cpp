@@ -1,0 +1,183 @@
+#include "core/plot/decode.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/plot/point_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace millwright::plot {
+namespace {
+
+Strokes diagonal() {
+    return {{.pen = 1, .points = {{0.0, 0.0}, {10.0, 10.0}}}};
+}
+
+DecodeSettings steps_of(double step) {
+    DecodeSettings settings;
+    settings.velocity = step * 100.0;
+    settings.period = 0.01;
+    return settings;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+// The 16 points that the thesis prints of 36.
+TEST(Decoding, PointFileIsThatOfTheThesis) {
+    const std::map<std::size_t, std::string> printed = {{0, "0.00"},
+                                                        {1, "0.29"},
+                                                        {2, "0.57"},
+                                                        {3, "0.86"},
+                                                        {4, "1.14"},
+                                                        {5, "1.43"},
+                                                        {6, "1.71"},
+                                                        {7, "2.00"},
+                                                        {28, "8.00"},
+                                                        {29, "8.29"},
+                                                        {30, "8.57"},
+                                                        {31, "8.86"},
+                                                        {32, "9.14"},
+                                                        {33, "9.43"},
+                                                        {34, "9.71"},
+                                                        {35, "10.00"}};
+    for (const auto rounding : {SampleRounding::down, SampleRounding::nearest}) {
+        DecodeSettings settings = steps_of(0.4);
+        settings.rounding = rounding;
+        const auto lines = lines_of(point_file_text(decode(diagonal(), settings)));
+        ASSERT_EQ(lines.size(), 36U);
+        for (const auto& [k, value] : printed) {
+            EXPECT_EQ(lines[k], value + "," + value + ",0.00") << k;
+        }
+    }
+}
+
+TEST(Decoding, RoundingUpAndExactTakeOneStepMore) {
+    DecodeSettings settings = steps_of(0.4);
+    settings.rounding = SampleRounding::up;
+    EXPECT_EQ(decode(diagonal(), settings).size(), 37U);
+    settings.rounding = SampleRounding::exact;
+    const auto points = decode(diagonal(), settings);
+    ASSERT_EQ(points.size(), 37U);
+    for (std::size_t n = 1; n + 1 < points.size(); ++n) {
+        EXPECT_NEAR((points[n] - points[n - 1]).norm(), 0.4, 1e-12);
+    }
+    EXPECT_EQ(points.back(), Vec3(10.0, 10.0, 0.0));
+}
+
+// The speed of a segment is wrong by 1 / N at the most, as the digest of eq. 3-3 says; a short segment has N
+// = 1.
+TEST(Decoding, SegmentsKeepTheErrorBoundOfTheirRounding) {
+    for (double size = 0.05; size < 20.0; size += 0.173) {
+        const Strokes line = {{.pen = 1, .points = {{0.0, 0.0}, {size, 0.0}}}};
+        DecodeSettings settings = steps_of(0.4);
+        settings.rounding = SampleRounding::down;
+        const auto points = decode(line, settings);
+        const double n = static_cast<double>(points.size() - 1);
+        ASSERT_GE(n, 1.0);
+        const double ratio = size / n / 0.4;
+        EXPECT_LT(ratio, 1.0 + 1.0 / n);
+        EXPECT_GE(ratio, size < 0.4 ? 0.0 : 1.0 - 1e-9);
+        EXPECT_EQ(points.back().x(), size);
+    }
+}
+
+Stroke circle_of_chords(double radius, int count) {
+    Stroke stroke;
+    for (int n = 0; n <= count; ++n) {
+        const double angle = 2.0 * pi * n / count;
+        stroke.points.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    return stroke;
+}
+
+// Chords of 0.3 mm, shorter than a step of 0.4 mm: constant speed needs the whole path.
+TEST(Decoding, WholePathsHaveStepsThatAreAllAlike) {
+    const Stroke circle = circle_of_chords(20.0, 419);
+    DecodeSettings settings = steps_of(0.4);
+    settings.mode = DecodeMode::path;
+    const auto points = decode({circle}, settings, circle.points.front());
+    const double total = length(circle);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(std::ceil(total / 0.4)) + 1);
+    // Each point is k steps from the start, measured along the polyline by brute force.
+    std::size_t segment = 1;
+    double passed = 0.0;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const Vec2 p = points[k].head<2>();
+        const auto rest = [&] {
+            const Vec2 a = circle.points[segment - 1];
+            const Vec2 b = circle.points[segment];
+            return (p - a).norm() + (b - p).norm() - (b - a).norm();
+        };
+        while (rest() > 1e-9) {
+            passed += (circle.points[segment] - circle.points[segment - 1]).norm();
+            ASSERT_LT(++segment, circle.points.size());
+        }
+        EXPECT_NEAR(passed + (p - circle.points[segment - 1]).norm(), 0.4 * static_cast<double>(k), 1e-6);
+    }
+    EXPECT_EQ(Vec2(points.back().head<2>()), circle.points.back());
+}
+
+TEST(Decoding, PenIsLiftedSampledAndTravelsAtItsOwnSpeed) {
+    DecodeSettings settings;
+    settings.velocity = 10.0;
+    settings.period = 0.1; // steps of 1 mm, 2 mm in the air, 0.5 mm up and down
+    settings.travel_velocity = 20.0;
+    settings.plunge_velocity = 5.0;
+    settings.pen_up_z = 2.0;
+    settings.end = Vec2(0.0, 0.0);
+    const auto points = decode({{.pen = 1, .points = {{4.0, 0.0}, {7.0, 0.0}}}}, settings);
+    ASSERT_EQ(points.size(), 1U + 2U + 4U + 3U + 4U + 4U); // 7 mm back are 3.5 steps, rounded to 4
+    EXPECT_EQ(points[0], Vec3(0.0, 0.0, 2.0));
+    EXPECT_EQ(points[1], Vec3(2.0, 0.0, 2.0));
+    EXPECT_EQ(points[3], Vec3(4.0, 0.0, 1.5));
+    EXPECT_EQ(points[6], Vec3(4.0, 0.0, 0.0));
+    EXPECT_EQ(points[9], Vec3(7.0, 0.0, 0.0));
+    EXPECT_EQ(points[13], Vec3(7.0, 0.0, 2.0));
+    EXPECT_EQ(points.back(), Vec3(0.0, 0.0, 2.0));
+}
+
+TEST(Decoding, RefusesWhatIsNoSpeedAndTooManyPoints) {
+    for (const double wrong : {0.0, -1.0, std::nan("")}) {
+        DecodeSettings settings;
+        settings.velocity = wrong;
+        EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
+    }
+    DecodeSettings settings = steps_of(1e-12);
+    EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
+}
+
+TEST(PointFiles, AreReadWithAndWithoutBlankLines) {
+    const auto points = decode(diagonal(), steps_of(0.4));
+    std::string text = point_file_text(points);
+    const PointFile plain = read_points(text, "a.csv");
+    EXPECT_EQ(plain.points.size(), 36U);
+    std::string spaced;
+    for (const char c : text) {
+        spaced += c == '\n' ? std::string("\r\n\r\n") : std::string(1, c);
+    }
+    EXPECT_EQ(read_points(spaced, "a.csv").points, plain.points);
+    EXPECT_EQ(point_file_text(plain.points), text);
+}
+
+TEST(PointFiles, BadLinesAreReportedByTheirNumber) {
+    const PointFile read = read_points("1,2,3\n\n1;2;3\n4,5\n6,7,8,9\n1,2,nan\n7,8,9", "a.csv");
+    EXPECT_EQ(read.points, (std::vector<Vec3>{{1.0, 2.0, 3.0}, {7.0, 8.0, 9.0}}));
+    ASSERT_EQ(read.diagnostics.size(), 4U);
+    EXPECT_EQ(read.diagnostics[0].place.line, 3);
+    EXPECT_EQ(read.diagnostics[3].place.line, 6);
+}
+
+} // namespace
+} // namespace millwright::plot

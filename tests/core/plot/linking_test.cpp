@@ -1,0 +1,120 @@
+// Gap linking against the numbers computed from the listings of the KMITL master's thesis of 2006.
+#include "core/plot/linking.h"
+
+#include "core/base/error.h"
+#include "core/plot/hpgl/reader.h"
+#include "core/plot/work_time.h"
+#include "tests/core/plot/thesis_drawings.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::plot {
+namespace {
+
+Strokes strokes_of(const std::string& hpgl) {
+    return read_hpgl(hpgl, "thesis.plt").strokes;
+}
+
+Linked linked(const Strokes& strokes, double distance) {
+    return link(strokes, {.distance = distance});
+}
+
+TEST(GapLinking, HatchesOfTheThesisJoinAsComputed) {
+    const Linked fb = linked(strokes_of(test::hatch_fb()), 3.0);
+    EXPECT_EQ(fb.strokes.size(), 1U);
+    EXPECT_EQ(fb.links, 5);
+    EXPECT_NEAR(fb.link_length, 1.6 + 1.575 + 1.6 + 1.575 + 1.6, 1e-9);
+
+    const Strokes fcd = strokes_of(test::hatch_fc_fd());
+    EXPECT_EQ(linked(fcd, 3.0).links, 8);
+    EXPECT_EQ(linked(fcd, 3.0).strokes.size(), 5U);
+    EXPECT_EQ(linked(fcd, 3.02).links, 9);
+    EXPECT_EQ(linked(fcd, 3.02).strokes.size(), 4U);
+}
+
+TEST(GapLinking, PenUpStepOfTheListingJoinsAtThreeAndStaysAtLess) {
+    const Strokes strokes = strokes_of(test::listing_later_part());
+    EXPECT_EQ(linked(strokes, 3.0).strokes.size(), 1U);
+    EXPECT_EQ(linked(strokes, 2.7).strokes.size(), 2U);
+}
+
+TEST(GapLinking, IsStrict) {
+    const Strokes apart = {{.pen = 1, .points = {{0.0, 0.0}, {1.0, 0.0}}},
+                           {.pen = 1, .points = {{4.0, 0.0}, {5.0, 0.0}}}};
+    EXPECT_EQ(linked(apart, 3.0).links, 0);
+    EXPECT_EQ(linked(apart, 3.0000001).links, 1);
+}
+
+TEST(GapLinking, KeepsTheWholeLength) {
+    const Strokes strokes = strokes_of(test::hatch_fc_fd());
+    const Vec2 origin = Vec2::Zero();
+    const double before = draw_length(strokes) + air_length(strokes, origin, origin);
+    const Strokes joined = linked(strokes, 3.0).strokes;
+    EXPECT_NEAR(draw_length(joined) + air_length(joined, origin, origin), before, 1e-9);
+}
+
+TEST(GapLinking, NeverJoinsTwoPensOrADot) {
+    const Strokes strokes = {{.pen = 1, .points = {{0.0, 0.0}, {1.0, 0.0}}},
+                             {.pen = 2, .points = {{1.1, 0.0}, {2.0, 0.0}}},
+                             {.pen = 2, .points = {{2.1, 0.0}}},
+                             {.pen = 2, .points = {{2.2, 0.0}, {3.0, 0.0}}}};
+    EXPECT_EQ(linked(strokes, 3.0).strokes, strokes);
+}
+
+// A U: hatch lines end on both sides of the notch, and the short way between them leads through it.
+TEST(GapLinking, SafeModeRefusesALinkThatLeavesTheRegion) {
+    const Region notched = {{{0.0, 0.0},
+                             {10.0, 0.0},
+                             {10.0, 10.0},
+                             {6.0, 10.0},
+                             {6.0, 4.0},
+                             {4.0, 4.0},
+                             {4.0, 10.0},
+                             {0.0, 10.0}}};
+    const Strokes strokes = {{.pen = 1, .points = {{0.0, 6.0}, {4.0, 6.0}}},
+                             {.pen = 1, .points = {{6.0, 6.0}, {10.0, 6.0}}},
+                             {.pen = 1, .points = {{10.0, 7.5}, {6.0, 7.5}}}};
+    EXPECT_EQ(linked(strokes, 3.0).links, 2);
+    const Linked safe = link(strokes, {.distance = 3.0, .inside = notched});
+    EXPECT_EQ(safe.links, 1);
+    EXPECT_EQ(safe.refused, 1);
+    EXPECT_EQ(safe.strokes.size(), 2U);
+    // By brute force: no point of a linked stroke is outside.
+    for (const Stroke& stroke : safe.strokes) {
+        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+            for (double t = 0.01; t < 1.0; t += 0.01) {
+                const Vec2 p = stroke.points[n - 1] + t * (stroke.points[n] - stroke.points[n - 1]);
+                EXPECT_TRUE(contains(notched, p) || std::abs(p.x() - 10.0) < 1e-9);
+            }
+        }
+    }
+}
+
+TEST(GapLinking, ClosedStrokesEncloseARegion) {
+    const Strokes strokes = strokes_of("SP1;PU0,0;PD400,0,400,400,0,400,0,0;PU100,100;PD200,100;");
+    const Region region = enclosed(strokes);
+    ASSERT_EQ(region.size(), 1U);
+    EXPECT_TRUE(contains(region, {5.0, 5.0}));
+    EXPECT_FALSE(contains(region, {15.0, 5.0}));
+    EXPECT_THROW(static_cast<void>(linked(strokes, -1.0)), Error);
+}
+
+// The two jobs whose geometry is known: travel 19 mm and 249.42 mm. The thesis shows 214 s and 193 s.
+TEST(WorkTimes, AreThoseOfTheThesis) {
+    const Strokes square = {
+        {.pen = 1, .points = {{9.5, 0.0}, {112.5, 0.0}, {112.5, 103.0}, {9.5, 103.0}, {9.5, 0.0}}}};
+    const WorkTime time = work_time(square, {}, {0.0, 0.0}, {0.0, 0.0});
+    EXPECT_NEAR(time.cut_length, 412.0, 1e-9);
+    EXPECT_NEAR(time.travel_length, 19.0, 1e-9);
+    EXPECT_NEAR(time.seconds, 214.0, 1.0);
+    EXPECT_NEAR(time.distance(), 431.0, 1e-9);
+    const Strokes circle = {
+        {.pen = 1, .points = {{124.71, 0.0}, {124.71 - 323.58 / 2.0, 0.0}, {124.71, 0.0}}}};
+    EXPECT_NEAR(work_time(circle, {}, {0.0, 0.0}, {0.0, 0.0}).seconds, 193.0, 1.0);
+    EXPECT_EQ(minutes_and_seconds(time.seconds), "3:34");
+    EXPECT_EQ(minutes_and_seconds(2465.0), "41:05");
+    EXPECT_EQ(minutes_and_seconds(16823.0), "4:40:23");
+}
+
+} // namespace
+} // namespace millwright::plot
