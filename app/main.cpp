@@ -4,6 +4,7 @@
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
 #include "app/commands/plan_command.h"
+#include "app/commands/plot_command.h"
 #include "app/commands/render_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/send_command.h"
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
     add_cordic_command(app, chosen);
+    add_plot_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {

@@ -34,7 +34,7 @@ struct DecodeSettings {
     double pen_down_z = 0.0;
     DecodeMode mode = DecodeMode::segments;
     SampleRounding rounding = SampleRounding::nearest; ///< of segments
-    std::optional<Vec2> end = std::nullopt;                           ///< where to go with the pen up behind the last stroke
+    std::optional<Vec2> end = std::nullopt;            ///< where to go with the pen up behind the last stroke
     std::int64_t most_points = 50'000'000;
 };
 

@@ -1,0 +1,284 @@
+#include "app/commands/plot_command.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/gcode/plot_program.h"
+#include "core/gcode/writer.h"
+#include "core/plot/cut_path.h"
+#include "core/plot/decode.h"
+#include "core/plot/hpgl/reader.h"
+#include "core/plot/linking.h"
+#include "core/plot/ordering.h"
+#include "core/plot/point_file.h"
+#include "core/plot/work_time.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+using plot::DecodeMode;
+using plot::Plot;
+using plot::SampleRounding;
+using plot::Strokes;
+
+const std::map<std::string, SampleRounding> roundings = {{"down", SampleRounding::down},
+                                                         {"nearest", SampleRounding::nearest},
+                                                         {"up", SampleRounding::up},
+                                                         {"exact", SampleRounding::exact}};
+const std::map<std::string, DecodeMode> modes = {{"segments", DecodeMode::segments},
+                                                 {"path", DecodeMode::path}};
+
+struct Options {
+    std::string file;
+    std::string out;
+    double unit = plot::nominal_unit.x;
+    bool strict = false;
+    bool json = false;
+    std::optional<double> arc_tolerance;
+    plot::DecodeSettings decode;
+    int decimals = 2;
+    double link = 0.0;
+    bool inside = false;
+    bool order = false;
+    double depth = 1.0;
+    int passes = 1;
+    double feed_mm_per_min = 600.0;
+    double plunge_mm_per_min = 120.0;
+    double safe_height = 5.0;
+    double spindle_rpm = 10'000.0;
+};
+
+Plot read(const Options& options) {
+    if (!(options.unit > 0.0)) {
+        throw Error(fmt::format("a plotter unit of {} mm; it has to be above 0", options.unit));
+    }
+    plot::ReaderSettings settings;
+    settings.unit = {.x = options.unit, .y = options.unit};
+    settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
+    settings.arc_tolerance = options.arc_tolerance;
+    return plot::read_hpgl_file(options.file, settings);
+}
+
+void print_diagnostics(const Plot& plot) {
+    for (const Diagnostic& diagnostic : plot.diagnostics) {
+        fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));
+    }
+    if (plot.more_diagnostics > 0) {
+        fmt::print(stderr, "millwright: and {} more\n", plot.more_diagnostics);
+    }
+    for (const plot::LeftOut& left_out : plot.left_out) {
+        fmt::print(stderr, "millwright: {} {} left out: {}\n", left_out.count, left_out.name, left_out.why);
+    }
+}
+
+/// A plot that is to become something else has to have strokes.
+Plot read_to_use(const Options& options) {
+    Plot plot = read(options);
+    print_diagnostics(plot);
+    if (plot.strokes.empty()) {
+        throw Error("there is nothing to draw in it", options.file);
+    }
+    return plot;
+}
+
+plot::WorkTime time_of(const Strokes& strokes) {
+    return plot::work_time(strokes, {}, Vec2::Zero(), Vec2::Zero());
+}
+
+nlohmann::ordered_json json_of(const Plot& plot) {
+    nlohmann::ordered_json answer;
+    answer["commands"] = plot.commands;
+    answer["pens"] = nlohmann::ordered_json::array();
+    std::map<int, double> lengths;
+    for (const plot::Stroke& stroke : plot.strokes) {
+        lengths[stroke.pen] += plot::length(stroke);
+    }
+    for (const auto& [pen, length] : lengths) {
+        answer["pens"].push_back(pen);
+    }
+    const auto box = plot::extents(plot.strokes);
+    answer["extents_mm"] = nullptr;
+    if (box) {
+        answer["extents_mm"] = {box->lower.x(), box->lower.y(), box->upper.x(), box->upper.y()};
+    }
+    answer["draw_mm"] = plot::draw_length(plot.strokes);
+    answer["air_mm"] = plot.air;
+    answer["time_s"] = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end).seconds;
+    answer["strokes"] = plot.strokes.size();
+    answer["pen_use"] = nlohmann::ordered_json::array();
+    for (const auto& [pen, use] : plot.pens) {
+        answer["pen_use"].push_back(
+            {{"pen", pen}, {"draw_mm", lengths[pen]}, {"speed_mm_s", use.speed}, {"width_mm", use.width}});
+    }
+    answer["left_out"] = nlohmann::ordered_json::array();
+    for (const plot::LeftOut& left_out : plot.left_out) {
+        answer["left_out"].push_back(
+            {{"command", left_out.name}, {"count", left_out.count}, {"why", left_out.why}});
+    }
+    answer["diagnostics"] = nlohmann::ordered_json::array();
+    for (const Diagnostic& diagnostic : plot.diagnostics) {
+        answer["diagnostics"].push_back({{"byte", diagnostic.place.byte}, {"message", diagnostic.message}});
+    }
+    answer["more_diagnostics"] = plot.more_diagnostics;
+    return answer;
+}
+
+int info(const Options& options) {
+    const Plot plot = read(options);
+    if (options.json) {
+        fmt::print("{}\n",
+                   json_of(plot).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return 0;
+    }
+    print_diagnostics(plot);
+    const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
+    fmt::print("{} commands, {} strokes of {} pens\n",
+               plot.commands,
+               plot.strokes.size(),
+               plot::levels_for(plot.strokes).size());
+    if (const auto box = plot::extents(plot.strokes)) {
+        fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm\n",
+                   box->lower.x(),
+                   box->upper.x(),
+                   box->lower.y(),
+                   box->upper.y());
+    }
+    fmt::print("draws {:.3f} m, {:.3f} m in the air, {} min\n",
+               time.cut_length / 1000.0,
+               plot.air / 1000.0,
+               plot::minutes_and_seconds(time.seconds));
+    return 0;
+}
+
+int decode(const Options& options) {
+    const Plot plot = read_to_use(options);
+    const std::vector<Vec3> points = plot::decode(plot.strokes, options.decode);
+    write_file(options.out, plot::point_file_text(points, options.decimals));
+    fmt::print("{} points, {:.3f} s\n",
+               points.size(),
+               static_cast<double>(points.size() - 1) * options.decode.period);
+    return 0;
+}
+
+void print_time(const char* what, const plot::WorkTime& time) {
+    fmt::print("{}: {:.3f} m, {} min, {} times down\n",
+               what,
+               time.distance() / 1000.0,
+               plot::minutes_and_seconds(time.seconds),
+               time.runs);
+}
+
+int toolpath(const Options& options) {
+    const Plot plot = read_to_use(options);
+    print_time("as drawn", time_of(plot.strokes));
+    Strokes strokes = options.order ? plot::ordered(plot.strokes) : plot.strokes;
+    if (options.order) {
+        print_time("ordered", time_of(strokes));
+    }
+    if (options.link > 0.0) {
+        plot::LinkSettings settings;
+        settings.distance = options.link;
+        if (options.inside) {
+            settings.inside = plot::enclosed(plot.strokes);
+        }
+        strokes = plot::link(strokes, settings).strokes;
+        print_time("linked", time_of(strokes));
+    }
+    plot::Level like;
+    like.depth = options.depth;
+    like.passes = options.passes;
+    like.cutting = from_mm_per_min(options.feed_mm_per_min);
+    like.plunging = from_mm_per_min(options.plunge_mm_per_min);
+    plot::CutSettings cut;
+    cut.levels = plot::levels_for(strokes, like);
+    cut.safe_height = options.safe_height;
+    gcode::PlotProgramSettings program_settings;
+    program_settings.spindle_rpm = options.spindle_rpm;
+    program_settings.header = {"plot: " + std::filesystem::path(options.file).filename().string()};
+    const gcode::Program program = gcode::plot_program(plot::cut_path(strokes, cut), program_settings);
+    const gcode::Listing listing = gcode::write_gcode(program, {});
+    write_file(options.out, listing.text);
+    fmt::print("{} lines\n", listing.line_count());
+    return 0;
+}
+
+CLI::App&
+add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("FILE", options->file, "HPGL plot file")->required();
+    command.add_option("--unit", options->unit, "Length of a plotter unit, mm")->capture_default_str();
+    command.add_option("--arc-tolerance", options->arc_tolerance, "Finer arcs: within so many mm");
+    command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
+    return command;
+}
+
+void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+    CLI::App& command =
+        add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
+    plot::DecodeSettings& decoding = options->decode;
+    command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")->required();
+    command.add_option("--period", decoding.period, "Between two points, s")->required();
+    command.add_option("--out", options->out, "Point file")->required();
+    command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
+        ->transform(CLI::CheckedTransformer(modes))
+        ->default_str("segments");
+    command.add_option("--rounding", decoding.rounding, "Of the number of steps of a segment")
+        ->transform(CLI::CheckedTransformer(roundings))
+        ->default_str("nearest");
+    command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s");
+    command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s");
+    command.add_option("--pen-up", decoding.pen_up_z, "Z with the pen up, mm")->capture_default_str();
+    command.add_option("--pen-down", decoding.pen_down_z, "Z with the pen down, mm")->capture_default_str();
+    command.add_option("--decimals", options->decimals, "Of the point file")
+        ->check(CLI::Range(0, 9))
+        ->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return decode(*options); }; });
+}
+
+void add_info(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+    CLI::App& command = add_reader(group, "info", "Say what is in it and how long it takes", options);
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.callback([&chosen, options] { chosen = [options] { return info(*options); }; });
+}
+
+void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+    CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
+    command.add_option("--out", options->out, "G-code file")->required();
+    command.add_option("--link", options->link, "Join strokes over gaps shorter than so many mm");
+    command.add_flag("--inside", options->inside, "Links stay inside what closed strokes enclose");
+    command.add_flag("--order", options->order, "Reorder and reverse strokes for less travel");
+    command.add_option("--depth", options->depth, "Below the top, mm")->capture_default_str();
+    command.add_option("--passes", options->passes, "Cuts to the depth")->capture_default_str();
+    command.add_option("--feed", options->feed_mm_per_min, "Cutting, mm/min")->capture_default_str();
+    command.add_option("--plunge", options->plunge_mm_per_min, "Into the work, mm/min")
+        ->capture_default_str();
+    command.add_option("--safe-height", options->safe_height, "Above the top, mm")->capture_default_str();
+    command.add_option("--spindle", options->spindle_rpm, "Turns a minute, 0 for none")
+        ->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return toolpath(*options); }; });
+}
+
+} // namespace
+
+void add_plot_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot file");
+    group.require_subcommand(1);
+    add_decode(group, options, chosen);
+    add_info(group, options, chosen);
+    add_toolpath(group, options, chosen);
+}
+
+} // namespace millwright::app

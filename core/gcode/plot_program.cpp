@@ -1,0 +1,119 @@
+#include "core/gcode/plot_program.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace millwright::gcode {
+namespace {
+
+class PlotProgramBuilder {
+public:
+    explicit PlotProgramBuilder(const PlotProgramSettings& settings)
+        : settings_(settings), unit_(std::pow(10.0, -settings.length_decimals)) {
+        program_.machine = settings.machine;
+        program_.axes = {{.letter = 'X'}, {.letter = 'Y'}, {.letter = 'Z'}};
+        program_.start = kinematics::AxisPositions::Zero(3);
+        at_ = program_.start;
+        for (const std::string& line : settings.header) {
+            add(BlockKind::comment).text = line;
+        }
+    }
+
+    Program build(const plot::CutPath& path) {
+        if (!path.empty()) {
+            // Up first: nobody knows what stands between the tool and the first stroke.
+            move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(2));
+            spindle(true);
+        }
+        bool first = true;
+        for (const plot::CutPoint& point : path) {
+            expects(is_finite(point.at), "a point of a plot's path is finite");
+            if (point.move == plot::CutMove::tool_change) {
+                change_tool(point.tool);
+                continue;
+            }
+            move(point, std::exchange(first, false) ? across() : AxisSet::all(3));
+        }
+        spindle(false);
+        add(BlockKind::end);
+        return std::move(program_);
+    }
+
+private:
+    Block& add(BlockKind kind) {
+        Block block;
+        block.kind = kind;
+        block.target = at_;
+        return program_.blocks.emplace_back(std::move(block));
+    }
+
+    static AxisSet across() { return AxisSet::all(2); }
+
+    void spindle(bool on) {
+        if (settings_.spindle_rpm > 0.0) {
+            add(on ? BlockKind::spindle_on : BlockKind::spindle_off).spindle_rpm =
+                on ? settings_.spindle_rpm : 0.0;
+        }
+    }
+
+    void change_tool(int tool) {
+        spindle(false);
+        add(BlockKind::pause).text = fmt::format("change to tool {}", tool);
+        spindle(true);
+    }
+
+    static MoveRole role_of(plot::CutMove move) {
+        switch (move) {
+        case plot::CutMove::plunge:
+            return MoveRole::plunge;
+        case plot::CutMove::cut:
+            return MoveRole::cut;
+        case plot::CutMove::retract:
+            return MoveRole::retract;
+        case plot::CutMove::rapid:
+        case plot::CutMove::tool_change:
+            return MoveRole::link;
+        }
+        return MoveRole::none;
+    }
+
+    void move(const plot::CutPoint& point, AxisSet named) {
+        kinematics::AxisPositions target = at_;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (named.contains(axis)) {
+                target[axis] = std::round(point.at[axis] / unit_) * unit_;
+            }
+        }
+        const double distance = (target - at_).norm();
+        const bool known = std::exchange(moved_, true);
+        if (known && !(distance > 0.0)) {
+            return;
+        }
+        at_ = target;
+        Block& block = add(point.speed > 0.0 ? BlockKind::feed : BlockKind::rapid);
+        block.role = role_of(point.move);
+        block.named = named;
+        if (point.speed > 0.0) {
+            block.feed = point.speed;
+            block.duration = distance / point.speed;
+        }
+    }
+
+    const PlotProgramSettings& settings_;
+    double unit_;
+    Program program_;
+    kinematics::AxisPositions at_;
+    bool moved_ = false; ///< where the machine stands before the first block nobody knows
+};
+
+} // namespace
+
+Program plot_program(const plot::CutPath& path, const PlotProgramSettings& settings) {
+    return PlotProgramBuilder(settings).build(path);
+}
+
+} // namespace millwright::gcode

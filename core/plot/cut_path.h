@@ -1,0 +1,60 @@
+// From strokes to what the tool does: groups by pen with depth, speed, tool and passes, safe heights between,
+// tool changes. Lengths mm, speeds mm/s; z = 0 is the top of the work, up is positive. Source: KMITL master's
+// thesis 2006, forming software for wood and plastic, levels.
+#pragma once
+
+#include "core/plot/strokes.h"
+
+#include <vector>
+
+namespace millwright::plot {
+
+/// How the strokes of one pen are cut. A pen may have several: each cuts it once more.
+struct Level {
+    int pen = 1;
+    bool enabled = true;
+    int order = 0;         ///< levels with a smaller one come first; equal ones as they stand
+    double depth = 1.0;    ///< below the top, >= 0
+    int passes = 1;        ///< of equal depth, one below the other
+    double cutting = 10.0; ///< > 0
+    double plunging = 2.0; ///< into the work, > 0
+    int tool = 1;
+
+    friend bool operator==(const Level&, const Level&) = default;
+};
+
+struct CutSettings {
+    std::vector<Level> levels = {};
+    double safe_height = 5.0;                    ///< above the top, where the tool travels, > 0
+    Vec3 change_position = Vec3(0.0, 0.0, 25.0); ///< where the tool is changed; not below the safe height
+};
+
+enum class CutMove {
+    rapid,      ///< travels at the safe height, or goes up or down in the air
+    plunge,     ///< into the work
+    cut,        ///< along a stroke
+    retract,    ///< out of the work to the safe height
+    tool_change ///< stands at the change position until the tool is `CutPoint::tool`
+};
+
+struct CutPoint {
+    Vec3 at = Vec3::Zero();
+    double speed = 0.0; ///< on the way here; 0: as fast as the machine can
+    CutMove move = CutMove::rapid;
+    int tool = 1;
+
+    friend bool operator==(const CutPoint&, const CutPoint&) = default;
+};
+
+using CutPath = std::vector<CutPoint>;
+
+/// A level for each pen that draws, in the order in which they first do, each as `like` but for pen and
+/// order.
+[[nodiscard]] std::vector<Level> levels_for(const Strokes& strokes, const Level& like = {});
+
+/// Level by level in their order, the strokes of each as they stand; a dot is a hole. Begins at the safe
+/// height above the first stroke and ends at the safe height. Strokes of pens without a level are not cut.
+/// Throws Error naming the setting that is out of its range.
+[[nodiscard]] CutPath cut_path(const Strokes& strokes, const CutSettings& settings);
+
+} // namespace millwright::plot

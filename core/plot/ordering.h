@@ -1,0 +1,16 @@
+// The order and direction of strokes that keeps the tool in the air for the shortest way.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/plot/strokes.h"
+
+namespace millwright::plot {
+
+/// The same strokes, some reversed, with little air travel: nearest neighbours first, then 2-opt among the
+/// near ones. Pens keep their order (in which they first draw), with all strokes of a pen together. From
+/// `start`, and back to it. Never more air travel than the order given: where that is not beaten, it is what
+/// comes back. Deterministic. Throws Cancelled through `progress`.
+[[nodiscard]] Strokes
+ordered(const Strokes& strokes, const Vec2& start = Vec2::Zero(), const Progress& progress = Progress());
+
+} // namespace millwright::plot

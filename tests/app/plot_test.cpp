@@ -1,0 +1,93 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string sample = "assets/samples/plot/autocad-7475.plt";
+
+TEST(PlotCommand, DecodeWritesThePointFileOfTheThesis) {
+    const ScratchFolder folder;
+    write_content(folder / "line.plt", "IN;SP1;PU0,0;PD400,400;PU;SP;");
+    const Ended ended = run({"plot",
+                             "decode",
+                             (folder / "line.plt").string(),
+                             "--velocity",
+                             "40",
+                             "--period",
+                             "0.01",
+                             "--out",
+                             (folder / "points.csv").string()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out, "36 points, 0.350 s\n");
+    const std::string points = content_of(folder / "points.csv");
+    EXPECT_EQ(std::ranges::count(points, '\n'), 36);
+    EXPECT_TRUE(points.starts_with("0.00,0.00,0.00\n0.29,0.29,0.00\n0.57,0.57,0.00\n"));
+    EXPECT_TRUE(points.ends_with("9.71,9.71,0.00\n10.00,10.00,0.00\n"));
+}
+
+TEST(PlotCommand, InfoAnswersInJson) {
+    const ScratchFolder folder;
+    write_content(folder / "square.plt",
+                  "IN;SP2;PU400,400;PD4400,400,4400,4400,400,4400,400,400;PU0,0;QX;OI;SP;");
+    const Ended ended = run({"plot", "info", (folder / "square.plt").string(), "--json"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto answer = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(answer.at("commands"), 7);
+    EXPECT_EQ(answer.at("pens"), nlohmann::json({2}));
+    EXPECT_EQ(answer.at("extents_mm"), nlohmann::json({10.0, 10.0, 110.0, 110.0}));
+    EXPECT_DOUBLE_EQ(answer.at("draw_mm"), 400.0);
+    EXPECT_NEAR(answer.at("air_mm").get<double>(), 2.0 * 14.142136, 1e-5);
+    EXPECT_NEAR(answer.at("time_s").get<double>(), 200.0 + 2.8284271 + 6.0, 1e-5);
+    ASSERT_EQ(answer.at("diagnostics").size(), 1U);
+    EXPECT_EQ(answer.at("diagnostics")[0].at("byte"), 61);
+    EXPECT_EQ(answer.at("left_out")[0].at("command"), "OI");
+}
+
+TEST(PlotCommand, ToolpathIsAProgramWithoutErrors) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "plate.ngc").string();
+    const Ended ended = run({"plot", "toolpath", sample, "--link", "3.0", "--order", "--out", file});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("linked: "));
+    EXPECT_EQ(run({"gcode", "check", file}).exit_code, 0);
+    EXPECT_EQ(run({"gcode", "time", file, "--machine", "router-xyz"}).exit_code, 0);
+}
+
+TEST(PlotCommand, StrictReadingEndsAtTheFirstFault) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "bad.plt").string();
+    write_content(folder / "bad.plt", "SP1;PU0,0;PD100,100;QX;");
+    EXPECT_EQ(run({"plot", "info", file}).exit_code, 0);
+    const Ended ended = run({"plot", "info", file, "--strict"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("byte 20: QX is no command of HPGL"));
+}
+
+TEST(PlotCommand, JunkIsNotDecoded) {
+    const ScratchFolder folder;
+    write_content(folder / "junk.plt", std::string(1000, '\xff'));
+    const Ended ended = run({"plot",
+                             "decode",
+                             (folder / "junk.plt").string(),
+                             "--velocity",
+                             "40",
+                             "--period",
+                             "0.01",
+                             "--out",
+                             (folder / "points.csv").string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("nothing to draw"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "points.csv"));
+}
+
+} // namespace
+} // namespace millwright::test

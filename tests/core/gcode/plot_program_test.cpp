@@ -1,0 +1,75 @@
+// Programs that cut plots, read back by our own interpreter.
+#include "core/gcode/plot_program.h"
+
+#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/writer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::gcode {
+namespace {
+
+plot::CutPath square_and_hole() {
+    const plot::Strokes strokes = {
+        {.pen = 1, .points = {{10.0, 10.0}, {110.0, 10.0}, {110.0, 110.0}, {10.0, 110.0}, {10.0, 10.0}}},
+        {.pen = 2, .points = {{60.0, 60.0}}}};
+    plot::CutSettings settings;
+    settings.levels = plot::levels_for(strokes, {.depth = 3.0, .passes = 2});
+    settings.levels[1].tool = 2;
+    return plot::cut_path(strokes, settings);
+}
+
+class Collector final : public CanonSink {
+public:
+    void move(const Move& move, const SourceLine&) override { moves.push_back(move); }
+    void curve(const Curve&, const SourceLine&) override {}
+    void command(const Command&, const SourceLine&) override {}
+    std::vector<Move> moves;
+};
+
+TEST(PlotProgram, IsReadBackMoveByMove) {
+    const plot::CutPath path = square_and_hole();
+    const Listing listing = write_gcode(plot_program(path), {});
+    Collector collector;
+    Interpreter interpreter(listing.text, "plot.ngc", {}, collector);
+    interpreter.run();
+    ASSERT_TRUE(interpreter.errors().empty()) << to_text(interpreter.errors().front());
+    double cut = 0.0;
+    Vec3 at = Vec3::Zero();
+    for (const Move& move : collector.moves) {
+        const Vec3 to(move.target[Axis::x], move.target[Axis::y], move.target[Axis::z]);
+        if (to.z() < 0.0 && at.z() < 0.0) {
+            cut += (to - at).norm();
+        }
+        if ((to - at).head<2>().norm() > 0.0 && at.z() >= 0.0 && to.z() >= 0.0) {
+            EXPECT_GE(to.z(), 5.0);
+        }
+        at = to;
+    }
+    EXPECT_NEAR(cut, 2 * 400.0, 1e-6);
+    EXPECT_NE(listing.text.find("change to tool 2"), std::string::npos);
+    EXPECT_NE(listing.text.find("M2"), std::string::npos);
+}
+
+TEST(PlotProgram, MovesUpBeforeAcross) {
+    const Program program = plot_program(square_and_hole());
+    for (const Block& block : program.blocks) {
+        if (block.moves()) {
+            EXPECT_TRUE(block.named == AxisSet::only(2));
+            EXPECT_DOUBLE_EQ(block.target[2], 5.0);
+            return;
+        }
+    }
+    FAIL() << "no move";
+}
+
+TEST(PlotProgram, OfNothingMovesNothing) {
+    for (const Block& block : plot_program({}).blocks) {
+        EXPECT_FALSE(block.moves());
+    }
+}
+
+} // namespace
+} // namespace millwright::gcode

@@ -1,0 +1,112 @@
+#include "core/plot/cut_path.h"
+
+#include "core/base/error.h"
+#include "core/plot/hpgl/reader.h"
+#include "tests/core/plot/thesis_drawings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::plot {
+namespace {
+
+Strokes six_colours() {
+    Strokes strokes;
+    for (int pen = 0; pen < 6; ++pen) {
+        strokes.push_back({.pen = pen, .points = {{10.0 * pen, 0.0}, {10.0 * pen, 5.0}}});
+    }
+    return strokes;
+}
+
+std::vector<int> pens_in_order(const CutPath& path) {
+    std::vector<int> pens;
+    for (const CutPoint& point : path) {
+        if (point.move == CutMove::cut) {
+            pens.push_back(static_cast<int>(std::lround(point.at.x() / 10.0)));
+        }
+    }
+    return pens;
+}
+
+TEST(Levels, AreCutInTheOrderOfTheUser) {
+    CutSettings settings;
+    settings.levels = levels_for(six_colours());
+    const int order[] = {4, 2, 0, 5, 1, 3};
+    for (std::size_t n = 0; n < 6; ++n) {
+        settings.levels[n].order = order[n];
+    }
+    EXPECT_EQ(pens_in_order(cut_path(six_colours(), settings)), (std::vector<int>{2, 4, 1, 5, 0, 3}));
+}
+
+TEST(Levels, CanBeLeftOutAndRepeated) {
+    CutSettings settings;
+    settings.levels = {{.pen = 1, .order = 0, .depth = 1.0},
+                       {.pen = 2, .enabled = false, .order = 1},
+                       {.pen = 1, .order = 2, .depth = 3.0, .passes = 2}};
+    const CutPath path = cut_path(six_colours(), settings);
+    EXPECT_EQ(pens_in_order(path), (std::vector<int>{1, 1, 1}));
+    std::vector<double> depths;
+    for (const CutPoint& point : path) {
+        if (point.move == CutMove::cut) {
+            depths.push_back(point.at.z());
+        }
+    }
+    EXPECT_EQ(depths, (std::vector<double>{-1.0, -1.5, -3.0}));
+}
+
+TEST(Levels, TravelIsNeverBelowTheSafeHeightAndCutsAreAtTheirSpeed) {
+    CutSettings settings;
+    settings.levels = levels_for(six_colours(), {.depth = 2.0, .passes = 3, .cutting = 7.0, .plunging = 1.5});
+    settings.levels[2].tool = 2;
+    settings.levels[3].tool = 2;
+    const CutPath path = cut_path(six_colours(), settings);
+    int changes = 0;
+    for (std::size_t n = 1; n < path.size(); ++n) {
+        const CutPoint& from = path[n - 1];
+        const CutPoint& to = path[n];
+        const bool across = (to.at - from.at).head<2>().norm() > 0.0;
+        if (across && to.move != CutMove::cut) {
+            EXPECT_GE(std::min(from.at.z(), to.at.z()), settings.safe_height);
+        }
+        EXPECT_EQ(to.speed > 0.0, to.move == CutMove::cut || to.move == CutMove::plunge);
+        if (to.move == CutMove::cut) {
+            EXPECT_DOUBLE_EQ(to.speed, 7.0);
+            EXPECT_LT(to.at.z(), 0.0);
+        }
+        changes += to.move == CutMove::tool_change ? 1 : 0;
+    }
+    EXPECT_EQ(changes, 2); // to tool 2 and back
+    EXPECT_DOUBLE_EQ(path.back().at.z(), settings.safe_height);
+}
+
+TEST(Levels, ADotIsAHole) {
+    const CutPath path =
+        cut_path({{.pen = 1, .points = {{3.0, 4.0}}}}, {.levels = {{.pen = 1, .depth = 2.0}}});
+    ASSERT_EQ(path.size(), 3U);
+    EXPECT_EQ(path[1].at, Vec3(3.0, 4.0, -2.0));
+    EXPECT_EQ(path[2].at, Vec3(3.0, 4.0, 5.0));
+}
+
+TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
+    const Plot plot = read_hpgl(test::second_example(), "thesis.plt");
+    const std::vector<Level> levels = levels_for(plot.strokes);
+    ASSERT_EQ(levels.size(), 2U);
+    EXPECT_EQ(levels[0].pen, 0);
+    EXPECT_EQ(levels[1].pen, 1);
+}
+
+TEST(Levels, RefuseWhatCannotBeCut) {
+    const Strokes strokes = six_colours();
+    const auto cut = [&](const Level& level) { static_cast<void>(cut_path(strokes, {.levels = {level}})); };
+    EXPECT_THROW(cut({.depth = -1.0}), Error);
+    EXPECT_THROW(cut({.passes = 0}), Error);
+    EXPECT_THROW(cut({.cutting = 0.0}), Error);
+    EXPECT_THROW(cut({.plunging = std::nan("")}), Error);
+    EXPECT_THROW(static_cast<void>(cut_path(strokes, {.safe_height = 0.0})), Error);
+    EXPECT_THROW(static_cast<void>(cut_path(strokes, {.safe_height = 50.0})), Error);
+}
+
+} // namespace
+} // namespace millwright::plot
