@@ -27,6 +27,11 @@ void check(const CutSettings& settings) {
         if (!moves || !std::isfinite(level.cutting + level.plunging)) {
             refuse(level, "the speeds have to be above 0 mm/s");
         }
+        const Tabs& tabs = level.tabs;
+        const bool sized = tabs.width > 0.0 && tabs.height > 0.0 && std::isfinite(tabs.width + tabs.height);
+        if (tabs.count < 0 || !sized) {
+            refuse(level, "tabs have to have a width and a height above 0 mm");
+        }
     }
     if (!(settings.safe_height > 0.0) || !std::isfinite(settings.safe_height)) {
         throw Error("the safe height has to be above 0 mm");
@@ -59,10 +64,51 @@ public:
             add({start.x(), start.y(), settings_.safe_height}, 0.0, CutMove::rapid);
         }
         add({start.x(), start.y(), z}, level.plunging, CutMove::plunge);
-        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
-            add({stroke.points[n].x(), stroke.points[n].y(), z}, level.cutting, CutMove::cut);
+        const double top = level.tabs.height - level.depth;
+        const bool closed = stroke.points.size() > 2 && stroke.points.front() == stroke.points.back();
+        if (level.tabs.count > 0 && closed && z < top) {
+            around_with_tabs(stroke, level, z, top);
+        } else {
+            for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+                along(stroke.points[n], z, level);
+            }
         }
         add({last().x(), last().y(), settings_.safe_height}, 0.0, CutMove::retract);
+    }
+
+    void along(const Vec2& to, double z, const Level& level) {
+        add({to.x(), to.y(), z}, level.cutting, CutMove::cut);
+    }
+
+    // Tabs stand in the middle of equal parts of the way around, so never at its start.
+    void around_with_tabs(const Stroke& stroke, const Level& level, double z, double top) {
+        const Tabs& tabs = level.tabs;
+        const double part = length(stroke) / tabs.count;
+        if (!(tabs.width < part)) {
+            throw Error(fmt::format("pen {}: {} tabs of {} mm do not fit on a stroke of {} mm",
+                                    level.pen,
+                                    tabs.count,
+                                    tabs.width,
+                                    part * tabs.count));
+        }
+        double passed = 0.0; // way around up to the segment
+        int edge = 0;        // edges of tabs passed: an odd number is on a tab
+        const auto place_of = [&](int n) {
+            return part * (n / 2 + 0.5) + (n % 2 == 0 ? -0.5 : 0.5) * tabs.width;
+        };
+        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+            const Vec2& a = stroke.points[n - 1];
+            const Vec2& b = stroke.points[n];
+            const double distance = (b - a).norm();
+            for (; edge < 2 * tabs.count && place_of(edge) < passed + distance; ++edge) {
+                const Vec2 p = a + (place_of(edge) - passed) / distance * (b - a);
+                const bool up = edge % 2 == 0;
+                along(p, up ? z : top, level);
+                add({p.x(), p.y(), up ? top : z}, level.plunging, up ? CutMove::cut : CutMove::plunge);
+            }
+            along(b, edge % 2 == 0 ? z : top, level);
+            passed += distance;
+        }
     }
 
     CutPath take_path() { return std::move(path_); }

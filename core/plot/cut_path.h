@@ -9,6 +9,16 @@
 
 namespace millwright::plot {
 
+/// Bridges that hold a part in its plate until it is broken out: the tool rises on the way around closed
+/// strokes.
+struct Tabs {
+    int count = 0;       ///< spread evenly over each closed stroke; 0: none
+    double width = 6.0;  ///< along the path of the tool's middle, so a tab is narrower by the tool, > 0
+    double height = 1.0; ///< above the depth of the level, > 0
+
+    friend bool operator==(const Tabs&, const Tabs&) = default;
+};
+
 /// How the strokes of one pen are cut. A pen may have several: each cuts it once more.
 struct Level {
     int pen = 1;
@@ -19,6 +29,7 @@ struct Level {
     double cutting = 10.0; ///< > 0
     double plunging = 2.0; ///< into the work, > 0
     int tool = 1;
+    Tabs tabs = {};
 
     friend bool operator==(const Level&, const Level&) = default;
 };

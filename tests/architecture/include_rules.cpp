@@ -144,6 +144,8 @@ constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};
 constexpr std::array<std::string_view, 1> asio = {"boost/asio"};
 constexpr std::array<std::string_view, 1> asio_home = {"core/machine/links"};
+constexpr std::array<std::string_view, 1> clipper = {"polyclipping/"};
+constexpr std::array<std::string_view, 1> clipper_home = {"core/plot"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
@@ -151,6 +153,7 @@ constexpr std::array homes = {
     Home{"OpenGL", opengl, screen_home},
     Home{"nlohmann-json", json, json_home},
     Home{"Boost.Asio", asio, asio_home},
+    Home{"Clipper", clipper, clipper_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {

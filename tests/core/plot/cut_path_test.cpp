@@ -89,6 +89,39 @@ TEST(Levels, ADotIsAHole) {
     EXPECT_EQ(path[2].at, Vec3(3.0, 4.0, 5.0));
 }
 
+// Four tabs of 6 mm on a square of 100 mm: 24 mm of the way around are cut at the tabs' height in the last
+// pass, and nothing of it in the pass above.
+TEST(Tabs, StandOnTheWayAround) {
+    const Strokes square = {
+        {.pen = 1, .points = {{0.0, 0.0}, {25.0, 0.0}, {25.0, 25.0}, {0.0, 25.0}, {0.0, 0.0}}}};
+    const Level level = {
+        .pen = 1, .depth = 3.0, .passes = 2, .tabs = {.count = 4, .width = 6.0, .height = 1.0}};
+    const CutPath path = cut_path(square, {.levels = {level}});
+    double at_tabs = 0.0;
+    double at_depth = 0.0;
+    double at_first_pass = 0.0;
+    for (std::size_t n = 1; n < path.size(); ++n) {
+        const Vec3 step = path[n].at - path[n - 1].at;
+        const double across = step.head<2>().norm();
+        EXPECT_TRUE(std::abs(step.z()) < 1e-12 || across < 1e-12); // never aslant
+        const double z = path[n].at.z();
+        at_tabs += std::abs(z + 2.0) < 1e-12 ? across : 0.0;
+        at_depth += std::abs(z + 3.0) < 1e-12 ? across : 0.0;
+        at_first_pass += std::abs(z + 1.5) < 1e-12 ? across : 0.0;
+    }
+    EXPECT_NEAR(at_tabs, 24.0, 1e-9);
+    EXPECT_NEAR(at_depth, 76.0, 1e-9);
+    EXPECT_NEAR(at_first_pass, 100.0, 1e-9);
+}
+
+TEST(Tabs, AreRefusedWhereTheyDoNotFit) {
+    const Strokes small = {{.pen = 1, .points = {{0.0, 0.0}, {5.0, 0.0}, {5.0, 5.0}, {0.0, 0.0}}}};
+    EXPECT_THROW(static_cast<void>(cut_path(small, {.levels = {{.pen = 1, .tabs = {.count = 3}}}})), Error);
+    const Strokes open = {{.pen = 1, .points = {{0.0, 0.0}, {5.0, 0.0}, {5.0, 5.0}}}};
+    EXPECT_EQ(cut_path(open, {.levels = {{.pen = 1, .tabs = {.count = 3}}}}),
+              cut_path(open, {.levels = {{.pen = 1}}}));
+}
+
 TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
     const Plot plot = read_hpgl(test::second_example(), "thesis.plt");
     const std::vector<Level> levels = levels_for(plot.strokes);

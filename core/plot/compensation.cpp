@@ -1,0 +1,106 @@
+#include "core/plot/compensation.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <polyclipping/clipper.hpp>
+
+#include <cmath>
+
+namespace millwright::plot {
+namespace {
+
+// Clipper counts in whole numbers: a micrometre's thousandth, up to 1 km.
+constexpr double units_per_mm = 1e6;
+constexpr double largest_mm = 1e6;
+constexpr double miter_limit = 4.0;
+
+ClipperLib::Paths to_clipper(const Region& region) {
+    ClipperLib::Paths paths;
+    for (const Ring& ring : region) {
+        ClipperLib::Path& path = paths.emplace_back();
+        for (const Vec2& p : ring) {
+            if (!(p.cwiseAbs().maxCoeff() <= largest_mm)) {
+                throw Error("an outline has a point that is no number or farther away than 1 km");
+            }
+            path.emplace_back(std::llround(p.x() * units_per_mm), std::llround(p.y() * units_per_mm));
+        }
+    }
+    return paths;
+}
+
+Region from_clipper(const ClipperLib::Paths& paths) {
+    Region region;
+    for (const ClipperLib::Path& path : paths) {
+        Ring& ring = region.emplace_back();
+        for (const ClipperLib::IntPoint& p : path) {
+            ring.push_back(Vec2(static_cast<double>(p.X), static_cast<double>(p.Y)) / units_per_mm);
+        }
+    }
+    return region;
+}
+
+/// Rings that neither cross nor overlap, outer ones counter-clockwise, holes clockwise.
+ClipperLib::Paths simple(const Region& region) {
+    ClipperLib::Paths paths = to_clipper(region);
+    ClipperLib::SimplifyPolygons(paths, ClipperLib::pftEvenOdd);
+    return paths;
+}
+
+Strokes closed_strokes(const Region& region, int pen) {
+    Strokes strokes;
+    for (const Ring& ring : region) {
+        Stroke stroke{.pen = pen, .points = ring};
+        stroke.points.push_back(ring.front());
+        strokes.push_back(std::move(stroke));
+    }
+    return strokes;
+}
+
+} // namespace
+
+Region offset(const Region& region, double distance, Corners corners, double arc_tolerance) {
+    if (!(std::abs(distance) <= largest_mm) || !(arc_tolerance > 0.0)) {
+        throw Error(fmt::format("an offset of {} mm with arcs to {} mm", distance, arc_tolerance));
+    }
+    ClipperLib::ClipperOffset clipper(miter_limit, arc_tolerance * units_per_mm);
+    clipper.AddPaths(simple(region),
+                     corners == Corners::sharp ? ClipperLib::jtMiter : ClipperLib::jtRound,
+                     ClipperLib::etClosedPolygon);
+    ClipperLib::Paths found;
+    clipper.Execute(found, distance * units_per_mm);
+    return from_clipper(found);
+}
+
+Strokes compensated(const Region& region, const CompensationSettings& settings, int pen) {
+    if (!(settings.tool_diameter > 0.0)) {
+        throw Error(fmt::format("a tool of {} mm", settings.tool_diameter));
+    }
+    if (settings.side == CutterSide::on_line) {
+        return closed_strokes(region, pen);
+    }
+    const double radius = settings.tool_diameter / 2.0;
+    const double distance = settings.side == CutterSide::outside ? radius : -radius;
+    return closed_strokes(offset(region, distance, settings.corners, settings.arc_tolerance), pen);
+}
+
+Strokes contour_hatch(const Region& region, double first, double pitch, int pen) {
+    constexpr int most_contours = 100'000;
+    if (!(pitch > 0.0) || !(first >= 0.0)) {
+        throw Error("contours need a pitch above 0 and begin at or inside the outline");
+    }
+    Strokes strokes;
+    for (int n = 0; n < most_contours; ++n) {
+        // From the outline each time: errors of one contour do not go on to the next.
+        const Region ring = offset(region, -(first + n * pitch), Corners::sharp);
+        if (ring.empty()) {
+            return strokes;
+        }
+        for (Stroke& stroke : closed_strokes(ring, pen)) {
+            strokes.push_back(std::move(stroke));
+        }
+    }
+    throw Error(fmt::format("more than {} contours: the pitch is too small", most_contours));
+}
+
+} // namespace millwright::plot

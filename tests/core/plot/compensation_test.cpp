@@ -1,0 +1,104 @@
+#include "core/plot/compensation.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace millwright::plot {
+namespace {
+
+Ring square(double lower, double upper) {
+    return {{lower, lower}, {upper, lower}, {upper, upper}, {lower, upper}};
+}
+
+Ring circle(double radius, int count) {
+    Ring ring;
+    for (int n = 0; n < count; ++n) {
+        ring.push_back(radius * Vec2(std::cos(2.0 * pi * n / count), std::sin(2.0 * pi * n / count)));
+    }
+    return ring;
+}
+
+double distance_to(const Region& region, const Vec2& p) {
+    double least = std::numeric_limits<double>::max();
+    for (const Ring& ring : region) {
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const Vec2 ab = ring[(n + 1) % ring.size()] - ring[n];
+            const double t = std::clamp((p - ring[n]).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+            least = std::min(least, (ring[n] + t * ab - p).norm());
+        }
+    }
+    return least;
+}
+
+// The two jobs of the KMITL thesis of 2006: 412 mm around the square, 323.58 mm around the circle.
+TEST(Compensation, PathsOfTheThesisHaveTheirLengths) {
+    const Strokes around = compensated({square(0.0, 100.0)}, {.tool_diameter = 3.0});
+    ASSERT_EQ(around.size(), 1U);
+    EXPECT_NEAR(draw_length(around), 412.0, 1e-5);
+    const Strokes ring = compensated({circle(50.0, 3600)}, {.tool_diameter = 3.0});
+    EXPECT_NEAR(draw_length(ring), 323.58, 0.01);
+    for (const Vec2& p : ring.at(0).points) {
+        EXPECT_NEAR(p.norm(), 51.5, 1e-4);
+    }
+    EXPECT_NEAR(draw_length(compensated({square(0.0, 100.0)}, {.side = CutterSide::inside})), 388.0, 1e-5);
+    EXPECT_NEAR(draw_length(compensated({square(0.0, 100.0)}, {.side = CutterSide::on_line})), 400.0, 1e-12);
+    const Strokes rounded =
+        compensated({square(0.0, 100.0)}, {.tool_diameter = 3.0, .corners = Corners::round});
+    EXPECT_NEAR(draw_length(rounded), 400.0 + 2.0 * pi * 1.5, 0.02);
+}
+
+TEST(Compensation, HolesAreKeptAndThoseTooSmallHaveNoPath) {
+    const Region plate = {square(0.0, 100.0), square(30.0, 70.0), square(10.0, 12.0)};
+    const Strokes paths = compensated(plate, {.tool_diameter = 3.0});
+    ASSERT_EQ(paths.size(), 2U);
+    EXPECT_NEAR(draw_length(paths), 412.0 + 4.0 * 37.0, 1e-5);
+}
+
+// No point of the path is nearer to the outline than the tool's radius, however the outline crosses itself.
+TEST(Compensation, NothingIsCutTooFar) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> coordinate(0.0, 100.0);
+    for (int trial = 0; trial < 100; ++trial) {
+        Region region(1);
+        for (int n = 0; n < 8; ++n) {
+            region[0].emplace_back(coordinate(random), coordinate(random));
+        }
+        for (const auto side : {CutterSide::outside, CutterSide::inside}) {
+            for (const Stroke& path : compensated(region, {.tool_diameter = 4.0, .side = side})) {
+                EXPECT_EQ(path.points.front(), path.points.back());
+                for (std::size_t n = 1; n < path.points.size(); ++n) {
+                    const Vec2 middle = (path.points[n] + path.points[n - 1]) / 2.0;
+                    EXPECT_GT(distance_to(region, path.points[n]), 2.0 - 1e-4) << trial;
+                    EXPECT_GT(distance_to(region, middle), 2.0 - 1e-4) << trial;
+                    EXPECT_EQ(contains(region, middle), side == CutterSide::inside) << trial;
+                }
+            }
+        }
+    }
+}
+
+TEST(Compensation, ContoursFillAPocket) {
+    const Strokes contours = contour_hatch({square(0.0, 20.0)}, 1.0, 2.0);
+    ASSERT_EQ(contours.size(), 5U); // sides of 18, 14, 10, 6, 2
+    EXPECT_NEAR(draw_length(contours), 4.0 * (18.0 + 14.0 + 10.0 + 6.0 + 2.0), 1e-5);
+    EXPECT_NEAR(length(contours.front()), 72.0, 1e-5);
+}
+
+TEST(Compensation, RefusesWhatHasNoPath) {
+    const Region region = {square(0.0, 10.0)};
+    EXPECT_THROW(static_cast<void>(compensated(region, {.tool_diameter = 0.0})), Error);
+    EXPECT_THROW(static_cast<void>(compensated({square(0.0, 1e7)}, {})), Error);
+    EXPECT_THROW(static_cast<void>(compensated({{{0.0, 0.0}, {std::nan(""), 0.0}, {1.0, 1.0}}}, {})), Error);
+    EXPECT_THROW(static_cast<void>(contour_hatch(region, 1.0, 0.0)), Error);
+    EXPECT_THROW(static_cast<void>(contour_hatch(region, 0.0, 1e-7)), Error);
+    EXPECT_TRUE(compensated({}, {}).empty());
+}
+
+} // namespace
+} // namespace millwright::plot

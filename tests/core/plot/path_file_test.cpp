@@ -1,0 +1,59 @@
+#include "core/plot/path_file.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace millwright::plot {
+namespace {
+
+CutPath random_path() {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> coordinate(-1000.0, 1000.0);
+    CutPath path;
+    for (int n = 0; n < 2000; ++n) {
+        path.push_back({.at = {coordinate(random), coordinate(random) * 1e-7, 0.1 * n},
+                        .speed = std::abs(coordinate(random)) / 3.0,
+                        .move = static_cast<CutMove>(n % 5),
+                        .tool = n % 7});
+    }
+    return path;
+}
+
+TEST(PathFiles, ComeBackToTheLastBit) {
+    const CutPath path = random_path();
+    const std::string text = path_file_text(path);
+    EXPECT_EQ(read_path(text, "a.path"), path);
+    EXPECT_EQ(path_file_text(read_path(text, "a.path")), text);
+    EXPECT_TRUE(read_path(path_file_text({}), "a.path").empty());
+}
+
+int line_of_fault(const std::string& record) {
+    try {
+        static_cast<void>(read_path(path_file_text({}) + "1,2,3,4,cut,1\n" + record + "\n", "a.path"));
+    } catch (const Error& error) {
+        return error.diagnostic().place.line;
+    }
+    return 0;
+}
+
+TEST(PathFiles, FaultsHaveTheirLine) {
+    for (const char* record : {"1,2,3,4,cut",
+                               "1,2,3,4,cut,1,9",
+                               "1,2,nan,4,cut,1",
+                               "1,2,,4,cut,1",
+                               "1,2,3,-4,cut,1",
+                               "1,2,3,4,fly,1",
+                               "1,2,3,4,cut,1.5",
+                               "1,2,3,4,cut,-1",
+                               "1;2;3"}) {
+        EXPECT_EQ(line_of_fault(record), 3) << record;
+    }
+    EXPECT_EQ(line_of_fault("1,2,3,4,cut,1"), 0);
+    EXPECT_THROW(static_cast<void>(read_path("G0 X1\n", "a.path")), Error);
+}
+
+} // namespace
+} // namespace millwright::plot
