@@ -191,7 +191,7 @@ int toolpath(const Options& options) {
         plot::LinkSettings settings;
         settings.distance = options.link;
         if (options.inside) {
-            settings.inside = plot::enclosed(plot.strokes);
+            settings.outlines = plot::closed_outlines(plot.strokes);
         }
         strokes = plot::link(strokes, settings).strokes;
         print_time("linked", time_of(strokes));
@@ -239,6 +239,8 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
         ->default_str("nearest");
     command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s");
     command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s");
+    command.add_option("--acceleration", decoding.acceleration, "Mode path: at the most, mm/s^2");
+    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3");
     command.add_option("--pen-up", decoding.pen_up_z, "Z with the pen up, mm")->capture_default_str();
     command.add_option("--pen-down", decoding.pen_down_z, "Z with the pen down, mm")->capture_default_str();
     command.add_option("--decimals", options->decimals, "Of the point file")
@@ -257,7 +259,7 @@ void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Comm
     CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
     command.add_option("--out", options->out, "G-code file")->required();
     command.add_option("--link", options->link, "Join strokes over gaps shorter than so many mm");
-    command.add_flag("--inside", options->inside, "Links stay inside what closed strokes enclose");
+    command.add_flag("--inside", options->inside, "Links keep to their side of closed strokes");
     command.add_flag("--order", options->order, "Reorder and reverse strokes for less travel");
     command.add_option("--depth", options->depth, "Below the top, mm")->capture_default_str();
     command.add_option("--passes", options->passes, "Cuts to the depth")->capture_default_str();

@@ -1,6 +1,7 @@
 #include "core/plot/decode.h"
 
 #include "core/base/error.h"
+#include "core/plot/internal/speed_profile.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,14 @@ void check(const DecodeSettings& settings) {
     positive(settings.travel_velocity.value_or(1.0), "velocity with the pen up");
     positive(settings.plunge_velocity.value_or(1.0), "velocity up and down");
     positive(settings.velocity * settings.period, "step of a period");
+    positive(settings.acceleration.value_or(1.0), "acceleration");
+    positive(settings.jerk.value_or(1.0), "jerk");
+    if (settings.acceleration && settings.mode != DecodeMode::path) {
+        throw Error("an acceleration is kept along whole paths only");
+    }
+    if (settings.jerk && !settings.acceleration) {
+        throw Error("a jerk needs an acceleration beside it");
+    }
     if (!std::isfinite(settings.pen_up_z) || !std::isfinite(settings.pen_down_z)) {
         throw Error("the height of the pen is no number");
     }
@@ -56,7 +65,11 @@ public:
         travel(stroke.points.front());
         lift(settings_.pen_down_z);
         if (settings_.mode == DecodeMode::path) {
-            whole_path(stroke);
+            if (settings_.acceleration && stroke.points.size() > 1) {
+                limited_path(stroke);
+            } else {
+                whole_path(stroke);
+            }
             return;
         }
         for (std::size_t n = 1; n < stroke.points.size(); ++n) {
@@ -119,6 +132,31 @@ private:
         } else {
             points_.back() = end;
         }
+    }
+
+    /// Points at whole multiples of the period, within the limits of acceleration and jerk.
+    void limited_path(const Stroke& stroke) {
+        const internal::SpeedProfile profile(stroke.points,
+                                             {.velocity = settings_.velocity,
+                                              .acceleration = *settings_.acceleration,
+                                              .jerk = settings_.jerk,
+                                              .period = settings_.period});
+        reserve(profile.duration() / settings_.period);
+        double passed = 0.0; // length of the stroke up to the segment
+        std::size_t n = 1;
+        for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
+            const double way = profile.way(k * settings_.period);
+            double distance = (stroke.points[n] - stroke.points[n - 1]).norm();
+            while (passed + distance < way && n + 1 < stroke.points.size()) {
+                passed += distance;
+                ++n;
+                distance = (stroke.points[n] - stroke.points[n - 1]).norm();
+            }
+            const double t = distance > 0.0 ? std::min(1.0, (way - passed) / distance) : 1.0;
+            const Vec2 p = stroke.points[n - 1] + t * (stroke.points[n] - stroke.points[n - 1]);
+            points_.emplace_back(p.x(), p.y(), settings_.pen_down_z);
+        }
+        points_.push_back(at(stroke.points.back()));
     }
 
     void reserve(double count) const {

@@ -5,32 +5,30 @@
 #include "core/plot/region.h"
 #include "core/plot/strokes.h"
 
-#include <optional>
+#include <vector>
 
 namespace millwright::plot {
 
 struct LinkSettings {
     double distance = 3.0; ///< gaps shorter than this are joined, mm
-    /// Given: links have to stay inside. Not given: as the thesis, which asks nothing.
-    std::optional<Region> inside = std::nullopt;
+    /// Given: a link may run along these closed lines but not across one, and has to be on the side of each
+    /// of them that its strokes are on. Not given: as the thesis, which asks nothing.
+    std::vector<Ring> outlines = {};
 };
 
 struct Linked {
     Strokes strokes;
     int links = 0;
     double link_length = 0.0; ///< mm
-    int refused = 0;          ///< short enough, but they would leave the region
+    int refused = 0;          ///< short enough, but on the wrong side of an outline
 };
 
 /// Joins neighbours in the order given, of the same pen, none reversed; a dot stays alone. The length of
 /// drawing and travel together stays what it was. Throws Error if the distance is not 0 or more.
 [[nodiscard]] Linked link(const Strokes& strokes, const LinkSettings& settings);
 
-/// What the closed strokes enclose: the region that hatches of a drawing have to stay in. A stroke is closed
-/// where its ends are nearer than `tolerance`.
-[[nodiscard]] Region enclosed(const Strokes& strokes, double tolerance = 0.05);
-
-/// Whether the straight line from `a` to `b` stays inside, its ends and edges of the region included.
-[[nodiscard]] bool stays_inside(const Region& region, const Vec2& a, const Vec2& b);
+/// The closed strokes: what hatches of a drawing have to stay in. A stroke is closed where its ends are
+/// nearer than `tolerance`.
+[[nodiscard]] std::vector<Ring> closed_outlines(const Strokes& strokes, double tolerance = 0.05);
 
 } // namespace millwright::plot

@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace millwright::plot {
@@ -146,6 +148,98 @@ TEST(Decoding, PenIsLiftedSampledAndTravelsAtItsOwnSpeed) {
     EXPECT_EQ(points[9], Vec3(7.0, 0.0, 0.0));
     EXPECT_EQ(points[13], Vec3(7.0, 0.0, 2.0));
     EXPECT_EQ(points.back(), Vec3(0.0, 0.0, 2.0));
+}
+
+/// Greatest first, second and third difference of the points, as velocity, acceleration and jerk.
+struct Extremes {
+    double velocity = 0.0;
+    double acceleration = 0.0;
+    double jerk = 0.0;
+};
+
+Extremes extremes(const std::vector<Vec3>& points, double period) {
+    Extremes found;
+    for (std::size_t n = 3; n < points.size(); ++n) {
+        const Vec3 v0 = (points[n - 2] - points[n - 3]) / period;
+        const Vec3 v1 = (points[n - 1] - points[n - 2]) / period;
+        const Vec3 v2 = (points[n] - points[n - 1]) / period;
+        found.velocity = std::max({found.velocity, v0.norm(), v1.norm(), v2.norm()});
+        found.acceleration =
+            std::max({found.acceleration, (v1 - v0).norm() / period, (v2 - v1).norm() / period});
+        found.jerk = std::max(found.jerk, (v2 - 2.0 * v1 + v0).norm() / (period * period));
+    }
+    return found;
+}
+
+DecodeSettings limited(double velocity, double acceleration, std::optional<double> jerk) {
+    DecodeSettings settings;
+    settings.velocity = velocity;
+    settings.period = 0.001;
+    settings.mode = DecodeMode::path;
+    settings.acceleration = acceleration;
+    settings.jerk = jerk;
+    return settings;
+}
+
+TEST(LimitedDecoding, AStraightLineTakesItsTimeAndKeepsItsLimits) {
+    const Strokes line = {{.pen = 1, .points = {{0.0, 0.0}, {30.0, 40.0}}}};
+    const auto points = decode(line, limited(100.0, 1000.0, std::nullopt));
+    EXPECT_NEAR(static_cast<double>(points.size() - 1) * 0.001, 50.0 / 100.0 + 100.0 / 1000.0, 0.0015);
+    const Extremes found = extremes(points, 0.001);
+    EXPECT_NEAR(found.velocity, 100.0, 1e-6);
+    EXPECT_LT(found.acceleration, 1000.0 * 1.001);
+    const auto smooth = decode(line, limited(100.0, 1000.0, 50'000.0));
+    const Extremes softly = extremes(smooth, 0.001);
+    EXPECT_LT(softly.acceleration, 1000.0 * 1.001);
+    EXPECT_LT(softly.jerk, 50'000.0 * 1.001);
+    EXPECT_NEAR(static_cast<double>(smooth.size() - 1) * 0.001, 0.6 + 2.0 * 1000.0 / 50'000.0, 0.0015);
+    EXPECT_EQ(smooth.back(), Vec3(30.0, 40.0, 0.0));
+}
+
+TEST(LimitedDecoding, ShortLinesNeverReachTheVelocity) {
+    const Strokes line = {{.pen = 1, .points = {{0.0, 0.0}, {1.0, 0.0}}}};
+    const Extremes found = extremes(decode(line, limited(100.0, 1000.0, std::nullopt)), 0.001);
+    EXPECT_NEAR(found.velocity, std::sqrt(1000.0), 1.0);
+}
+
+// A circle of 5 mm in fine chords: v^2 / R is the acceleration, so 100 mm/s are too fast for 1000 mm/s^2.
+TEST(LimitedDecoding, ArcsOfShortChordsAreTakenAsArcs) {
+    const Stroke circle = circle_of_chords(5.0, 720);
+    const auto points = decode({circle}, limited(100.0, 1000.0, std::nullopt), circle.points.front());
+    EXPECT_NEAR(extremes(points, 0.001).velocity, std::sqrt(1000.0 * 5.0), 0.5);
+    for (const Vec3& p : points) {
+        EXPECT_NEAR(p.head<2>().norm(), 5.0, 1e-4);
+    }
+}
+
+TEST(LimitedDecoding, CornersAreSlowedDownForOrStoppedAt) {
+    const Strokes corner = {{.pen = 1, .points = {{0.0, 0.0}, {20.0, 0.0}, {20.0, 20.0}}}};
+    for (const auto jerk : {std::optional<double>(), std::optional(50'000.0)}) {
+        const auto points = decode(corner, limited(100.0, 1000.0, jerk));
+        double slowest = 1e9;
+        for (std::size_t n = 1; n < points.size(); ++n) {
+            const Vec3 p = points[n];
+            EXPECT_TRUE(std::abs(p.y()) < 1e-12 || std::abs(p.x() - 20.0) < 1e-12); // stays on the path
+            if ((p - Vec3(20.0, 0.0, 0.0)).norm() < 1.0) {
+                slowest = std::min(slowest, (p - points[n - 1]).norm() / 0.001);
+            }
+        }
+        EXPECT_LT(slowest, 3.0);
+        EXPECT_LT(extremes(points, 0.001).acceleration, 2.1 * 1000.0); // along and across, at once
+        EXPECT_EQ(points.back(), Vec3(20.0, 20.0, 0.0));
+    }
+}
+
+TEST(LimitedDecoding, LimitsNeedTheModePath) {
+    DecodeSettings settings = limited(100.0, 1000.0, std::nullopt);
+    settings.mode = DecodeMode::segments;
+    EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
+    settings = limited(100.0, 0.0, std::nullopt);
+    EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
+    settings = limited(100.0, 1000.0, std::nullopt);
+    settings.acceleration.reset();
+    settings.jerk = 1.0;
+    EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
 }
 
 TEST(Decoding, RefusesWhatIsNoSpeedAndTooManyPoints) {

@@ -75,7 +75,7 @@ TEST(GapLinking, SafeModeRefusesALinkThatLeavesTheRegion) {
                              {.pen = 1, .points = {{6.0, 6.0}, {10.0, 6.0}}},
                              {.pen = 1, .points = {{10.0, 7.5}, {6.0, 7.5}}}};
     EXPECT_EQ(linked(strokes, 3.0).links, 2);
-    const Linked safe = link(strokes, {.distance = 3.0, .inside = notched});
+    const Linked safe = link(strokes, {.distance = 3.0, .outlines = notched});
     EXPECT_EQ(safe.links, 1);
     EXPECT_EQ(safe.refused, 1);
     EXPECT_EQ(safe.strokes.size(), 2U);
@@ -90,13 +90,57 @@ TEST(GapLinking, SafeModeRefusesALinkThatLeavesTheRegion) {
     }
 }
 
-TEST(GapLinking, ClosedStrokesEncloseARegion) {
+// A ring in a frame: a point of the hole has as many lines around it as one beside the frame, plus two.
+TEST(GapLinking, SafeModeKnowsAHoleFromTheFaceAroundIt) {
+    const Ring frame = {{-50.0, -50.0}, {50.0, -50.0}, {50.0, 50.0}, {-50.0, 50.0}};
+    const Ring outer = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {0.0, 10.0}};
+    const Ring hole = {{4.0, 2.0}, {6.0, 2.0}, {6.0, 8.0}, {4.0, 8.0}};
+    const Strokes across_the_hole = {{.pen = 1, .points = {{0.0, 5.0}, {4.0, 5.0}}},
+                                     {.pen = 1, .points = {{6.0, 5.0}, {10.0, 5.0}}}};
+    const Strokes beside_it = {{.pen = 1, .points = {{0.0, 5.0}, {4.0, 5.0}}},
+                               {.pen = 1, .points = {{4.0, 6.0}, {0.0, 6.0}}},
+                               {.pen = 1, .points = {{1.0, 7.0}, {3.0, 7.0}}}};
+    const Strokes out_of_the_ring = {{.pen = 1, .points = {{8.0, 5.0}, {9.0, 5.0}}},
+                                     {.pen = 1, .points = {{11.0, 5.0}, {12.0, 5.0}}}};
+    for (const std::vector<Ring>& outlines :
+         {std::vector<Ring>{outer, hole}, std::vector<Ring>{frame, outer, hole}}) {
+        const LinkSettings settings = {.distance = 3.0, .outlines = outlines};
+        EXPECT_EQ(link(across_the_hole, settings).refused, 1);
+        EXPECT_EQ(link(beside_it, settings).links, 2);
+        EXPECT_EQ(link(out_of_the_ring, settings).refused, 1);
+    }
+}
+
+TEST(GapLinking, ClosedStrokesAreOutlines) {
     const Strokes strokes = strokes_of("SP1;PU0,0;PD400,0,400,400,0,400,0,0;PU100,100;PD200,100;");
-    const Region region = enclosed(strokes);
-    ASSERT_EQ(region.size(), 1U);
-    EXPECT_TRUE(contains(region, {5.0, 5.0}));
-    EXPECT_FALSE(contains(region, {15.0, 5.0}));
+    const std::vector<Ring> outlines = closed_outlines(strokes);
+    ASSERT_EQ(outlines.size(), 1U);
+    EXPECT_EQ(outlines[0].size(), 4U);
     EXPECT_THROW(static_cast<void>(linked(strokes, -1.0)), Error);
+}
+
+// The sign that ships: links of the safe mode are inside of letters, wherever one looks on them. The pen of
+// the letters is 2, that of the frame 1.
+TEST(GapLinking, LinksOfTheSignStayInItsLetters) {
+    const Strokes strokes = read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
+    const std::vector<Ring> outlines = closed_outlines(strokes);
+    const Region letters(outlines.begin() + 1, outlines.end());
+    const Linked safe = link(strokes, {.distance = 3.0, .outlines = outlines});
+    EXPECT_LT(safe.strokes.size(), strokes.size() / 2);
+    EXPECT_GT(safe.refused, 0);
+    for (const Stroke& stroke : safe.strokes) {
+        for (std::size_t n = 1; n < stroke.points.size() && stroke.pen == 2; ++n) {
+            for (double t = 0.05; t < 1.0; t += 0.1) {
+                const Vec2 p = stroke.points[n - 1] + t * (stroke.points[n] - stroke.points[n - 1]);
+                bool inside = false;
+                for (const Vec2& nudge :
+                     {Vec2(1e-3, 0.0), Vec2(-1e-3, 0.0), Vec2(0.0, 1e-3), Vec2(0.0, -1e-3)}) {
+                    inside = inside || contains(letters, p + nudge);
+                }
+                EXPECT_TRUE(inside) << p.transpose();
+            }
+        }
+    }
 }
 
 // The two jobs whose geometry is known: travel 19 mm and 249.42 mm. The thesis shows 214 s and 193 s.
