@@ -1,21 +1,29 @@
 #include "app/commands/cordic_command.h"
 
 #include "app/commands/cordic_accuracy.h"
-#include "core/base/error.h"
+#include "app/commands/cordic_programs.h"
+#include "app/outputs.h"
+#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/cordic/calculator.h"
+#include "core/cordic/rtl.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::app {
 
 namespace {
+
+constexpr std::int64_t most_vectors = 10'000'000;
 
 struct NumberOptions {
     double x = 0.0;
@@ -24,6 +32,9 @@ struct NumberOptions {
     std::string format = "f64";
     std::string rounding = "truncate";
     int iterations = 0; ///< 0: the thesis's 29 steps
+    std::string out;
+    std::int64_t vectors = 1000;
+    std::uint64_t seed = 2002;
     bool json = false;
 };
 
@@ -82,13 +93,23 @@ int vector(const NumberOptions& options) {
     return 0;
 }
 
-CLI::App& add_numbers(CLI::App& group,
+int rtl(const NumberOptions& options) {
+    make_folder(options.out);
+    std::vector<OutputFile> files;
+    for (cordic::RtlFile& file :
+         cordic::make_rtl(format_of(options), sequence_of(options), options.vectors, options.seed)) {
+        files.push_back({std::move(file.name), std::move(file.text)});
+    }
+    write_outputs(options.out, files);
+    fmt::print("{} files; try: cd {} && iverilog -g2001 -o sim *.v && ./sim\n", files.size(), options.out);
+    return 0;
+}
+
+CLI::App& add_command(CLI::App& group,
                       const char* name,
                       const char* text,
                       const std::shared_ptr<NumberOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("X", options->x, "First coordinate")->required();
-    command.add_option("Y", options->y, "Second coordinate")->required();
     command.add_option("--format", options->format, "Number format: f64, f32, or qI.F as in q2.22")
         ->capture_default_str();
     command
@@ -97,8 +118,33 @@ CLI::App& add_numbers(CLI::App& group,
         ->capture_default_str();
     command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
+    return command;
+}
+
+CLI::App& add_numbers(CLI::App& group,
+                      const char* name,
+                      const char* text,
+                      const std::shared_ptr<NumberOptions>& options) {
+    CLI::App& command = add_command(group, name, text, options);
+    command.add_option("X", options->x, "First coordinate")->required();
+    command.add_option("Y", options->y, "Second coordinate")->required();
     command.add_flag("--json", options->json, "Print the answer as JSON");
     return command;
+}
+
+void add_rtl(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<NumberOptions>();
+    options->format = "q2.22";
+    CLI::App& command =
+        add_command(group, "rtl", "Write the iteration as Verilog, with a test bench", options);
+    command.add_option("--out", options->out, "Folder for the Verilog files and their test vectors")
+        ->required()
+        ->type_name("DIR");
+    command.add_option("--vectors", options->vectors, "Test vectors from the model")
+        ->check(CLI::Range(std::int64_t{1}, most_vectors))
+        ->capture_default_str();
+    command.add_option("--seed", options->seed, "Of the test vectors")->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return rtl(*options); }; });
 }
 
 } // namespace
@@ -114,6 +160,8 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
     add_cordic_accuracy(group, chosen);
+    add_cordic_programs(group, chosen);
+    add_rtl(group, chosen);
 }
 
 } // namespace millwright::app

@@ -166,14 +166,14 @@ public:
         expects(!too_large, "measured angles can be reduced");
         Number x = number(std::cos(theta));
         Number y = number(std::sin(theta));
-        const long double from_x = arithmetic_.to_double(x);
-        const long double from_y = arithmetic_.to_double(y);
+        const long double from_x = exact(x);
+        const long double from_y = exact(y);
         quarter_turn(arithmetic_, x, y, turns, overflow_);
         const auto turned = kernel_.rotated({x, y, rest}, overflow_);
-        const long double c = std::cos(static_cast<long double>(arithmetic_.to_double(z)));
-        const long double s = std::sin(static_cast<long double>(arithmetic_.to_double(z)));
-        const auto error = std::hypot(arithmetic_.to_double(turned.x) - (from_x * c - from_y * s),
-                                      arithmetic_.to_double(turned.y) - (from_y * c + from_x * s));
+        const long double c = std::cos(exact(z));
+        const long double s = std::sin(exact(z));
+        const auto error = std::hypot(exact(turned.x) - (from_x * c - from_y * s),
+                                      exact(turned.y) - (from_y * c + from_x * s));
         worst.rotation = std::max(worst.rotation, static_cast<double>(error));
     }
     void vector(double theta, Accuracy& worst) const {
@@ -181,17 +181,20 @@ public:
         const Number y = number(std::sin(theta));
         const auto folded = pre(arithmetic_, x, y, overflow_);
         const auto found = kernel_.vectored({folded.x, folded.y, Number{}}, overflow_);
-        const long double a = arithmetic_.to_double(folded.x);
-        const long double b = arithmetic_.to_double(folded.y);
-        worst.angle = std::max(
-            worst.angle, static_cast<double>(std::abs(arithmetic_.to_double(found.z) - std::atan2(b, a))));
-        worst.length = std::max(
-            worst.length, static_cast<double>(std::abs(arithmetic_.to_double(found.x) - std::hypot(a, b))));
+        const long double a = exact(folded.x);
+        const long double b = exact(folded.y);
+        worst.angle = std::max(worst.angle, static_cast<double>(std::abs(exact(found.z) - std::atan2(b, a))));
+        worst.length =
+            std::max(worst.length, static_cast<double>(std::abs(exact(found.x) - std::hypot(a, b))));
     }
     [[nodiscard]] Number number(double value) const { return arithmetic_.from_double(value, overflow_); }
     void check() const { expects(!overflow_, "measured vectors fit the format"); }
 
 private:
+    [[nodiscard]] long double exact(Number value) const {
+        return static_cast<long double>(arithmetic_.to_double(value));
+    }
+
     Arithmetic arithmetic_;
     Kernel<Arithmetic> kernel_;
     mutable bool overflow_ = false;

@@ -54,7 +54,7 @@ public:
         if constexpr (std::is_same_v<T, double>) {
             return finite(value, overflow);
         } else {
-            constexpr double largest = std::numeric_limits<T>::max();
+            constexpr auto largest = static_cast<double>(std::numeric_limits<T>::max());
             if (!(value >= -largest && value <= largest)) {
                 overflow = true;
                 return value < 0 ? -std::numeric_limits<T>::max() : std::numeric_limits<T>::max();
@@ -62,7 +62,7 @@ public:
             return static_cast<T>(value);
         }
     }
-    [[nodiscard]] constexpr double to_double(T value) const { return value; }
+    [[nodiscard]] constexpr double to_double(T value) const { return static_cast<double>(value); }
     [[nodiscard]] constexpr Word to_word(T value) const { return std::bit_cast<Bits>(value); }
     /// Bits of no finite number set `overflow`.
     [[nodiscard]] constexpr T from_word(Word word, bool& overflow) const {

@@ -48,6 +48,15 @@ typename Arithmetic::Number entered(const Arithmetic& arithmetic, const NumberFo
     return number;
 }
 
+/// How far `found` is from (x, y) turned by `angle_deg`.
+double distance_from_rotated(long double x, long double y, double angle_deg, const Rotated& found) {
+    const long double angle = static_cast<long double>(angle_deg) * (pi_long / 180.0L);
+    const long double c = std::cos(angle);
+    const long double s = std::sin(angle);
+    return static_cast<double>(std::hypot(static_cast<long double>(found.x) - (x * c - y * s),
+                                          static_cast<long double>(found.y) - (y * c + x * s)));
+}
+
 } // namespace
 
 Rotated rotate(const NumberFormat& format, const Sequence& sequence, double x, double y, double angle_deg) {
@@ -64,21 +73,18 @@ Rotated rotate(const NumberFormat& format, const Sequence& sequence, double x, d
         const auto turned =
             kernel.rotated({from_x, from_y, entered(arithmetic, format, from_degrees(rest))}, overflow);
         refuse(overflow, format);
-        const Rotated found{arithmetic.to_double(turned.x),
-                            arithmetic.to_double(turned.y),
-                            arithmetic.to_double(turned.z),
-                            0.0,
-                            sequence.clock_count()};
+        Rotated answer{arithmetic.to_double(turned.x),
+                       arithmetic.to_double(turned.y),
+                       arithmetic.to_double(turned.z),
+                       0.0,
+                       sequence.clock_count()};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
         double exact_x = x;
         double exact_y = y;
         quarter_turn(FloatArithmetic<double>(), exact_x, exact_y, turns, overflow);
-        const long double c = std::cos(static_cast<long double>(rest) * (pi_long / 180.0L));
-        const long double s = std::sin(static_cast<long double>(rest) * (pi_long / 180.0L));
-        Rotated answer = found;
-        answer.error = static_cast<double>(
-            std::hypot(found.x - (exact_x * c - exact_y * s), found.y - (exact_y * c + exact_x * s)));
+        answer.error = distance_from_rotated(
+            static_cast<long double>(exact_x), static_cast<long double>(exact_y), rest, answer);
         return answer;
     });
 }

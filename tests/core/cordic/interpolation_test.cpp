@@ -44,8 +44,8 @@ TEST(LineSetPoint, ReproducesTheMatlabModelsLackOfSpeedAlongX) {
 template <class T> double worst_line(const Kernel<FloatArithmetic<T>>& kernel, T x, T y, double known) {
     bool overflow = false;
     const auto set = line_set_point(kernel, x, y, T{0}, T{0}, T{1}, T{1}, overflow);
-    const double dx = x;
-    const double dy = y;
+    const auto dx = static_cast<double>(x);
+    const auto dy = static_cast<double>(y);
     const double length = std::hypot(dx, dy);
     EXPECT_FALSE(overflow);
     EXPECT_EQ(set.vx, set.ax);

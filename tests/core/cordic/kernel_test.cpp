@@ -117,8 +117,8 @@ template <class Arithmetic> double worst_rotation(const Kernel<Arithmetic>& kern
             const auto turned = rotated(kernel, {x, y, z});
             const double c = std::cos(static_cast<double>(z));
             const double s = std::sin(static_cast<double>(z));
-            const double from_x = x;
-            const double from_y = y;
+            const auto from_x = static_cast<double>(x);
+            const auto from_y = static_cast<double>(y);
             worst = std::max({worst,
                               std::abs(static_cast<double>(turned.x) - (from_x * c - from_y * s)),
                               std::abs(static_cast<double>(turned.y) - (from_y * c + from_x * s))});

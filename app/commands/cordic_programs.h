@@ -1,0 +1,12 @@
+// millwright cordic run, asm, disasm, compare: whole programs on the CORDIC processor.
+#pragma once
+
+#include "app/command.h"
+
+#include <CLI/App.hpp>
+
+namespace millwright::app {
+
+void add_cordic_programs(CLI::App& group, Command& chosen);
+
+} // namespace millwright::app

@@ -1,0 +1,35 @@
+// What a run came to: clocks, time, how far its set-points are from the exact ones, and whether the processor
+// keeps up with the motion it feeds.
+#pragma once
+
+#include "core/cordic/processor.h"
+
+#include <cstdint>
+#include <span>
+
+namespace millwright::cordic {
+
+/// A set-point that a program is to publish, as exact arithmetic has it.
+struct ExactPoint {
+    double x = 0.0, y = 0.0;
+    double speed = 0.0; ///< Vmax
+    int line = 0;       ///< of the G-code; 0: none
+};
+
+struct RunReport {
+    Stop stop = Stop::none;
+    std::int64_t published = 0;
+    std::int64_t expected = 0; ///< exact points; as many as published where the program came to its end
+    ClockCounts clocks;
+    double seconds = 0.0;
+    double position_error = 0.0; ///< largest distance from the exact point
+    double speed_error = 0.0;    ///< largest, in parts of the programmed speed
+    std::int64_t late = 0;       ///< set-points that took longer to compute than the motion before them
+    double fastest = 0.0;        ///< speed up to which none would be late; 0 with fewer than two set-points
+};
+
+/// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0.
+[[nodiscard]] RunReport
+report_of(const Processor& processor, std::span<const ExactPoint> exact, double clock_hz);
+
+} // namespace millwright::cordic

@@ -1,0 +1,67 @@
+// From canonical commands to a program of the CORDIC processor: G00 to G03 in the XY plane as Mov and G
+// instructions, with offsets, units and rotation applied. Arcs become chords; the last chord is a line to the
+// programmed end, so that what rounding adds up to on the way does not stay. Positions mm, speeds mm/s.
+// Source: Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1;
+// the rule for the number of chords is ours (docs/reference/cordic.md#compiler).
+#pragma once
+
+#include "core/base/error.h"
+#include "core/cordic/instruction.h"
+#include "core/cordic/run_report.h"
+#include "core/gcode/reader/canon.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace millwright::gcode {
+
+/// Where an arc's last chord ends.
+enum class ArcEnd : std::uint8_t {
+    programmed, ///< exactly where the program says
+    rotated     ///< where all the rotations lead, as in the thesis
+};
+
+struct CordicProgramSettings {
+    cordic::NumberFormat format = cordic::binary32;
+    double chord_tolerance = 0.001; ///< mm
+    ArcEnd arc_end = ArcEnd::programmed;
+    double rapid_speed = 50.0;          ///< mm/s: Vmax of G00
+    double acceleration = 500.0;        ///< mm/s2: Amax
+    bool leaves_out_other_axes = false; ///< motion of other axes than X and Y; else it is a fault
+    std::size_t most_faults = 100;
+};
+
+struct CordicProgram {
+    cordic::Image image;
+    std::vector<cordic::ExactPoint> points; ///< what it will publish, in that order
+    std::vector<Diagnostic> faults;         ///< what the processor cannot do; such moves are left out
+    std::vector<Diagnostic> warnings;       ///< moves without length, which are left out
+};
+
+class CordicProgramBuilder final : public CanonSink {
+public:
+    /// For diagnostics the program is called `file`. The processor starts at (0, 0).
+    CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings = {});
+    CordicProgramBuilder(const CordicProgramBuilder&) = delete;
+    CordicProgramBuilder& operator=(const CordicProgramBuilder&) = delete;
+    ~CordicProgramBuilder() override;
+
+    void move(const Move& move, const SourceLine& now) override;
+    void curve(const Curve& curve, const SourceLine& now) override;
+    void command(const Command& command, const SourceLine& now) override;
+
+    /// What has come so far, ended by HLT; nothing comes after it. A program longer than the ROM is a fault.
+    [[nodiscard]] CordicProgram take();
+
+private:
+    class Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Chords of an arc of `radius` > 0 and |sweep| rad so that none is farther than `tolerance` from it; each
+/// turns by 45 degrees at most.
+[[nodiscard]] std::int64_t chord_count(double radius, double sweep, double tolerance);
+
+} // namespace millwright::gcode

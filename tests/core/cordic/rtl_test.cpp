@@ -1,0 +1,35 @@
+#include "core/cordic/rtl.h"
+
+#include "core/base/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace millwright::cordic {
+namespace {
+
+using testing::HasSubstr;
+
+// The bits are compared by tests/oracle/iverilog_test.cpp.
+TEST(Rtl, HoldsTheTablesOfItsFormat) {
+    const auto files = make_rtl(fixed_format(2, 22), thesis_sequence(), 10, 1);
+    ASSERT_EQ(files.size(), 4U);
+    EXPECT_THAT(files[0].text, HasSubstr("0: begin s = 1; angle = 24'h1dac67; end")); // atan 1/2 in 22 places
+    EXPECT_THAT(files[0].text, HasSubstr("29: begin s = 2; corrects = 1; subtracts = 1; end"));
+    EXPECT_THAT(files[0].text, testing::Not(HasSubstr("33: begin"))); // a correction of 0 does nothing
+    EXPECT_EQ(std::ranges::count(files[3].text, '\n'), 10);
+}
+
+TEST(Rtl, IsTheSameEachTime) {
+    const auto a = make_rtl(fixed_format(2, 22), thesis_sequence(), 100, 7);
+    const auto b = make_rtl(fixed_format(2, 22), thesis_sequence(), 100, 7);
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        EXPECT_EQ(a[n].text, b[n].text);
+    }
+    EXPECT_THROW(static_cast<void>(make_rtl(binary32, thesis_sequence(), 100, 7)), Error);
+}
+
+} // namespace
+} // namespace millwright::cordic

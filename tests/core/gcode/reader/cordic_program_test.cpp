@@ -1,0 +1,234 @@
+#include "core/gcode/reader/cordic_program.h"
+
+#include "core/cordic/assembler.h"
+#include "core/cordic/processor.h"
+#include "core/cordic/run_report.h"
+#include "core/gcode/reader/interpreter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace millwright::gcode {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double pi = 3.14159265358979323846;
+
+CordicProgram compiled(const std::string& text, const CordicProgramSettings& settings = {}) {
+    CordicProgramBuilder builder("part.ngc", settings);
+    ReaderSettings reading;
+    reading.any_tool = true;
+    Interpreter program(text, "part.ngc", reading, builder);
+    program.run();
+    EXPECT_TRUE(program.errors().empty()) << (program.errors().empty() ? "" : program.errors()[0].message);
+    return builder.take();
+}
+
+cordic::Processor run(const CordicProgram& program) {
+    cordic::Processor processor({}, program.image);
+    processor.run(1'000'000'000);
+    EXPECT_EQ(processor.state().stop, cordic::Stop::halted) << cordic::to_text(processor.state().stop);
+    return processor;
+}
+
+/// The instructions alone, one a line.
+std::string instructions(const CordicProgram& program) {
+    std::string all;
+    std::string line;
+    for (const char c : cordic::disassemble(program.image)) {
+        if (c != '\n') {
+            line += c;
+            continue;
+        }
+        const auto begin = line.find_first_not_of(' ');
+        const auto end = line.find_last_not_of(' ', line.find(';') - 1);
+        all += line.find(".format") == std::string::npos ? line.substr(begin, end - begin + 1) + "\n" : "";
+        line.clear();
+    }
+    return all;
+}
+
+TEST(CordicCompiler, MakesTheInstructionsOfTable21FromALine) {
+    const CordicProgram program = compiled("G21 G0 X3 Y4\nM2\n");
+    EXPECT_TRUE(program.faults.empty());
+    EXPECT_EQ(instructions(program), "MOV Vmax, 50\nMOV Amax, 500\nMOV XI, 3\nMOV YJ, 4\nG00\nHLT\n");
+}
+
+TEST(CordicCompiler, MakesTheInstructionsOfTable21FromAnArc) {
+    CordicProgramSettings settings;
+    settings.arc_end = ArcEnd::rotated;
+    settings.chord_tolerance = 5.0;
+    const CordicProgram program = compiled("G21 G0 X0 Y100\nF600 G90.1 G2 X100 Y100 I50 J50\nM2\n", settings);
+    EXPECT_TRUE(program.faults.empty());
+    // 90 degrees clockwise about (50, 50), 70.71 long: 5 mm allow chords of 43 degrees, so there are 3.
+    EXPECT_THAT(
+        instructions(program),
+        HasSubstr("MOV Vmax, 10\nMOV XI, 50\nMOV YJ, 50\nMOV Dz, 0.5235987901687622\nMOV N, 3\nG02\nHLT\n"));
+}
+
+TEST(CordicCompiler, ChoosesChordsWithinTheToleranceAndNotMoreThanNeeded) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> power(-3.0, 4.0);
+    std::uniform_real_distribution<double> turn(0.01, 2.0 * pi);
+    for (int n = 0; n < 10'000; ++n) {
+        const double radius = std::pow(10.0, power(random));
+        const double tolerance = std::pow(10.0, power(random) - 3.0);
+        const double sweep = turn(random);
+        const auto count = chord_count(radius, sweep, tolerance);
+        const auto sagitta = [&](std::int64_t chords) {
+            return radius * (1.0 - std::cos(0.5 * sweep / static_cast<double>(chords)));
+        };
+        EXPECT_LE(sagitta(count), tolerance * (1.0 + 1e-9) + 1e-15 * radius);
+        EXPECT_LE(sweep / static_cast<double>(count), pi / 4 + 1e-12);
+        if (count > 1 && sweep / static_cast<double>(count - 1) < pi / 4) {
+            EXPECT_GT(sagitta(count - 1), tolerance * (1.0 - 1e-6));
+        }
+    }
+}
+
+TEST(CordicCompiler, LandsArcsExactlyOnTheProgrammedEnd) {
+    const CordicProgram program = compiled("G21 F600 G3 X0 Y0 I-5 J0\nG2 X-3 Y1 R4\nM2\n");
+    const cordic::Processor processor = run(program);
+    ASSERT_EQ(processor.published().size(), program.points.size());
+    const auto end = processor.set_point(processor.published().back());
+    EXPECT_EQ(end.x, -3.0);
+    EXPECT_EQ(end.y, 1.0);
+    const cordic::RunReport report = cordic::report_of(processor, program.points, 8e6);
+    EXPECT_LT(report.position_error, 1e-4);
+    EXPECT_LT(report.speed_error, 1e-3);
+}
+
+TEST(CordicCompiler, TurnsBothWaysAsIsoSays) {
+    for (const bool clockwise : {true, false}) {
+        const CordicProgram program = compiled(std::string("G21 G0 X10 Y0\nF600 ") +
+                                               (clockwise ? "G2" : "G3") + " X10 Y0 I-10 J0\nM2\n");
+        const cordic::Processor processor = run(program);
+        const auto second = processor.set_point(processor.published()[2]);
+        EXPECT_EQ(second.y < 0.0, clockwise);
+        double area = 0.0; // of the path, by the shoelace formula
+        for (std::size_t n = 1; n + 1 < processor.published().size(); ++n) {
+            const auto a = processor.set_point(processor.published()[n]);
+            const auto b = processor.set_point(processor.published()[n + 1]);
+            area += 0.5 * (a.x * b.y - b.x * a.y);
+        }
+        EXPECT_NEAR(std::abs(area), 100.0 * pi, 2.0);
+        EXPECT_EQ(area < 0.0, clockwise);
+    }
+}
+
+TEST(CordicCompiler, AppliesUnitsOffsetsAndRotation) {
+    const CordicProgram program = compiled("G20 G10 L2 P1 X1 Y2 R90\nG54 G0 X1 Y0\nM2\n");
+    ASSERT_EQ(program.points.size(), 1U);
+    EXPECT_NEAR(program.points[0].x, 25.4, 1e-9);
+    EXPECT_NEAR(program.points[0].y, 76.2, 1e-9);
+    EXPECT_EQ(program.points[0].line, 2);
+}
+
+TEST(CordicCompiler, SaysWithItsLineWhatTheProcessorCannotDo) {
+    struct Case {
+        const char* text;
+        const char* message;
+    };
+    for (const Case& c : {Case{"G21\nG0 Z5\nM2\n", "no axis Z"},
+                          Case{"G21\nG4 P1\nM2\n", "no dwell"},
+                          Case{"G21\nG18 G2 X2 Z0 I1 K0 F100\nM2\n", "XY plane"},
+                          Case{"G21\nG0 X200\nM2\n", "X 200 does not fit into q8.24"},
+                          Case{"G21\nM7\nM2\n", "no coolant"}}) {
+        CordicProgramSettings settings;
+        settings.format = cordic::fixed_format(8, 24);
+        settings.acceleration = 100.0;
+        const CordicProgram program = compiled(c.text, settings);
+        ASSERT_EQ(program.faults.size(), 1U) << c.text;
+        EXPECT_EQ(program.faults[0].place.line, 2) << c.text;
+        EXPECT_THAT(program.faults[0].message, HasSubstr(c.message));
+    }
+}
+
+TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
+    CordicProgramSettings settings;
+    settings.format = cordic::fixed_format(16, 8);
+    const CordicProgram program = compiled("G21 G0 X1\nG0 X1\nG0 X1.001\nG0 X2\nM2\n", settings);
+    ASSERT_EQ(program.warnings.size(), 2U);
+    EXPECT_EQ(program.warnings[0].place.line, 2);
+    EXPECT_THAT(program.warnings[0].message, HasSubstr("without length"));
+    EXPECT_EQ(program.warnings[1].place.line, 3);
+    EXPECT_THAT(program.warnings[1].message, HasSubstr("less than q16.8 can tell"));
+    EXPECT_EQ(run(program).published().size(), 2U);
+}
+
+TEST(CordicCompiler, RefusesAProgramBeyondTheRom) {
+    std::string text = "G21 F100\n";
+    for (int n = 0; n < 4000; ++n) {
+        text += "G1 X" + std::to_string(n % 7) + " Y" + std::to_string(n % 5) + "\n";
+    }
+    const CordicProgram program = compiled(text + "M2\n");
+    ASSERT_FALSE(program.faults.empty());
+    EXPECT_THAT(program.faults.back().message, HasSubstr("the program ROM holds 32768"));
+}
+
+// Random programs: every set-point is where exact arithmetic has it, in every format.
+TEST(CordicCompiler, KeepsRandomProgramsNearTheExactPath) {
+    std::mt19937 random(21);
+    std::uniform_real_distribution<double> place(-20.0, 20.0);
+    for (const cordic::NumberFormat& format :
+         {cordic::binary64, cordic::binary32, cordic::fixed_format(12, 40), cordic::fixed_format(12, 20)}) {
+        std::string text = "G21 F1200 G0 X1 Y1\n";
+        double x = 1.0;
+        double y = 1.0;
+        for (int n = 0; n < 20; ++n) {
+            const double i = place(random) / 2;
+            const double j = place(random) / 2;
+            const double turn = 0.3 * place(random) / 20;
+            const double c = std::cos(turn);
+            const double s = std::sin(turn);
+            const double end_x = x + i - c * i + s * j;
+            const double end_y = y + j - s * i - c * j;
+            text += "G" + std::string(turn > 0 ? "3" : "2") + " X" + std::to_string(end_x) + " Y" +
+                    std::to_string(end_y) + " I" + std::to_string(i) + " J" + std::to_string(j) + "\n";
+            x = end_x;
+            y = end_y;
+            text +=
+                "G1 X" + std::to_string(x = place(random)) + " Y" + std::to_string(y = place(random)) + "\n";
+        }
+        CordicProgramSettings settings;
+        settings.format = format;
+        const CordicProgram program = compiled(text + "M2\n", settings);
+        ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
+        const cordic::Processor processor = run(program);
+        ASSERT_EQ(processor.published().size(), program.points.size());
+        const auto report = cordic::report_of(processor, program.points, 8e6);
+        EXPECT_LT(report.position_error, 2e-4 + 300.0 * cordic::resolution(format))
+            << cordic::to_text(format);
+    }
+}
+
+// 10^6 chords: the radius neither grows nor shrinks beyond what the sequence's gain leaves, and the end is
+// exact.
+TEST(CordicCompiler, StaysOnACircleForAMillionChords) {
+    std::string text = "G21 F600 G0 X10 Y0\n";
+    for (int turn = 0; turn < 10; ++turn) {
+        text += "G3 X10 Y0 I-10 J0\n";
+    }
+    CordicProgramSettings settings;
+    settings.format = cordic::binary64;
+    settings.chord_tolerance = 5e-9;
+    const CordicProgram program = compiled(text + "M2\n", settings);
+    const cordic::Processor processor = run(program);
+    EXPECT_GT(processor.published().size(), 950'000U);
+    double worst = 0.0;
+    for (const auto& record : processor.published()) {
+        const auto set = processor.set_point(record);
+        worst = std::max(worst, std::abs(std::hypot(set.x, set.y) - 10.0));
+    }
+    EXPECT_LT(worst, 10.0 * 1e5 * 4e-9); // each chord shrinks the radius by 3.58e-9 of it, 100,000 a turn
+    EXPECT_EQ(processor.set_point(processor.published().back()).x, 10.0);
+}
+
+} // namespace
+} // namespace millwright::gcode
