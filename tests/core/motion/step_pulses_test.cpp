@@ -65,9 +65,8 @@ TEST(StepPulses, AreAsManyAsTheWayHasSteps) {
     EXPECT_EQ(found.pulses.back().direction, -1);
 }
 
-TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
-    const auto model = machine();
-    const Trajectory trajectory = plan(test::random_program(model, 60, 7), model, {}, {});
+/// Every pulse is due where the plan is in the middle between two steps.
+void expect_half_a_step(const Trajectory& trajectory) {
     StepSettings settings = hundred_a_mm();
     settings.steps_per_unit = {400.0, 400.0, 400.0, 3000.0, 3000.0};
     const Pulsed found = pulsed(trajectory, settings);
@@ -80,6 +79,22 @@ TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
     for (const StepJitter& axis : found.axes) {
         EXPECT_LE(std::abs(axis.end_error_steps), 0.5 + 1e-9);
     }
+}
+
+TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
+    const auto model = machine();
+    expect_half_a_step(plan(test::random_program(model, 60, 7), model, {}, {}));
+}
+
+TEST(StepPulses, FollowRoundedCornersWhereAnAxisTurnsBackWithinABlock) {
+    const auto model = test::with_jerk(machine(), 20.0);
+    PlannerSettings rounded;
+    rounded.path = {gcode::PathMode::continuous, 5.0};
+    rounded.rounding_angle = 0.1;
+    const Trajectory whole = plan(test::random_program(model, 60, 7), model, rounded, {});
+    expect_half_a_step(whole);
+    const Trajectory braking = brake(whole, 0.4 * whole.duration());
+    expect_half_a_step(go_on(braking, 0.5 * braking.duration(), {}));
 }
 
 TEST(StepPulses, AreInOrderAndApart) {

@@ -68,6 +68,22 @@ TEST(Trajectory, FindsTheTimeOfABlocksFractionAgain) {
     }
 }
 
+TEST(Trajectory, FindsTheTimeOfABlocksFractionAgainWithLimitsOfJerk) {
+    const MachineModel machine = test::with_jerk(test::machine("ac-table"), 20.0);
+    PlannerSettings rounded;
+    rounded.path = {gcode::PathMode::continuous, 0.1};
+    const Trajectory trajectory = plan(test::random_program(machine, 100, 3), machine, rounded, {});
+    for (int k = 1; k < 1000; ++k) {
+        const double time = trajectory.duration() * k / 1000.0;
+        const Sample sample = trajectory.at(time);
+        const double again = trajectory.time_at(sample.block, sample.fraction);
+        // At rest, and nearly so, the way does not tell the time.
+        const bool stands = sample.fraction >= 1.0 || sample.velocity.norm() < 1e-3;
+        EXPECT_NEAR(again, time, stands ? 0.11 : 1e-7);
+        EXPECT_LT((trajectory.at(again).position - sample.position).norm(), 1e-9);
+    }
+}
+
 TEST(Trajectory, FindsTheTimeOfALengthOnThePartAgain) {
     const Trajectory trajectory = dome_trajectory();
     EXPECT_EQ(trajectory.part_length_at(0.0), 0.0);
