@@ -17,8 +17,9 @@ Trajectory plan(const gcode::Program& program,
     auto path = std::make_shared<const Path>(internal::lay_out(
         program, machine, settings, start.value_or(program.start), progress.part(0.0, laid_out)));
     progress.report(laid_out);
-    Trajectory trajectory =
-        internal::go_to_the_end(std::move(path), internal::departure(), {}, progress.part(laid_out, 1.0));
+    const int last = path->block_count() - 1;
+    Trajectory trajectory = internal::go_to_the_end_of(
+        last, std::move(path), internal::departure(), {}, progress.part(laid_out, 1.0));
     progress.report(1.0);
     return trajectory;
 }

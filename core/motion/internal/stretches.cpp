@@ -11,15 +11,15 @@ namespace millwright::motion::internal {
 
 namespace {
 
-Profile programmed_speeds(const Path& path, double begin, const Override& rates) {
+Profile programmed_speeds(const Path& path, const Reach& reach, const Override& rates) {
     std::vector<Zone> zones;
-    const auto first = std::ranges::upper_bound(path.programmed, begin, {}, &ProgrammedStep::end);
-    zones.reserve(static_cast<std::size_t>(path.programmed.end() - first));
-    for (auto step = first; step != path.programmed.end(); ++step) {
+    for (auto step = std::ranges::upper_bound(path.programmed, reach.filtered, {}, &ProgrammedStep::end);
+         step != path.programmed.end() && (zones.empty() || zones.back().end < reach.end);
+         ++step) {
         const double speed = step->speed * (step->rapid ? rates.rapid : rates.feed);
-        zones.push_back({step->end, speed, 0.5 * path.filter_time * speed, {}});
+        zones.push_back({std::min(step->end, reach.end), speed, 0.5 * path.filter_time * speed, {}});
     }
-    return profile_of(zones, begin);
+    return profile_of(zones, reach.filtered);
 }
 
 /// Steps through a profile.
@@ -91,16 +91,18 @@ void brake_within(const Path& path, const std::vector<Stretch>& stretches, std::
 
 } // namespace
 
-std::vector<Stretch> stretches_of(const Path& path, double begin, const Override& rates) {
-    const Profile programmed = programmed_speeds(path, begin, rates);
+std::vector<Stretch> stretches_of(const Path& path, const Reach& reach, const Override& rates) {
+    const double begin = reach.begin;
+    const double end = reach.end;
+    const Profile programmed = programmed_speeds(path, reach, rates);
     std::vector<Stretch> stretches;
-    stretches.reserve(programmed.size() + path.speed.size());
+    stretches.reserve(2 * programmed.size());
     Walk axis_speed(path.speed, begin);
     Walk acceleration(path.acceleration, begin);
     Walk wanted(programmed, begin);
     double from = begin;
     auto block = std::ranges::upper_bound(path.segments, begin, {}, &Segment::end);
-    while (!axis_speed.done() && !acceleration.done() && !wanted.done()) {
+    while (from < end && !axis_speed.done() && !acceleration.done() && !wanted.done()) {
         double to = std::min({axis_speed.step().end, acceleration.step().end, wanted.step().end});
         if (path.look_ahead > 0 && block != path.segments.end()) { // so that no stretch is of two blocks
             to = std::min(to, block->end());

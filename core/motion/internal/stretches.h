@@ -14,8 +14,12 @@ struct Stretch {
     double acceleration = 0.0; ///<
 };
 
-/// From `begin` to the end of the path. Stretches of no length are limits at one point.
-[[nodiscard]] std::vector<Stretch> stretches_of(const Path& path, double begin, const Override& rates);
+/// From `begin` to `end` of the way. Stretches of no length are limits at one point. `filtered` is where the
+/// filtered way is, whose programmed speeds still count.
+struct Reach {
+    double filtered = 0.0, begin = 0.0, end = 0.0;
+};
+[[nodiscard]] std::vector<Stretch> stretches_of(const Path& path, const Reach& reach, const Override& rates);
 
 /// The greatest speed at the begin of each stretch, and at the end of the last, from which all that follows
 /// can still be braked. With a look-ahead only so many moves are known at a time, and the last of them is

@@ -150,14 +150,39 @@ Departure departure(const Trajectory& now, double time) {
     return from;
 }
 
-Trajectory go_to_the_end(std::shared_ptr<const Path> path,
-                         Departure from,
-                         const Override& rates,
-                         const Progress& progress) {
+int first_block_after(const Path& path, const Departure& from) {
+    int block = from.block;
+    while (block < path.block_count() &&
+           !(path.segments[static_cast<std::size_t>(block)].end() > from.history.back().way)) {
+        ++block;
+    }
+    return block;
+}
+
+int first_block_to_rest_in(const Path& path, const Departure& from) {
+    const Phase& now = from.history.back();
+    const double stop = now.speed > 0.0 ? way_to_rest(path, now.way, now.speed) : now.way;
+    int block = from.block;
+    while (block + 1 < path.block_count() && path.segments[static_cast<std::size_t>(block)].end() < stop) {
+        ++block;
+    }
+    return block;
+}
+
+Trajectory go_to_the_end_of(int last,
+                            std::shared_ptr<const Path> path,
+                            Departure from,
+                            const Override& rates,
+                            const Progress& progress) {
     expects(rates.feed > 0.0 && rates.feed <= highest_override && rates.rapid > 0.0 && rates.rapid <= 1.0,
             "an override is a factor that the machine has");
     const Phase now = from.history.back();
-    const std::vector<Stretch> stretches = stretches_of(*path, now.way, rates);
+    Reach reach{now.way, now.way, now.way};
+    if (last >= 0) {
+        reach.filtered = std::min(now.way, path->segments[static_cast<std::size_t>(from.block)].start);
+        reach.end = path->segments[static_cast<std::size_t>(last)].end();
+    }
+    const std::vector<Stretch> stretches = stretches_of(*path, reach, rates);
     progress.check();
     const std::vector<double> speeds = reached_speeds(stretches, allowed_speeds(*path, stretches), now.speed);
     progress.check();

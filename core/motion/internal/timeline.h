@@ -19,11 +19,17 @@ struct Departure {
 [[nodiscard]] Departure departure();
 [[nodiscard]] Departure departure(const Trajectory& now, double time);
 
-/// To the end of the path, as fast as the limits and the program allow. Throws Cancelled.
-[[nodiscard]] Trajectory go_to_the_end(std::shared_ptr<const Path> path,
-                                       Departure from,
-                                       const Override& rates,
-                                       const Progress& progress);
+/// The first block that ends beyond the unfiltered way; block_count() if there is none.
+[[nodiscard]] int first_block_after(const Path& path, const Departure& from);
+/// The first block in which the motion can come to rest.
+[[nodiscard]] int first_block_to_rest_in(const Path& path, const Departure& from);
+
+/// To the end of block `last`, to rest there, as fast as the limits and the program allow. Throws Cancelled.
+[[nodiscard]] Trajectory go_to_the_end_of(int last,
+                                          std::shared_ptr<const Path> path,
+                                          Departure from,
+                                          const Override& rates,
+                                          const Progress& progress);
 /// To rest as soon as the axes allow.
 [[nodiscard]] Trajectory brake_to_rest(std::shared_ptr<const Path> path, Departure from);
 

@@ -88,6 +88,33 @@ TEST(Hold, GoesBackToThePlannedSpeeds) {
     EXPECT_GT(late + time + braking.duration(), 0.0);
 }
 
+TEST(Hold, GoesOnBlockAfterBlockNearlyAsFastAsAllAtOnce) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const MachineModel machine = test::with_jerk(test::machine("ac-table"), 30.0);
+        PlannerSettings rounded;
+        rounded.path = {gcode::PathMode::continuous, 0.05};
+        const Trajectory whole = plan(test::random_program(machine, 300, seed), machine, rounded, {});
+        for (const int blocks : {1, 40}) {
+            Trajectory now = go_on_for(blocks, whole, 0.0, {});
+            double time = 0.0;
+            while (now.last_block() + 1 < now.block_count()) {
+                const int middle = (now.first_block() + now.last_block()) / 2;
+                const double look = blocks > 1 ? now.start_of(middle) : now.duration();
+                Trajectory next = go_on_for(blocks, now, look, {});
+                expect_seamless(now.at(look), next.at(0.0));
+                EXPECT_GE(next.last_block(), now.last_block());
+                time += look;
+                now = std::move(next);
+            }
+            time += now.duration();
+            EXPECT_EQ(now.at(now.duration()).position, whole.at(whole.duration()).position);
+            // With as few blocks the filter does not see far enough for a slow feed behind the last one.
+            EXPECT_GE(time, whole.duration() * 0.999);
+            EXPECT_LE(time, whole.duration() * (blocks > 1 ? 1.001 : 10.0));
+        }
+    }
+}
+
 TEST(Hold, ContinuesADwellWhereItWasInterrupted) {
     const MachineModel machine = test::machine("rotary-tilt-listing");
     gcode::Program program = test::empty_program(machine);

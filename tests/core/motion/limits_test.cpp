@@ -156,7 +156,9 @@ Ride random_ride(const Trajectory& trajectory, unsigned seed) {
         const double time = now.duration() * (k % 3 == 0 ? 0.2 : 0.01) * share(random);
         ride.starts.push_back(ride.starts.back() + time);
         const Override rates{0.1 + 1.9 * share(random), 0.25 + 0.75 * share(random)};
-        ride.parts.push_back(share(random) < 0.3 ? brake(now, time) : go_on(now, time, rates));
+        ride.parts.push_back(k % 3 == 1   ? brake(now, time)
+                             : k % 3 == 2 ? go_on_for(k, now, time, rates)
+                                          : go_on(now, time, rates));
     }
     const Trajectory last = go_on(ride.parts.back(), ride.parts.back().duration(), {});
     ride.starts.push_back(ride.starts.back() + ride.parts.back().duration());

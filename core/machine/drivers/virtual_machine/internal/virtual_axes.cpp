@@ -19,8 +19,10 @@ using motion::Trajectory;
 namespace {
 
 constexpr double percent = 0.01;
+constexpr int blocks_ahead = 2000; // that a change while running plans anew: some ms
+constexpr double never = std::numeric_limits<double>::infinity();
 
-}
+} // namespace
 
 VirtualAxes::VirtualAxes(AxisPositions position, std::shared_ptr<const kinematics::MachineModel> model)
     : model_(std::move(model)), rest_position_(std::move(position)) {
@@ -91,15 +93,20 @@ bool VirtualAxes::moving() const {
 void VirtualAxes::advance(double seconds) {
     expects(seconds >= 0.0, "time does not run backwards");
     while (!at_rest_) { // more than once only where a jog follows another
-        const double left = now_->duration() - time_;
+        const double left = std::min(now_->duration(), look_at_) - time_;
         if (seconds < left) {
             time_ += seconds;
             take_accessories(now_->block_at(time_));
             return;
         }
         seconds -= left;
-        time_ = now_->duration();
-        come_to_rest();
+        time_ += left;
+        if (look_at_ < now_->duration()) {
+            go_on();
+        } else {
+            time_ = now_->duration();
+            come_to_rest();
+        }
     }
 }
 
@@ -147,6 +154,7 @@ void VirtualAxes::take_accessories(int executed_blocks) {
 void VirtualAxes::follow(Trajectory next, DriverState state) {
     now_ = std::make_shared<const Trajectory>(std::move(next));
     time_ = 0.0;
+    look_at_ = never;
     at_rest_ = false;
     state_ = state;
     advance(0.0);
@@ -193,6 +201,7 @@ void VirtualAxes::execute(Work work, Activity activity) {
     work_ = std::move(work);
     now_ = work_.trajectory;
     time_ = 0.0;
+    look_at_ = never;
     at_rest_ = false;
     state_ = DriverState::running;
     activity_ = activity;
@@ -293,8 +302,21 @@ void VirtualAxes::set_overrides(const Overrides& wanted) {
                   std::clamp(wanted.spindle, least, most)};
     if (state_ == DriverState::running &&
         (activity_ == Activity::program || activity_ == Activity::command)) {
-        follow(motion::go_on(*now_, time_, rates()), DriverState::running);
+        go_on();
+        advance(0.0);
     }
+}
+
+/// As far as is looked ahead; advance() does it again before that matters.
+void VirtualAxes::go_on() {
+    Trajectory next = motion::go_on_for(blocks_ahead, *now_, time_, rates());
+    const bool whole = next.last_block() + 1 == next.block_count();
+    const double look = whole ? never : next.start_of((next.first_block() + next.last_block()) / 2);
+    now_ = std::make_shared<const Trajectory>(std::move(next));
+    time_ = 0.0;
+    look_at_ = look;
+    at_rest_ = false;
+    state_ = DriverState::running;
 }
 
 motion::Override VirtualAxes::rates() const {
@@ -340,7 +362,8 @@ void VirtualAxes::hold() {
 
 void VirtualAxes::resume() {
     if (state_ == DriverState::holding) {
-        follow(motion::go_on(*now_, time_, rates()), DriverState::running);
+        go_on();
+        advance(0.0);
     }
 }
 

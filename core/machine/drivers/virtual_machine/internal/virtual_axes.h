@@ -55,6 +55,7 @@ private:
     void require_rest(std::string_view what) const;
     void come_to_rest();
     void follow(motion::Trajectory next, DriverState state);
+    void go_on();
     void execute(Work work, Activity activity);
     void execute(gcode::Program program, Activity activity);
     [[nodiscard]] motion::Override rates() const;
@@ -70,6 +71,7 @@ private:
     Work work_;
     std::shared_ptr<const motion::Trajectory> now_; ///< the plan, or what became of it; null: none
     double time_ = 0.0;                             ///< into `now_`
+    double look_at_ = 0.0; ///< the time at which `now_` is planned on; after its end: it is whole
     bool at_rest_ = true;
     kinematics::AxisPositions rest_position_; ///< where the axes stand if at rest
     std::string message_;

@@ -1,6 +1,7 @@
 #include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
 
 #include "core/base/error.h"
+#include "core/motion/hold.h"
 #include "tests/support/jobs.h"
 
 #include <gtest/gtest.h>
@@ -74,6 +75,31 @@ TEST(VirtualAxes, GoSlowerAndFasterAsTheyAreTold) {
     EXPECT_GT(time_with({.feed = 50}), 1.5 * normal);
     EXPECT_LT(time_with({.feed = 200}), 0.8 * normal);
     EXPECT_GT(time_with({.rapid = 10}), normal);
+}
+
+TEST(VirtualAxes, PlanALongProgramOnWhileTheyExecuteIt) {
+    const auto machine = test::machine("rotary-tilt-listing");
+    gcode::Program program = test::empty_program(machine);
+    AxisPositions q = program.start;
+    for (int n = 1; n <= 7000; ++n) {
+        q[0] += n / 100 % 2 == 0 ? 0.5 : -0.5;
+        q[1] += 0.01;
+        test::add_move(program, q, 0.02);
+    }
+    const Job job = test::job_of(program);
+    const Work work = test::work_of(job);
+    VirtualAxes axes(program.start);
+    axes.connect();
+    axes.start(work);
+    axes.advance(1.0);
+    axes.set_overrides({.feed = 150});
+    const double expected = motion::go_on(*work.trajectory, 1.0, {1.5, 1.0}).duration();
+    axes.advance(expected - 0.01);
+    EXPECT_TRUE(axes.moving());
+    axes.advance(0.011);
+    EXPECT_FALSE(axes.moving());
+    EXPECT_EQ(axes.status().executed_blocks, program.block_count());
+    EXPECT_EQ(axes.status().position, q);
 }
 
 TEST(VirtualAxes, KeepOverridesThroughAHoldAndForgetThemWithTheProgram) {
