@@ -45,7 +45,7 @@ public:
 
     /// Reverses stretches of the order as long as that makes the travel shorter.
     void two_opt(const Progress& progress) {
-        const internal::PointGrid grid(ends());
+        find_neighbours(progress);
         places_.resize(visits_.size());
         note_places(0, visits_.size());
         bool better = true;
@@ -55,7 +55,7 @@ public:
                 if (n % 1024 == 0) {
                     progress.check();
                 }
-                better = improve_around(n, grid) || better;
+                better = improve_around(n) || better;
             }
         }
     }
@@ -90,17 +90,40 @@ private:
         return now - (exit(to) - before(from)).norm() - (after(to) - entry(from)).norm();
     }
 
+    /// The ends of strokes have numbers: 2 n is the start of stroke n, 2 n + 1 its end.
+    [[nodiscard]] std::size_t entry_end(std::size_t n) const {
+        return 2 * visits_[n].stroke + (visits_[n].reversed ? 1 : 0);
+    }
+    [[nodiscard]] std::size_t exit_end(std::size_t n) const {
+        return 2 * visits_[n].stroke + (visits_[n].reversed ? 0 : 1);
+    }
+
+    void find_neighbours(const Progress& progress) {
+        const std::vector<Vec2> points = ends();
+        const internal::PointGrid grid(points);
+        near_ends_.clear();
+        near_ends_.reserve(points.size());
+        for (const Vec2& point : points) {
+            if (near_ends_.size() % 1024 == 0) {
+                progress.check();
+            }
+            near_ends_.push_back(grid.near(point, neighbours));
+        }
+        near_start_ = grid.near(start_, neighbours);
+        near_end_ = grid.near(end_, neighbours);
+    }
+
     // The new way out of the visit before `n` leads to the exit of a later visit, or the new way into the one
     // after `n` comes from the entry of an earlier one: both are looked for among the near ends.
-    bool improve_around(std::size_t n, const internal::PointGrid& grid) {
-        for (const int end : grid.near(before(n), neighbours)) {
+    bool improve_around(std::size_t n) {
+        for (const int end : n == 0 ? near_start_ : near_ends_[exit_end(n - 1)]) {
             const std::size_t to = places_[static_cast<std::size_t>(end) / 2];
             if (to >= n && to - n < longest_reversal && gain(n, to) > least_gain) {
                 reverse(n, to);
                 return true;
             }
         }
-        for (const int end : grid.near(after(n), neighbours)) {
+        for (const int end : n + 1 == visits_.size() ? near_end_ : near_ends_[entry_end(n + 1)]) {
             const std::size_t from = places_[static_cast<std::size_t>(end) / 2];
             if (from <= n && n - from < longest_reversal && gain(from, n) > least_gain) {
                 reverse(from, n);
@@ -129,7 +152,10 @@ private:
     Vec2 start_;
     Vec2 end_;
     std::vector<Visit> visits_;
-    std::vector<std::size_t> places_; ///< of each stroke in the order
+    std::vector<std::size_t> places_;         ///< of each stroke in the order
+    std::vector<std::vector<int>> near_ends_; ///< of each end, the ends near it
+    std::vector<int> near_start_;
+    std::vector<int> near_end_;
 };
 
 Strokes in_order(const std::vector<const Stroke*>& strokes, const std::vector<Visit>& visits) {

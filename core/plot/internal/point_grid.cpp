@@ -2,29 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <numeric>
+#include <utility>
 
 namespace millwright::plot::internal {
 
 PointGrid::PointGrid(std::vector<Vec2> points) : points_(std::move(points)) {
-    Vec2 upper = points_.empty() ? Vec2(0.0, 0.0) : points_.front();
+    std::vector<int> all(points_.size());
+    std::iota(all.begin(), all.end(), 0);
+    fill(all);
+}
+
+void PointGrid::fill(const std::vector<int>& points) {
+    const auto place = [&](int n) -> const Vec2& { return points_[static_cast<std::size_t>(n)]; };
+    Vec2 upper = points.empty() ? Vec2(0.0, 0.0) : place(points.front());
     lower_ = upper;
-    for (const Vec2& p : points_) {
-        lower_ = lower_.cwiseMin(p);
-        upper = upper.cwiseMax(p);
+    for (const int n : points) {
+        lower_ = lower_.cwiseMin(place(n));
+        upper = upper.cwiseMax(place(n));
     }
     const Vec2 span = (upper - lower_).cwiseMax(Vec2(1e-9, 1e-9));
-    const double count = std::max<double>(1.0, static_cast<double>(points_.size()) / 2.0);
+    const double count = std::max<double>(1.0, static_cast<double>(points.size()) / 2.0);
     // A thin box has no more cells along than there are points.
     size_ = std::max(std::sqrt(span.x() * span.y() / count), span.maxCoeff() / count);
     columns_ = static_cast<int>(span.x() / size_) + 1;
     rows_ = static_cast<int>(span.y() / size_) + 1;
-    cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (int n = 0; n < static_cast<int>(points_.size()); ++n) {
-        const Vec2& p = points_[static_cast<std::size_t>(n)];
-        cell(column(p.x()), row(p.y())).push_back(n);
-        ++left_;
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    for (const int n : points) {
+        cell(column(place(n).x()), row(place(n).y())).push_back(n);
     }
+    left_ = std::ssize(points);
+    filled_ = left_;
 }
 
 int PointGrid::column(double x) const {
@@ -48,6 +56,15 @@ const std::vector<int>& PointGrid::cell(int column, int row) const {
 void PointGrid::remove(int point) {
     const Vec2& p = points_[static_cast<std::size_t>(point)];
     left_ -= static_cast<std::int64_t>(std::erase(cell(column(p.x()), row(p.y())), point));
+    constexpr std::int64_t sparse = 8;
+    if (left_ * sparse < filled_ && left_ > 0) {
+        std::vector<int> rest;
+        for (const std::vector<int>& points : cells_) {
+            rest.insert(rest.end(), points.begin(), points.end());
+        }
+        std::ranges::sort(rest);
+        fill(rest);
+    }
 }
 
 void PointGrid::add_cell(int column, int row, const Vec2& place, std::vector<Found>& found) const {

@@ -10,7 +10,7 @@ namespace millwright::plot::internal {
 
 class PointGrid {
 public:
-    /// About two points a cell.
+    /// About two points a cell, also when most have been removed.
     explicit PointGrid(std::vector<Vec2> points);
 
     void remove(int point);
@@ -27,6 +27,7 @@ private:
         double distance = 0.0;
         int point = -1;
     };
+    void fill(const std::vector<int>& points);
     [[nodiscard]] int column(double x) const;
     [[nodiscard]] int row(double y) const;
     [[nodiscard]] std::vector<int>& cell(int column, int row);
@@ -41,6 +42,7 @@ private:
     int columns_ = 1;
     int rows_ = 1;
     std::int64_t left_ = 0;
+    std::int64_t filled_ = 0; ///< points that the cells were made for
     std::vector<std::vector<int>> cells_;
 };
 
