@@ -55,9 +55,10 @@ public:
             return finite(value, overflow);
         } else {
             constexpr auto largest = static_cast<double>(std::numeric_limits<T>::max());
-            if (!(value >= -largest && value <= largest)) {
+            if (!__builtin_isfinite(value) || !(value >= -largest && value <= largest)) {
                 overflow = true;
-                return value < 0 ? -std::numeric_limits<T>::max() : std::numeric_limits<T>::max();
+                return __builtin_signbit(value) != 0 ? -std::numeric_limits<T>::max()
+                                                     : std::numeric_limits<T>::max();
             }
             return static_cast<T>(value);
         }
@@ -71,13 +72,14 @@ public:
     [[nodiscard]] constexpr T from_word(Word word) const { return std::bit_cast<T>(static_cast<Bits>(word)); }
 
 private:
+    // The built-in functions are constexpr, and quiet where a comparison with a NaN would raise an exception.
     static constexpr T finite(T value, bool& overflow) {
-        constexpr T largest = std::numeric_limits<T>::max();
-        if (value >= -largest && value <= largest) [[likely]] {
+        if (__builtin_isfinite(value)) [[likely]] {
             return value;
         }
         overflow = true;
-        return value < 0 ? -largest : largest;
+        constexpr T largest = std::numeric_limits<T>::max();
+        return __builtin_signbit(value) != 0 ? -largest : largest;
     }
 
     std::array<T, most_steps + 1> powers_{};
@@ -137,12 +139,14 @@ public:
 
     /// The nearest number, halves to even.
     [[nodiscard]] constexpr Number from_double(double value, bool& overflow) const {
-        const double scaled = value * power_of_two<double>(fraction_);
-        const double limit = -static_cast<double>(-largest_ - 1);
-        if (!((scaled >= -limit || scaled > -limit - 1.0) && scaled < limit)) {
+        const double unit = power_of_two<double>(-fraction_);
+        const double limit = -static_cast<double>(-largest_ - 1) * unit;
+        const bool above = __builtin_isfinite(value) && (value >= -limit || value > -limit - unit);
+        if (!above || !(value < limit)) {
             overflow = true;
-            return value < 0 ? -largest_ - 1 : largest_;
+            return __builtin_signbit(value) != 0 ? -largest_ - 1 : largest_;
         }
+        const double scaled = value * power_of_two<double>(fraction_);
         auto whole = static_cast<Number>(scaled);
         const double rest = scaled - static_cast<double>(whole);
         if (rest > 0.5 || (rest >= 0.5 && (whole & 1) != 0)) {
