@@ -3,8 +3,10 @@
 #include "app/commands/cordic_command.h"
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
+#include "app/commands/jobs_command.h"
 #include "app/commands/plan_command.h"
 #include "app/commands/plot_command.h"
+#include "app/commands/ports_command.h"
 #include "app/commands/render_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/send_command.h"
@@ -53,6 +55,8 @@ int main(int argc, char** argv) {
     add_render_command(app, chosen);
     add_run_command(app, chosen);
     add_send_command(app, chosen);
+    add_jobs_command(app, chosen);
+    add_ports_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
     add_cordic_command(app, chosen);

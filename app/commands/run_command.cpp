@@ -7,7 +7,9 @@
 #include "core/base/text.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
+#include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/links/link.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -27,6 +29,8 @@ struct Options {
     std::string project;
     std::string driver = "virtual";
     double speed = 1.0;
+    std::string port;
+    double period = 0.01;
     std::string log = "jobs";
 };
 
@@ -59,13 +63,28 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan) {
     return job;
 }
 
+std::unique_ptr<machine::Driver>
+make_driver(const machine::Job& job, const Options& options, machine::Clock& clock) {
+    if (options.driver == "virtual") {
+        return std::make_unique<machine::VirtualMachine>(
+            job.program->start, machine::VirtualSpeed{options.speed}, clock);
+    }
+    const bool to_file = options.port.starts_with("file:");
+    return std::make_unique<machine::StreamDriver>(
+        machine::make_link(options.port),
+        clock,
+        job.machine,
+        job.program->start,
+        machine::StreamOptions{.period = options.period, .paced = !to_file});
+}
+
 machine::JobOutcome run_job(const machine::Job& job, const Options& options, const Progress& progress) {
     machine::SteadyClock clock;
-    machine::VirtualMachine driver(job.program->start, {options.speed}, clock);
-    driver.connect();
-    machine::Dispatcher dispatcher(driver, clock, options.log);
+    const auto driver = make_driver(job, options, clock);
+    driver->connect();
+    machine::Dispatcher dispatcher(*driver, clock, options.log);
     const machine::JobOutcome outcome = dispatcher.run(job, progress);
-    driver.close();
+    driver->close();
     return outcome;
 }
 
@@ -96,11 +115,18 @@ void add_run_command(CLI::App& app, Command& chosen) {
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--driver", options->driver, "Machine to run on")
         ->required()
-        ->check(CLI::IsMember({"virtual"}));
+        ->check(CLI::IsMember({"virtual", "stream"}));
     command
         .add_option(
             "--speed", options->speed, "Times real time, of the virtual machine; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--port", options->port, "Where a coordinate stream goes: serial port, tcp:HOST:PORT, file:PATH")
+        ->type_name("PORT");
+    command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
+        ->type_name("S")
         ->capture_default_str();
     command.add_option("--log", options->log, "Folder of the job logs")
         ->type_name("DIR")

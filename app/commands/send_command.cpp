@@ -8,6 +8,9 @@
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
+#include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/run_from_line.h"
+#include "core/machine/survey.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -15,7 +18,9 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace millwright::app {
@@ -29,10 +34,35 @@ struct Options {
     std::string log = "jobs";
     bool one_by_one = false;
     bool unlock = false;
+    int from_line = 1;
+    std::optional<double> clearance;
+    std::string axes = "XYZ";
 };
 
+struct Controller {
+    std::unique_ptr<machine::Driver> driver;
+    std::function<std::string()> name; ///< once connected
+};
+
+/// Throws Error also for what this controller must not be sent.
+Controller make_controller(const Options& options, const machine::Job& job, const machine::Clock& clock) {
+    auto link = machine::make_link(options.port);
+    if (options.driver == "linuxcnc") {
+        machine::LinuxCncOptions wanted;
+        wanted.axes = options.axes;
+        return {std::make_unique<machine::LinuxCncDriver>(std::move(link), clock, wanted),
+                [] { return std::string("LinuxCNC"); }};
+    }
+    auto driver = std::make_unique<machine::GrblDriver>(
+        std::move(link), clock, machine::GrblOptions{.one_by_one = options.one_by_one});
+    driver->check(*job.listing, options.file);
+    const machine::GrblDriver& grbl = *driver;
+    return {std::move(driver), [&grbl] { return "Grbl " + grbl.readout().version; }};
+}
+
 /// A locked controller is unlocked only for who says so: its position may be lost.
-void connect(machine::GrblDriver& driver, const Options& options) {
+void connect(const Controller& controller, const Options& options) {
+    machine::Driver& driver = *controller.driver;
     driver.connect();
     if (driver.status().state == machine::DriverState::alarm) {
         if (!options.unlock) {
@@ -41,18 +71,41 @@ void connect(machine::GrblDriver& driver, const Options& options) {
         }
         driver.reset();
     }
-    const machine::GrblReadout readout = driver.readout();
-    fmt::print("Connected to Grbl {} at {}.\n", readout.version, options.port);
+    fmt::print("Connected to {} at {}.\n", controller.name(), options.port);
     std::fflush(stdout);
 }
 
-machine::JobOutcome send_job(const Options& options, const Interrupt& interrupt) {
+machine::Job job_of(const Options& options) {
     machine::Job job = machine::text_job(read_file(options.file), options.file);
+    if (options.from_line > 1) {
+        machine::RunFromSettings settings;
+        settings.dialect = options.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
+        settings.clearance = options.clearance;
+        job = machine::job_from_line(job, options.from_line, settings);
+    }
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    return job;
+}
+
+/// What a person should know before the tool moves.
+void show_warnings(const machine::Job& job, const machine::Driver& driver) {
+    const machine::Capabilities able = driver.capabilities();
+    const machine::Survey found =
+        machine::survey(job.listing->text,
+                        job.project,
+                        {*able.dialect, able.axes, driver.status().position, driver.stored_offsets()});
+    for (const Diagnostic& warning : machine::warnings_of(found, driver.limits(), job.project)) {
+        fmt::print(stderr, "millwright: {}\n", to_text(warning));
+    }
+}
+
+machine::JobOutcome send_job(const Options& options, const Interrupt& interrupt) {
+    const machine::Job job = job_of(options);
     machine::SteadyClock clock;
-    machine::GrblDriver driver(machine::make_link(options.port), clock, {.one_by_one = options.one_by_one});
-    driver.check(*job.listing, options.file);
-    connect(driver, options);
+    const Controller controller = make_controller(options, job, clock);
+    machine::Driver& driver = *controller.driver;
+    connect(controller, options);
+    show_warnings(job, driver);
     machine::Dispatcher dispatcher(driver, clock, options.log);
     ProgressPrinter printer;
     const Progress progress([](const Progress::Report&) {}, interrupt.token());
@@ -92,7 +145,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
     command.add_option("FILE", options->file, "G-code file, for this controller")->required();
     command.add_option("--driver", options->driver, "Kind of controller")
         ->required()
-        ->check(CLI::IsMember({"grbl"}));
+        ->check(CLI::IsMember({"grbl", "linuxcnc"}));
     command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT")
         ->required()
         ->type_name("PORT");
@@ -100,6 +153,20 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->type_name("DIR")
         ->capture_default_str();
     command.add_flag("--one-by-one", options->one_by_one, "Wait for the answer to each line before the next");
+    constexpr int greatest_line = 1'000'000'000;
+    command
+        .add_option(
+            "--from-line", options->from_line, "Begin there, with everything before it brought into force")
+        ->check(CLI::Range(1, greatest_line))
+        ->type_name("N");
+    command
+        .add_option("--clearance",
+                    options->clearance,
+                    "Z of the work in which the tool can go anywhere, for --from-line")
+        ->type_name("Z");
+    command.add_option("--axes", options->axes, "Axes of the machine, for linuxcnc")
+        ->type_name("LETTERS")
+        ->capture_default_str();
     command.add_flag("--unlock", options->unlock, "Unlock a locked controller without homing");
     command.callback([&chosen, options] { chosen = [options] { return send(*options); }; });
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/survey.h"
 
 #include <fmt/format.h>
 
@@ -79,9 +80,18 @@ private:
 /// A job on its way: what has been seen of it, and its log.
 class Dispatcher::Watch {
 public:
-    Watch(Dispatcher& dispatcher, const Job& job, JobLog& log, double planned_time)
+    Watch(Dispatcher& dispatcher, const Job& job, JobLog& log, double planned_time, DriverStatus before)
         : dispatcher_(dispatcher), job_(job), log_(log), planned_time_(planned_time),
-          start_(dispatcher.clock_.now()) {}
+          start_(dispatcher.clock_.now()), last_(std::move(before)) {
+        last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
+        last_.block = -1;
+    }
+
+    /// Written before the driver is started or told; what a log does not allow has not been sent.
+    [[nodiscard]] int allow_first() {
+        write_ahead(std::min(allowance, blocks()));
+        return allowed_;
+    }
 
     JobOutcome to_the_end(const Progress& progress, const Listener& listener) {
         while (true) {
@@ -92,6 +102,7 @@ public:
             remember(status);
             write_requests();
             write_executed();
+            look_ahead();
             tell(progress, listener);
             if (ended(status.state)) {
                 return outcome(status);
@@ -121,7 +132,26 @@ private:
     double start_ = 0.0;
     DriverStatus last_; ///< with the last known position where the link is gone
     int logged_blocks_ = 0;
+    int allowed_ = -1; ///< negative: the driver takes a program whole
     bool cancelled_ = false;
+
+    static constexpr int allowance = 200; ///< blocks beyond those that were sent: half a second at high speed
+
+    void write_ahead(int allowed) {
+        LogRecord line = record(LogEvent::ahead, elapsed(), last_);
+        line.executed_blocks = logged_blocks_;
+        line.allowed_blocks = allowed;
+        log_.write(line);
+        allowed_ = allowed;
+    }
+
+    void look_ahead() {
+        const bool due = allowed_ >= 0 && allowed_ < blocks() && last_.sent_blocks + allowance / 2 > allowed_;
+        if (due) {
+            write_ahead(std::min(last_.sent_blocks + allowance, blocks()));
+            dispatcher_.driver_.allow(allowed_);
+        }
+    }
 
     [[nodiscard]] double elapsed() const { return dispatcher_.clock_.now() - start_; }
     [[nodiscard]] int blocks() const { return job_.block_count(); }
@@ -151,7 +181,9 @@ private:
         for (const Request& request : dispatcher_.take_requests()) {
             const double time = std::max(0.0, request.clock_time - start_);
             if (request.status.state != DriverState::disconnected) {
-                log_.write(record(request.event, time, request.status));
+                LogRecord line = record(request.event, time, request.status);
+                line.text = request.text;
+                log_.write(line);
                 logged_blocks_ = std::max(logged_blocks_, request.status.executed_blocks);
             }
         }
@@ -225,6 +257,9 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
+    if (text_alone) {
+        check(job);
+    }
     std::shared_ptr<const motion::Trajectory> trajectory;
     if (!text_alone) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
@@ -237,15 +272,20 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .project = job.project,
                        .machine = job.machine ? job.machine->name() : std::string(),
                        .driver = driver_.name(),
-                       .program_hash = program_hash(job.listing->text),
+                       .program_hash = job.hash.empty() ? program_hash(job.listing->text) : job.hash,
                        .started_at = job.started_at,
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
-                       .planned_time = planned_time});
+                       .planned_time = planned_time,
+                       .from_line = job.from_line});
     progress.check();
-    Watch watch(*this, job, log, planned_time);
+    Watch watch(*this, job, log, planned_time, before);
     try {
-        driver_.start({job.program, trajectory, job.listing});
+        Work work{job.program, trajectory, job.listing, {}};
+        if (able.piecewise) {
+            work.allowed_blocks = watch.allow_first();
+        }
+        driver_.start(std::move(work));
         return watch.to_the_end(progress.part(planning, 1.0), listener);
     } catch (...) {
         bring_to_rest();
@@ -268,22 +308,45 @@ void Dispatcher::bring_to_rest() {
 }
 
 void Dispatcher::hold() {
-    request(LogEvent::hold, &Driver::hold);
+    request(LogEvent::hold, {}, [this] { driver_.hold(); });
 }
 
 void Dispatcher::resume() {
-    request(LogEvent::resume, &Driver::resume);
+    request(LogEvent::resume, {}, [this] { driver_.resume(); });
 }
 
 void Dispatcher::stop() {
-    request(LogEvent::stop, &Driver::stop);
+    request(LogEvent::stop, {}, [this] { driver_.stop(); });
 }
 
-void Dispatcher::request(LogEvent event, void (Driver::*command)()) {
+void Dispatcher::set_overrides(const Overrides& wanted) {
+    request(LogEvent::overrides,
+            fmt::format("feed {} %, rapid {} %, spindle {} %", wanted.feed, wanted.rapid, wanted.spindle),
+            [&] { driver_.set_overrides(wanted); });
+}
+
+void Dispatcher::set_single_block(bool on) {
+    request(LogEvent::single_block, on ? "on" : "off", [&] { driver_.set_single_block(on); });
+}
+
+/// What a controller would have to find out by moving: read by its own rules, from where it stands.
+void Dispatcher::check(const Job& job) const {
+    const Capabilities able = driver_.capabilities();
+    if (!able.dialect) {
+        return;
+    }
+    const Survey found =
+        survey(job.listing->text,
+               job.project,
+               {*able.dialect, able.axes, driver_.status().position, driver_.stored_offsets()});
+    throw_first(faults_of(found, driver_.limits(), job.project));
+}
+
+void Dispatcher::request(LogEvent event, std::string text, const std::function<void()>& command) {
     const std::scoped_lock lock(mutex_); // so that a job cannot end between the command and its note
-    (driver_.*command)();
+    command();
     if (running_) {
-        requests_.push_back({event, clock_.now(), driver_.status()});
+        requests_.push_back({event, clock_.now(), driver_.status(), std::move(text)});
     }
 }
 

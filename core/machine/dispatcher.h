@@ -41,17 +41,22 @@ public:
     void hold();
     void resume();
     void stop();
+    /// Throw Error if the driver cannot do it.
+    void set_overrides(const Overrides& wanted);
+    void set_single_block(bool on);
 
 private:
     struct Request {
         LogEvent event = LogEvent::hold;
         double clock_time = 0.0;
         DriverStatus status; ///< when it was made
+        std::string text;    ///< what was wanted
     };
     class Watch;
     class Turn;
 
-    void request(LogEvent event, void (Driver::*command)());
+    void request(LogEvent event, std::string text, const std::function<void()>& command);
+    void check(const Job& job) const;
     [[nodiscard]] std::vector<Request> take_requests();
     void bring_to_rest();
 

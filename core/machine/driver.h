@@ -7,11 +7,13 @@
 #pragma once
 
 #include "core/gcode/program.h"
+#include "core/gcode/reader/dialect.h"
 #include "core/gcode/writer.h"
 #include "core/machine/driver_status.h"
 #include "core/motion/trajectory.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,19 @@ struct Capabilities {
     bool probe = false;        ///< G38.2 as a command
     bool settings = false;     ///< has a table of its own that can be changed
     bool single_block = false; ///< can stand still after each block
+    bool piecewise = false; ///< gives a program to the controller bit by bit, and obeys Work::allowed_blocks
+    std::optional<gcode::Dialect> dialect{}; ///< in which it reads text
+};
+
+/// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and a second.
+struct MachineLimits {
+    struct Axis {
+        char letter = 'X';
+        std::optional<double> min, max; ///< of the travel
+        std::optional<double> speed;    ///< greatest
+    };
+    std::vector<Axis> axes;
+    std::optional<double> spindle_rpm; ///< greatest
 };
 
 /// One of the controller's own settings.
@@ -59,6 +74,8 @@ struct Work {
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const motion::Trajectory> trajectory; ///< planned from the machine's position
     std::shared_ptr<const gcode::Listing> listing;
+    /// A piecewise driver gives no block from this one on to the controller before allow() says so.
+    std::optional<int> allowed_blocks{};
 };
 
 class Console;
@@ -106,7 +123,11 @@ public:
     /// After each block with anything to do the machine rests, DriverState::holding, until resume(). Also
     /// while a program runs: it rests as soon as it can.
     virtual void set_single_block(bool on);
+    /// More blocks of a running program may be sent; see Work::allowed_blocks. Does nothing otherwise.
+    virtual void allow(int blocks);
 
+    /// Nothing where the controller does not tell, or while disconnected.
+    [[nodiscard]] virtual MachineLimits limits() const { return {}; }
     /// Empty where there is none, or while disconnected.
     [[nodiscard]] virtual std::vector<ControllerSetting> settings() const { return {}; }
     [[nodiscard]] virtual std::vector<StoredOffset> stored_offsets() const { return {}; }

@@ -74,6 +74,7 @@ struct DriverStatus {
     int block = -1;            ///< of the current or last program, in execution or next; -1 without one
     double fraction = 0.0;     ///< of that block
     int executed_blocks = 0;   ///< of the current or last program, completely executed
+    int sent_blocks = 0;       ///< of it, given to the controller; 0 where that is done at once
     double planned_time = 0.0; ///< where in the planned trajectory that is, s; 0 where the controller plans
     double feed = 0.0;         ///< of the motion now, where the controller tells it, mm/s
     gcode::SpindleTurning spindle = gcode::SpindleTurning::stopped; ///< as commanded

@@ -8,8 +8,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -64,8 +66,15 @@ Enum named(const JsonValue& value, const std::array<Enum, count>& all) {
     value.fail(fmt::format("\"{}\" is not known here", name));
 }
 
-constexpr std::array all_events{
-    LogEvent::executed, LogEvent::hold, LogEvent::resume, LogEvent::stop, LogEvent::fault, LogEvent::end};
+constexpr std::array all_events{LogEvent::ahead,
+                                LogEvent::executed,
+                                LogEvent::hold,
+                                LogEvent::resume,
+                                LogEvent::stop,
+                                LogEvent::overrides,
+                                LogEvent::single_block,
+                                LogEvent::fault,
+                                LogEvent::end};
 constexpr std::array all_ends{JobEnd::done, JobEnd::stopped, JobEnd::cancelled, JobEnd::fault};
 
 LogStart start_from(const JsonValue& value) {
@@ -80,7 +89,8 @@ LogStart start_from(const JsonValue& value) {
                        "started_at",
                        "axes",
                        "blocks",
-                       "planned_time_s"});
+                       "planned_time_s",
+                       "from_line"});
     if (value.at("record").text() != "start" || value.at("format").text() != format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -106,11 +116,15 @@ LogStart start_from(const JsonValue& value) {
     }
     start.blocks = value.at("blocks").integer(0);
     start.planned_time = value.at("planned_time_s").number(0.0);
+    if (const auto line = value.find("from_line")) {
+        start.from_line = line->integer(1);
+    }
     return start;
 }
 
 LogRecord record_from(const JsonValue& value, const LogStart& start) {
-    value.expect_only({"record", "time_s", "executed_blocks", "line", "position", "end", "text"});
+    value.expect_only(
+        {"record", "time_s", "executed_blocks", "line", "position", "end", "text", "allowed_blocks"});
     LogRecord record;
     record.event = named(value.at("record"), all_events);
     record.time = value.at("time_s").number(0.0);
@@ -128,6 +142,9 @@ LogRecord record_from(const JsonValue& value, const LogStart& start) {
     }
     if (const auto text = value.find("text")) {
         record.text = text->text();
+    }
+    if (const auto allowed = value.find("allowed_blocks")) {
+        record.allowed_blocks = allowed->integer(0, start.blocks);
     }
     return record;
 }
@@ -148,6 +165,12 @@ template <class Read> auto in_line(const fs::path& file, int number, std::string
 
 std::string_view to_text(LogEvent event) {
     switch (event) {
+    case LogEvent::ahead:
+        return "ahead";
+    case LogEvent::overrides:
+        return "overrides";
+    case LogEvent::single_block:
+        return "single-block";
     case LogEvent::executed:
         return "executed";
     case LogEvent::hold:
@@ -180,9 +203,21 @@ JobLog::JobLog(const fs::path& folder, const std::string& name) {
                     folder,
                     "move the old ones away");
     }
+    // Ends with this program, however it ends. Where a file system knows no locks, there is none.
+    (void)::flock(handle_, LOCK_EX | LOCK_NB);
 }
 
-JobLog::~JobLog() {
+bool is_being_written(const fs::path& file) {
+    const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) {
+        return false;
+    }
+    const bool locked = ::flock(handle, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(handle);
+    return locked;
+}
+
+JobLog::~JobLog() { // which also ends the lock
     ::close(handle_);
 }
 
@@ -193,18 +228,22 @@ void JobLog::write(const LogStart& start) {
         axes.push_back({{"letter", std::string(1, axis.letter)},
                         {"unit", axis.kind == AxisKind::rotary ? "deg" : "mm"}});
     }
-    append(one_line({{"record", "start"},
-                     {"format", format_name},
-                     {"version", format_version},
-                     {"job", start.job},
-                     {"project", start.project},
-                     {"machine", start.machine},
-                     {"driver", start.driver},
-                     {"program_hash", start.program_hash},
-                     {"started_at", start.started_at},
-                     {"axes", axes},
-                     {"blocks", start.blocks},
-                     {"planned_time_s", rounded(start.planned_time)}}));
+    Json line{{"record", "start"},
+              {"format", format_name},
+              {"version", format_version},
+              {"job", start.job},
+              {"project", start.project},
+              {"machine", start.machine},
+              {"driver", start.driver},
+              {"program_hash", start.program_hash},
+              {"started_at", start.started_at},
+              {"axes", axes},
+              {"blocks", start.blocks},
+              {"planned_time_s", rounded(start.planned_time)}};
+    if (start.from_line > 1) {
+        line["from_line"] = start.from_line;
+    }
+    append(one_line(line));
 }
 
 void JobLog::write(const LogRecord& record) {
@@ -226,6 +265,9 @@ void JobLog::write(const LogRecord& record) {
     if (!record.text.empty()) {
         line["text"] = record.text;
     }
+    if (record.event == LogEvent::ahead) {
+        line["allowed_blocks"] = record.allowed_blocks;
+    }
     append(one_line(line));
 }
 
@@ -239,6 +281,14 @@ void JobLog::append(const std::string& line) {
         }
         rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
     }
+}
+
+int ReadLog::allowed_blocks() const {
+    int allowed = -1;
+    for (const LogRecord& record : records) {
+        allowed = record.event == LogEvent::ahead ? std::max(allowed, record.allowed_blocks) : allowed;
+    }
+    return allowed < 0 ? start.blocks : allowed;
 }
 
 std::optional<JobEnd> ReadLog::end() const {

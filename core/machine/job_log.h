@@ -19,11 +19,22 @@ struct LogStart {
     std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
     int blocks = 0;
     double planned_time = 0.0;
+    int from_line = 1; ///< of the program's file; more than 1: it was not run from its beginning
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };
 
-enum class LogEvent { executed, hold, resume, stop, fault, end };
+enum class LogEvent {
+    ahead,    ///< the driver may give the controller more blocks from now on, up to LogRecord::allowed_blocks
+    executed, ///<
+    hold,
+    resume,
+    stop,
+    overrides,
+    single_block,
+    fault,
+    end
+};
 
 [[nodiscard]] std::string_view to_text(LogEvent event);
 
@@ -36,6 +47,7 @@ struct LogRecord {
     kinematics::AxisPositions position;
     std::optional<JobEnd> end; ///< of LogEvent::end
     std::string text;          ///< a sentence, may be empty
+    int allowed_blocks = 0;    ///< of LogEvent::ahead
 
     friend bool operator==(const LogRecord&, const LogRecord&) = default;
 };
@@ -72,9 +84,17 @@ struct ReadLog {
 
     /// Blocks that were executed for certain.
     [[nodiscard]] int executed_blocks() const { return records.empty() ? 0 : records.back().executed_blocks; }
+    /// No block from this one on was given to the controller. All, for drivers that hand a program over
+    /// whole.
+    [[nodiscard]] int allowed_blocks() const;
+    /// Of the listing, where the first block stands that was not completely executed; 0: not known.
+    [[nodiscard]] int next_line() const { return records.empty() ? 0 : records.back().line; }
     /// How the job ended; nothing if the log stops before.
     [[nodiscard]] std::optional<JobEnd> end() const;
 };
+
+/// Whether the program that writes this log still lives.
+[[nodiscard]] bool is_being_written(const std::filesystem::path& file);
 
 /// Throws Error with file and line for anything wrong in it but a torn last line.
 [[nodiscard]] ReadLog read_job_log(const std::filesystem::path& file);

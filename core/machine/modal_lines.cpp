@@ -18,7 +18,7 @@ using gcode::LengthUnit;
 using gcode::ModalState;
 using gcode::PathMode;
 
-constexpr int decimals = 5;
+constexpr int decimals = 6;
 
 std::string_view plane_code(gcode::Plane plane) {
     constexpr std::array<std::string_view, 6> codes = {"G17", "G18", "G19", "G17.1", "G18.1", "G19.1"};

@@ -122,6 +122,71 @@ TEST_F(Send, TellsWhatIsWrongBeforeAnythingIsSent) {
     EXPECT_EQ(ended.exit_code, 2);
 }
 
+TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
+    write_content(file, zigzag(3000));
+    Emulator emulator(port, {"--speed", "5"});
+    Program sender(words());
+    sender.wait_for_error_text("Block ");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto running = nlohmann::json::parse(run({"jobs", logs, "--json"}).out);
+    EXPECT_EQ(running.at(0).at("end"), "running");
+    sender.send(SIGKILL);
+    EXPECT_EQ(sender.end().exit_code, -SIGKILL);
+    const Ended told = run({"jobs", logs, "--json"});
+    const auto jobs = nlohmann::json::parse(told.out);
+    ASSERT_EQ(jobs.size(), 1U);
+    EXPECT_EQ(jobs[0].at("end"), "broken off");
+    const int executed = jobs[0].at("executed_blocks");
+    const int allowed = jobs[0].at("allowed_blocks");
+    EXPECT_LT(executed, allowed);
+    EXPECT_LT(allowed, 3003);
+    EXPECT_THAT(run({"jobs", logs}).out,
+                HasSubstr("of the next " + std::to_string(allowed - executed) + " nobody knows"));
+    // The controller executes what it has and then stands still; nothing starts again by itself.
+    const int next = jobs[0].at("next_line");
+    Ended rest;
+    for (int n = 0; n < 50; ++n) {
+        rest = run({"send",
+                    file,
+                    "--driver",
+                    "grbl",
+                    "--port",
+                    port,
+                    "--log",
+                    logs,
+                    "--from-line",
+                    std::to_string(std::max(next, 2900)),
+                    "--clearance",
+                    "5"});
+        if (rest.err.find("is moving for somebody else") == std::string::npos) {
+            break;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    EXPECT_EQ(rest.exit_code, 0) << rest.err;
+    const auto after = nlohmann::json::parse(run({"jobs", logs, "--json"}).out);
+    EXPECT_EQ(after.size(), 2U);
+    EXPECT_EQ(after[0].at("end"), "done");
+}
+
+TEST_F(Send, ListsJobsAndPorts) {
+    EXPECT_THAT(run({"jobs", logs}).out, HasSubstr("No job logs"));
+    write_content(logs + ".jsonl", "nonsense\n");
+    const Ended bad = run({"jobs", scratch.path().string()});
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_THAT(bad.err, HasSubstr("logs.jsonl:1"));
+    EXPECT_EQ(run({"ports"}).exit_code, 0);
+}
+
+TEST_F(Send, SaysBeforeItMovesWhatAPersonShouldKnow) {
+    write_content(file, "G21\nT3\nG1 X1 F600\nM30\n");
+    Emulator emulator(port, {"--speed", "20"});
+    const Ended ended = run(words());
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("calls for tools T3"));
+    EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:3: the first cut comes before the spindle was started"));
+}
+
 TEST_F(Send, EmulatesNothingThatNobodyCouldReach) {
     EXPECT_EQ(run({"emulate", "grbl"}).exit_code, 1);
     EXPECT_EQ(run({"emulate", "grbl", "--tcp", "70000"}).exit_code, 2);

@@ -2,7 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/gcode/reader/internal/canon_frame.h"
+#include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
 
 #include <fmt/format.h>
@@ -163,7 +163,7 @@ private:
     std::filesystem::path file_;
     MachineProgramSettings settings_;
     MachineProgram result_;
-    internal::CanonFrame frame_;
+    CanonFrame frame_;
     Feed feed_;
     std::optional<PathControl> path_; ///< none: not said yet
     AxisValues at_;                   ///< on the machine, mm and degrees

@@ -1,6 +1,7 @@
 #include "core/machine/links/link.h"
 
 #include "core/base/error.h"
+#include "core/machine/links/file_link.h"
 #include "core/machine/links/serial_link.h"
 #include "core/machine/links/tcp_link.h"
 
@@ -35,6 +36,10 @@ std::unique_ptr<Link> make_link(const std::string& address) {
     }
     if (address.starts_with(tcp_prefix)) {
         return make_tcp_link(address);
+    }
+    constexpr std::string_view file_prefix = "file:";
+    if (address.starts_with(file_prefix) && address.size() > file_prefix.size()) {
+        return std::make_unique<FileLink>(address.substr(file_prefix.size()));
     }
     return std::make_unique<SerialLink>(address);
 }

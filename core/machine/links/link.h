@@ -30,8 +30,8 @@ public:
     virtual void close() noexcept = 0;
 };
 
-/// The link that `address` names: `tcp:HOST:PORT`, else the path of a serial port (115200 baud, 8N1). Not
-/// opened yet. Throws Error if it is no address.
+/// The link that `address` names: `tcp:HOST:PORT`, `file:PATH` (only written to), else the path of a serial
+/// port (115200 baud, 8N1). Not opened yet. Throws Error if it is no address.
 [[nodiscard]] std::unique_ptr<Link> make_link(const std::string& address);
 
 } // namespace millwright::machine

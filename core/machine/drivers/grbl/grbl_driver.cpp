@@ -116,7 +116,9 @@ Capabilities GrblDriver::capabilities() const {
             .command = true,
             .probe = true,
             .settings = true,
-            .single_block = true};
+            .single_block = true,
+            .piecewise = true,
+            .dialect = gcode::Dialect::grbl};
 }
 
 GrblReadout GrblDriver::readout() const {
@@ -147,7 +149,8 @@ void GrblDriver::connect() {
 void GrblDriver::start(Work work) {
     expects(work.listing != nullptr, "Grbl is given a program's text");
     grbl::ProgramLines lines = grbl::program_lines(*work.listing, {});
-    body_->with_session([&](Session& now, double time) { now.start(std::move(lines), time); });
+    body_->with_session(
+        [&](Session& now, double time) { now.start(std::move(lines), time, work.allowed_blocks); });
 }
 
 void GrblDriver::hold() {
@@ -215,6 +218,35 @@ int GrblDriver::command(const std::string& lines) {
 
 void GrblDriver::set_single_block(bool on) {
     body_->with_session([&](Session& now, double) { now.set_single_block(on); });
+}
+
+void GrblDriver::allow(int blocks) {
+    body_->with_session([&](Session& now, double) { now.allow(blocks); });
+}
+
+MachineLimits GrblDriver::limits() const {
+    const std::scoped_lock lock(body_->mutex);
+    const std::map<int, double>& settings = body_->session.readout().settings;
+    const auto setting = [&settings](int number) {
+        const auto found = settings.find(number);
+        return found == settings.end() ? std::nullopt : std::optional(found->second);
+    };
+    constexpr double seconds_per_minute = 60.0;
+    MachineLimits limits;
+    for (int n = 0; n < 3 && !settings.empty(); ++n) {
+        MachineLimits::Axis axis{.letter = "XYZ"[n], .min = {}, .max = {}, .speed = {}};
+        if (const auto rate = setting(110 + n)) {
+            axis.speed = *rate / seconds_per_minute;
+        }
+        const auto travel = setting(130 + n);
+        if (travel && setting(22).value_or(0.0) > 0.0) {
+            axis.min = -*travel;
+            axis.max = 0.0;
+        }
+        limits.axes.push_back(axis);
+    }
+    limits.spindle_rpm = setting(30);
+    return limits;
 }
 
 std::vector<ControllerSetting> GrblDriver::settings() const {

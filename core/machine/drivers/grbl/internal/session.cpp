@@ -233,6 +233,9 @@ void Session::pump() {
     }
     while (next_line_ < std::ssize(program_.lines) && !block_wait_) {
         const ProgramLine& line = program_.lines[static_cast<std::size_t>(next_line_)];
+        if (line.block >= allowed_blocks_) {
+            return;
+        }
         std::string text = line.text + "\n";
         if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
             text.insert(0, fmt::format("N{}", line.block + 1));
@@ -256,14 +259,21 @@ void Session::require_rest(std::string_view what) const {
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }
 
-void Session::start(ProgramLines program, double now) {
+void Session::start(ProgramLines program, double now, std::optional<int> allowed_blocks) {
     require_rest("program");
+    allowed_blocks_ = allowed_blocks.value_or(program.blocks);
     begin(std::move(program), Activity::program, now);
+}
+
+void Session::allow(int blocks) {
+    allowed_blocks_ = std::max(allowed_blocks_, blocks);
+    pump();
 }
 
 int Session::command(ProgramLines lines, double now) {
     require_rest("command");
     answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    allowed_blocks_ = lines.blocks;
     begin(std::move(lines), Activity::command, now);
     return answer_.number;
 }
@@ -373,8 +383,8 @@ void Session::home(double now) {
 
 /// From the standard value on, so that it does not matter what is known of the present one.
 void Session::set_overrides(const Overrides& wanted) {
-    if (stage_ == Stage::closed || stage_ == Stage::greeting || stage_ == Stage::asking || link_lost_) {
-        throw Error("Grbl is not connected and takes no overrides");
+    if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
+        throw Error(fmt::format("Grbl is {} and takes no overrides", to_text(status().state)));
     }
     const auto steps = [this](int percent, char standard) {
         constexpr int least = 10;

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "core/machine/driver.h"
-#include "core/machine/drivers/grbl/internal/jog_feed.h"
 #include "core/machine/drivers/grbl/internal/messages.h"
 #include "core/machine/drivers/grbl/internal/modes.h"
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 #include "core/machine/drivers/grbl/internal/proof.h"
 #include "core/machine/drivers/grbl/internal/window.h"
+#include "core/machine/drivers/internal/jog_feed.h"
 
 #include <map>
 #include <optional>
@@ -62,7 +62,8 @@ public:
 
     // What a person wants. Each throws Error with the reason if it cannot be done now; those of Driver that
     // do nothing in other states do nothing.
-    void start(ProgramLines program, double now);
+    void start(ProgramLines program, double now, std::optional<int> allowed_blocks = std::nullopt);
+    void allow(int blocks);
     void hold(double now);
     void resume(double now);
     void stop(double now);
@@ -115,7 +116,7 @@ private:
     void watch_answers(double now);
     [[nodiscard]] bool active() const;
     [[nodiscard]] bool waits_between_blocks() const;
-    [[nodiscard]] JogLimits jog_limits() const;
+    [[nodiscard]] internal::JogLimits jog_limits() const;
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
     void show_machine(DriverStatus& status) const;
@@ -157,6 +158,7 @@ private:
     bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
     Window window_;
     int next_line_ = 0;
+    int allowed_blocks_ = 0;             ///< no line of a block from this one on is sent
     std::vector<std::string> questions_; ///< to be asked, the next comes last
     std::string message_;
 
@@ -172,7 +174,7 @@ private:
     double hold_sent_ = 0.0, resume_sent_ = -1.0;
     bool jog_stopping_ = false;
     std::optional<double> jog_until_; ///< dead-man's time
-    JogFeed jog_feed_;
+    internal::JogFeed jog_feed_;
     Activity at_ = Activity::none; ///< program or command, the current or last
     bool single_block_ = false;
     bool block_wait_ = false; ///< the next line waits for resume()

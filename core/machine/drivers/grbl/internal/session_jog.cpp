@@ -1,5 +1,9 @@
 // Jogs: fed in short lines, ended by whoever lets go.
+#include "core/base/text.h"
 #include "core/machine/drivers/grbl/internal/session.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace millwright::machine::grbl {
 
@@ -7,6 +11,16 @@ namespace {
 
 constexpr char jog_cancel_byte = '\x85';
 constexpr double repeat_time = 0.125; // s after which a cancel that had no effect is sent again
+
+std::string jog_line(const internal::JogSlice& slice) {
+    constexpr double seconds_per_minute = 60.0;
+    constexpr std::string_view letters = "XYZ";
+    std::string text = "$J=G91G21";
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        text += std::abs(slice.way[n]) > 0.0 ? letters[n] + fixed(slice.way[n], 4) : std::string();
+    }
+    return text + "F" + fixed(std::max(0.001, slice.speed * seconds_per_minute), 3) + "\n";
+}
 
 } // namespace
 
@@ -51,15 +65,15 @@ void Session::pump_jog() {
     if (stage_ != Stage::jogging || jog_stopping_ || !window_.empty()) {
         return;
     }
-    if (auto text = jog_feed_.next(readout_.machine_position, feed(), jog_limits())) {
-        *text += '\n';
-        output_ += *text;
-        window_.push({LineKind::jog, std::move(*text), -1, 0.0});
+    if (const auto slice = jog_feed_.next(readout_.machine_position, feed(), jog_limits())) {
+        std::string text = jog_line(*slice);
+        output_ += text;
+        window_.push({LineKind::jog, std::move(text), -1, 0.0});
         rest_reports_ = 0;
     }
 }
 
-JogLimits Session::jog_limits() const {
+internal::JogLimits Session::jog_limits() const {
     constexpr double seconds_per_minute = 60.0;
     constexpr int first_rate = 110;
     constexpr int first_acceleration = 120;
@@ -67,7 +81,7 @@ JogLimits Session::jog_limits() const {
         const auto found = readout_.settings.find(number);
         return found != readout_.settings.end() && found->second > 0.0 ? found->second : otherwise;
     };
-    JogLimits limits;
+    internal::JogLimits limits;
     for (std::size_t n = 0; n < limits.rate.size(); ++n) {
         const int axis = static_cast<int>(n);
         constexpr double slow = 600.0; // mm/min and mm/s^2, for a controller that does not tell

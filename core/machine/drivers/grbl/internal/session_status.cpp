@@ -97,6 +97,8 @@ void Session::show_program(DriverStatus& status) const {
         return;
     }
     const int executed = proof_.executed_lines();
+    status.sent_blocks =
+        next_line_ > 0 ? program_.lines[static_cast<std::size_t>(next_line_ - 1)].block + 1 : 0;
     status.executed_blocks = executed > 0 || program_.lines.empty() ? program_.blocks_before(executed) : 0;
     status.block = std::min(program_.blocks_before(executed), program_.blocks - 1);
     if (waits_between_blocks() && status.message.empty()) {

@@ -2,15 +2,21 @@
 // computed. What must hold in each of them:
 //   nothing that could begin motion is sent after the run has ended, and the machine stands still;
 //   each line of the program is executed once, in order, or the run did not end well;
-//   no more is claimed as executed than the emulated controller truly executed.
+//   no more is claimed as executed than the emulated controller truly executed;
+//   the job log tells the truth at each of its moments, and allowed each line before it was sent.
+#include "core/base/error.h"
+#include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 #include "tests/core/machine/drivers/grbl/grbl_wire.h"
+#include "tests/core/machine/drivers/grbl/wire_driver.h"
+#include "tests/support/scratch_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <random>
 
 namespace millwright::machine::grbl {
@@ -117,39 +123,58 @@ FaultSpec faults_of(Kind kind, Random& random, std::uint64_t seed) {
     return spec;
 }
 
-/// A person who now and then holds, resumes, overrides, stops.
+/// A person who now and then holds, resumes, overrides, goes block by block, stops. Asked 50 times a second.
 class Person {
 public:
-    Person(GrblWire& wire, Random& random) : wire_(wire), random_(random) {}
+    Person(Dispatcher& dispatcher, Driver& driver, Random& random)
+        : dispatcher_(dispatcher), driver_(driver), random_(random) {}
 
-    void act() {
-        if (wire_.state() == DriverState::holding && pick(random_, 200) == 0) {
-            wire_.session.resume(wire_.now);
+    void act(const DriverStatus& now) {
+        if (now.state != DriverState::running && now.state != DriverState::holding) {
+            return;
         }
-        switch (pick(random_, 6000)) {
+        if (now.state == DriverState::holding && pick(random_, 40) == 0) {
+            dispatcher_.resume();
+        }
+        switch (pick(random_, 1500)) {
         case 0:
         case 1:
         case 2:
+            dispatcher_.hold();
+            break;
         case 3:
-            wire_.session.hold(wire_.now);
+            dispatcher_.stop();
             break;
         case 4:
-            wire_.session.stop(wire_.now);
+            driver_.emergency_stop();
             break;
         case 5:
-            wire_.session.emergency_stop(wire_.now);
-            break;
         case 6:
-            wire_.session.set_overrides({.feed = 50 + pick(random_, 100), .rapid = 50, .spindle = 90});
+            try {
+                dispatcher_.set_overrides({.feed = 50 + pick(random_, 100), .rapid = 50, .spindle = 90});
+            } catch (const Error&) {
+                // the machine has come into an alarm since
+            }
+            break;
+        case 7:
+        case 8:
+            dispatcher_.set_single_block(true);
+            single_block_ = true;
             break;
         default:
+            if (single_block_ && pick(random_, 100) == 0) {
+                dispatcher_.set_single_block(false);
+                single_block_ = false;
+            }
             break;
         }
     }
 
 private:
-    GrblWire& wire_;
+    Dispatcher& dispatcher_;
+    Driver& driver_;
     Random& random_;
+    bool single_block_ = false;
 };
 
 struct Verdict {
@@ -159,28 +184,32 @@ struct Verdict {
 
 class Run {
 public:
-    explicit Run(std::uint64_t seed)
-        : random_(seed), kind_(static_cast<Kind>(seed % kinds)), program_(random_program(random_)),
+    Run(std::uint64_t seed, const std::filesystem::path& logs)
+        : seed_(seed), logs_(logs), random_(seed), kind_(static_cast<Kind>(seed % kinds)),
+          program_(random_program(random_)),
           lines_(program_lines(test::listing_of(program_), "campaign.ngc")),
           // half of the controllers tell what is in their buffers
           wire_(faults_of(kind_, random_, seed), options(), {}, pick(random_, 2) == 0 ? "$10=3\n" : "") {}
 
     Verdict run() {
-        wire_.start(program_);
-        Person person(wire_, random_);
-        constexpr double longest = 300.0; // s
-        const double begin = wire_.now;
-        int steps = 0;
-        while (!ended() && wire_.now - begin < longest) {
-            person.act();
-            wire_.step();
-            if (++steps % 16 == 0) {
+        Job job = text_job(program_, "campaign.ngc");
+        job.name = fmt::format("run-{}", seed_);
+        constexpr double longest = 600.0; // s
+        test::WireClock clock(wire_, wire_.now + longest);
+        test::WireDriver driver(wire_);
+        Dispatcher dispatcher(driver, clock, logs_);
+        Person person(dispatcher, driver, random_);
+        const double begin = wire_.grbl.time();
+        try {
+            const JobOutcome outcome = dispatcher.run(job, {}, [&](const JobReport& report) {
+                person.act(report.driver);
                 check_claim();
-            }
-        }
-        verdict_.end = wire_.state();
-        if (!ended()) {
-            wrong("the run has no end");
+            });
+            verdict_.end = wire_.state();
+            check_log(outcome, begin);
+            std::filesystem::remove(outcome.log_file);
+        } catch (const Defect& endless) {
+            wrong(endless.what());
         }
         check_lines();
         check_claim();
@@ -189,6 +218,8 @@ public:
     }
 
 private:
+    std::uint64_t seed_;
+    std::filesystem::path logs_;
     Random random_;
     Kind kind_;
     std::string program_;
@@ -200,11 +231,6 @@ private:
         const bool changed =
             kind_ == Kind::drop_to_grbl || kind_ == Kind::garble_to_grbl || kind_ == Kind::duplicate_to_grbl;
         return {.line_numbers = pick(random_, 2) == 0, .echo = changed || pick(random_, 4) == 0};
-    }
-
-    [[nodiscard]] bool ended() const {
-        const DriverState state = wire_.state();
-        return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
     }
 
     void wrong(const std::string& what) {
@@ -253,6 +279,59 @@ private:
         }
     }
 
+    /// Lines that were executed, one after the other, until `time` of the controller, and lines that it had.
+    struct Past {
+        int executed = 0, accepted = 0;
+    };
+    [[nodiscard]] static Past until(const Truth& truth, double time) {
+        Past past;
+        while (past.executed < std::ssize(truth.lines)) {
+            const double executed = truth.lines[static_cast<std::size_t>(past.executed)].executed;
+            if (executed < 0.0 || executed > time) {
+                break;
+            }
+            ++past.executed;
+        }
+        for (const TruthLine& line : truth.lines) {
+            past.accepted += line.accepted <= time ? 1 : 0;
+        }
+        return past;
+    }
+
+    void check_log(const JobOutcome& outcome, double begin) {
+        const ReadLog log = read_job_log(outcome.log_file);
+        const Truth truth = wire_.grbl.truth();
+        int before = 0;
+        int allowed = 0;
+        for (const LogRecord& record : log.records) {
+            const Past past = until(truth, begin + record.time + 1e-6);
+            if (record.executed_blocks > lines_.blocks_before(past.executed)) {
+                wrong(fmt::format("at {} s the log claims {} blocks and {} lines were executed",
+                                  record.time,
+                                  record.executed_blocks,
+                                  past.executed));
+            }
+            if (record.executed_blocks < before) {
+                wrong("the log takes something back");
+            }
+            const bool too_many = kind_ != Kind::duplicate_to_grbl && kind_ != Kind::garble_to_grbl &&
+                                  past.accepted > 0 && lines_.blocks_before(past.accepted - 1) >= allowed &&
+                                  record.event != LogEvent::ahead;
+            if (too_many) {
+                wrong("a line was sent before the log allowed it");
+            }
+            before = record.executed_blocks;
+            allowed = std::max(allowed, record.allowed_blocks);
+        }
+        if (log.end() != outcome.end || log.executed_blocks() != outcome.executed_blocks) {
+            wrong("the log does not end as the job did");
+        }
+        if (outcome.end == JobEnd::done &&
+            until(truth, wire_.grbl.time()).executed != std::ssize(lines_.lines)) {
+            wrong("done, and not every line was executed");
+        }
+    }
+
     /// Half a minute later.
     void check_quiet() {
         const double end = wire_.grbl.time();
@@ -272,9 +351,10 @@ private:
 void run_campaign(std::uint64_t first, int runs) {
     std::array<int, kinds> done{};
     std::array<int, kinds> faults{};
+    const test::ScratchFolder logs;
     for (int n = 0; n < runs; ++n) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(n);
-        const Verdict verdict = Run(seed).run();
+        const Verdict verdict = Run(seed, logs.path()).run();
         EXPECT_EQ(verdict.wrong, "") << "seed " << seed;
         ++(verdict.end == DriverState::idle ? done : faults)[seed % kinds];
     }

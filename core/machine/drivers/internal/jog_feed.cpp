@@ -1,16 +1,17 @@
-#include "core/machine/drivers/grbl/internal/jog_feed.h"
+#include "core/machine/drivers/internal/jog_feed.h"
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/base/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace millwright::machine::grbl {
+namespace millwright::machine::internal {
 
 namespace {
+
+using Axes = JogFeed::Axes;
 
 constexpr double slices_under_way = 6;   // so that Grbl's 15 blocks hold what is allowed
 constexpr double shortest_slice = 0.005; // mm: about a step
@@ -74,7 +75,7 @@ void JogFeed::add(const Jog& jog) {
     legs_.push_back(leg);
 }
 
-std::optional<std::string> JogFeed::next(const Axes& position, double feed, const JogLimits& limits) {
+std::optional<JogSlice> JogFeed::next(const Axes& position, double feed, const JogLimits& limits) {
     if (legs_.empty()) {
         return std::nullopt;
     }
@@ -95,27 +96,25 @@ std::optional<std::string> JogFeed::next(const Axes& position, double feed, cons
         return std::nullopt;
     }
     direction_ = leg.direction;
-    std::string text = line(leg, slice);
+    const JogSlice next = take(leg, slice);
     if (slice >= left) {
         legs_.pop_front();
     }
-    return text;
+    return next;
 }
 
-std::string JogFeed::line(Leg& leg, double slice) {
-    constexpr double seconds_per_minute = 60.0;
-    constexpr std::string_view letters = "XYZ";
-    constexpr double finest = 1e-4; // mm, as printed: the roundings of the slices do not add up
-    leg.sent += slice;
-    std::string text = "$J=G91G21";
-    for (std::size_t n = 0; n < letters.size(); ++n) {
+JogSlice JogFeed::take(Leg& leg, double length) {
+    constexpr double finest = 1e-4; // mm, as printed: the roundings do not add up
+    leg.sent += length;
+    JogSlice slice{.way = {}, .speed = leg.speed};
+    for (std::size_t n = 0; n < slice.way.size(); ++n) {
         const double to = std::round(leg.sent * leg.direction[n] / finest) * finest;
         const double way = to - leg.sent_to[n];
         leg.sent_to[n] = to;
         target_[n] += way;
-        text += std::abs(way) > 0.5 * finest ? letters[n] + fixed(way, 4) : std::string();
+        slice.way[n] = std::abs(way) > 0.5 * finest ? way : 0.0;
     }
-    return text + "F" + fixed(std::max(0.001, leg.speed * seconds_per_minute), 3);
+    return slice;
 }
 
-} // namespace millwright::machine::grbl
+} // namespace millwright::machine::internal

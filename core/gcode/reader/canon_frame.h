@@ -5,7 +5,7 @@
 
 #include "core/gcode/reader/canon.h"
 
-namespace millwright::gcode::internal {
+namespace millwright::gcode {
 
 /// Machine positions in mm and degrees.
 class CanonFrame {
@@ -26,4 +26,4 @@ private:
     AxisValues g5x_, g92_, tool_; ///< mm and degrees
 };
 
-} // namespace millwright::gcode::internal
+} // namespace millwright::gcode

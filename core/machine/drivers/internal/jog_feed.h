@@ -1,24 +1,32 @@
-// Jogs as the short lines that Grbl is sent. Nothing can call back what a controller already has when its
-// link breaks. So it never has more than it executes within `spare_time` and the time of braking from the
+// Jogs as the short moves that a controller is sent. Nothing can call back what a controller already has when
+// its link breaks. So it never has more than it executes within `spare_time` and the time of braking from the
 // speed that it has.
 #pragma once
 
 #include "core/machine/driver.h"
-#include "core/machine/drivers/grbl/internal/messages.h"
 
+#include <array>
 #include <deque>
 #include <optional>
-#include <string>
 
-namespace millwright::machine::grbl {
+namespace millwright::machine::internal {
 
 /// Of each axis, mm/s and mm/s^2.
 struct JogLimits {
-    Axes rate{}, acceleration{};
+    std::array<double, 3> rate{}, acceleration{};
+};
+
+/// A straight move of X Y Z by `way`, mm, at `speed`, mm/s. Ways are rounded to what is printed, and add up
+/// exactly.
+struct JogSlice {
+    std::array<double, 3> way{};
+    double speed = 0.0;
 };
 
 class JogFeed {
 public:
+    using Axes = std::array<double, 3>;
+
     static constexpr double spare_time = 0.08; ///< s; with the time of a line on its way less than 0.1 s
 
     /// From rest at `position`, machine coordinates.
@@ -30,9 +38,9 @@ public:
     void cancel() { legs_.clear(); }
     [[nodiscard]] bool empty() const { return legs_.empty(); }
 
-    /// The next line, without its end, for a machine that was last seen at `position` with the speed
+    /// The next move for a machine that was last seen at `position` with the speed
     /// `feed`, mm/s; nothing if enough is under way.
-    [[nodiscard]] std::optional<std::string> next(const Axes& position, double feed, const JogLimits& limits);
+    [[nodiscard]] std::optional<JogSlice> next(const Axes& position, double feed, const JogLimits& limits);
 
 private:
     struct Leg {
@@ -42,11 +50,11 @@ private:
         Axes sent_to{};    ///< the same for each axis, as rounded
     };
 
-    [[nodiscard]] std::string line(Leg& leg, double slice);
+    [[nodiscard]] JogSlice take(Leg& leg, double length);
 
     std::deque<Leg> legs_;
     Axes target_{};    ///< where the machine will be after all that was sent
     Axes direction_{}; ///< of what was sent last
 };
 
-} // namespace millwright::machine::grbl
+} // namespace millwright::machine::internal

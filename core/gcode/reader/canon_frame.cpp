@@ -1,10 +1,10 @@
-#include "core/gcode/reader/internal/canon_frame.h"
+#include "core/gcode/reader/canon_frame.h"
 
 #include "core/base/units.h"
 
 #include <cmath>
 
-namespace millwright::gcode::internal {
+namespace millwright::gcode {
 
 void CanonFrame::command(const Command& command) {
     constexpr double inch = 25.4;
@@ -45,4 +45,4 @@ AxisValues CanonFrame::turned(AxisValues values, double angle) {
     return values;
 }
 
-} // namespace millwright::gcode::internal
+} // namespace millwright::gcode

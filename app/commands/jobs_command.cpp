@@ -1,0 +1,88 @@
+#include "app/commands/jobs_command.h"
+
+#include "core/base/error.h"
+#include "core/machine/recovery.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    std::string folder = "jobs";
+    bool json = false;
+};
+
+std::string state_of(const machine::JobStory& story) {
+    return story.running ? "running" : story.end ? std::string(to_text(*story.end)) : "broken off";
+}
+
+nlohmann::ordered_json as_json(const machine::JobStory& story) {
+    return {{"log", story.log_file.string()},
+            {"job", story.start.job},
+            {"program", story.start.project},
+            {"driver", story.start.driver},
+            {"started_at", story.start.started_at},
+            {"end", state_of(story)},
+            {"blocks", story.start.blocks},
+            {"executed_blocks", story.executed_blocks},
+            {"allowed_blocks", story.allowed_blocks},
+            {"next_line", story.next_line},
+            {"sentence", story.sentence}};
+}
+
+void show(const machine::JobStory& story) {
+    fmt::print("{}  {}  {}\n    {}\n",
+               story.log_file.string(),
+               story.start.started_at.empty() ? "-" : story.start.started_at,
+               story.start.project,
+               story.sentence);
+    if (story.broken_off() && story.next_line > 0 && story.executed_blocks < story.start.blocks) {
+        fmt::print(
+            "    Look at the machine and the part. To go on before the first line that is not certain:\n"
+            "    millwright send {} --from-line {} ...\n",
+            story.start.project,
+            story.next_line);
+    }
+}
+
+int list_jobs(const Options& options) {
+    const machine::JobFolder folder = machine::read_job_folder(options.folder);
+    for (const Diagnostic& diagnostic : folder.unreadable) {
+        fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));
+    }
+    if (options.json) {
+        auto all = nlohmann::ordered_json::array();
+        for (const machine::JobStory& story : folder.jobs) {
+            all.push_back(as_json(story));
+        }
+        fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        for (const machine::JobStory& story : folder.jobs) {
+            show(story);
+        }
+        if (folder.jobs.empty()) {
+            fmt::print("No job logs in {}.\n", options.folder);
+        }
+    }
+    return folder.unreadable.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_jobs_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("jobs", "What became of the jobs of a folder, newest first");
+    command.add_option("DIR", options->folder, "Folder of the job logs")->capture_default_str();
+    command.add_flag("--json", options->json, "As JSON");
+    command.callback([&chosen, options] { chosen = [options] { return list_jobs(*options); }; });
+}
+
+} // namespace millwright::app

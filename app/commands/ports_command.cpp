@@ -1,0 +1,29 @@
+#include "app/commands/ports_command.h"
+
+#include "core/machine/links/serial_ports.h"
+
+#include <fmt/format.h>
+
+namespace millwright::app {
+
+namespace {
+
+int show_ports() {
+    const std::vector<machine::SerialPort> ports = machine::serial_ports();
+    for (const machine::SerialPort& port : ports) {
+        fmt::print("{}{}{}\n", port.path.string(), port.label.empty() ? "" : "  ", port.label);
+    }
+    if (ports.empty()) {
+        fmt::print(stderr, "millwright: no serial ports\n");
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_ports_command(CLI::App& app, Command& chosen) {
+    CLI::App& command = *app.add_subcommand("ports", "List the serial ports");
+    command.callback([&chosen] { chosen = show_ports; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,98 @@
+// A machine that takes coordinates: where its axes shall be, one line a sampling period, and says nothing
+// back. Programs, hold, resume, jogs and single lines are those of the virtual machine, whose positions are
+// sent; so what is sent keeps the limits of the axes at every moment. Format:
+// docs/reference/coordinate-stream.md.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/driver.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/links/link.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace millwright::machine {
+
+struct StreamOptions {
+    double period = 0.01; ///< s between samples, 0.0005 to 1
+    int decimals = 4;     ///< of mm and degrees, 0 to 9
+    bool paced = true;    ///< a sample a period; false: as fast as it goes, for files
+};
+
+/// Nobody tells where the machine is: positions are those that were sent.
+class StreamDriver final : public Driver {
+public:
+    /// Stands at `position`. `clock` must outlive it. Throws Error for options out of range.
+    StreamDriver(std::unique_ptr<Link> link,
+                 const Clock& clock,
+                 std::shared_ptr<const kinematics::MachineModel> model,
+                 kinematics::AxisPositions position,
+                 StreamOptions options = {});
+    StreamDriver(const StreamDriver&) = delete;
+    StreamDriver& operator=(const StreamDriver&) = delete;
+    ~StreamDriver() override;
+
+    [[nodiscard]] std::string name() const override { return "stream"; }
+    [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] Capabilities capabilities() const override { return machine_.capabilities(); }
+    /// Samples that were sent so far.
+    [[nodiscard]] std::int64_t samples() const { return samples_; }
+
+    /// Sends the heading.
+    void connect() override;
+    void start(Work work) override;
+    void hold() override { machine_.hold(); }
+    void resume() override { machine_.resume(); }
+    void stop() override { machine_.stop(); }
+    /// Sends nothing more: the machine stays at the last sample, however fast it was.
+    void emergency_stop() override { machine_.emergency_stop(); }
+    /// Makes a lost link again.
+    void reset() override;
+    void close() noexcept override;
+    void jog(const Jog& jog) override;
+    void stop_jog() override { machine_.stop_jog(); }
+    void home() override;
+    int command(const std::string& lines) override;
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override {
+        return machine_.stored_offsets();
+    }
+    [[nodiscard]] Console* console() override { return machine_.console(); }
+
+private:
+    /// The time of the stream: a whole number of periods.
+    class StreamClock final : public Clock {
+    public:
+        [[nodiscard]] double now() const override { return time_; }
+        void wait(double seconds) override { time_ = time_ + seconds; }
+
+    private:
+        std::atomic<double> time_ = 0.0;
+    };
+
+    void open();
+    void run(const std::stop_token& stop);
+    void send_sample();
+    void require_link() const;
+    [[nodiscard]] std::string line(const kinematics::AxisPositions& position) const;
+    [[nodiscard]] std::string heading() const;
+    [[nodiscard]] std::string lost() const;
+
+    std::unique_ptr<Link> link_;
+    const Clock& clock_;
+    std::shared_ptr<const kinematics::MachineModel> model_;
+    StreamOptions options_;
+    StreamClock stream_clock_;
+    VirtualMachine machine_;
+    std::atomic<std::int64_t> samples_ = 0;
+    mutable std::mutex mutex_; ///< guards what follows
+    std::string last_line_;
+    std::string lost_; ///< why the link is gone; empty while it stands
+    std::jthread thread_;
+};
+
+} // namespace millwright::machine

@@ -1,0 +1,89 @@
+#include "core/machine/recovery.h"
+
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sentence_of(const JobStory& story) {
+    const int blocks = story.start.blocks;
+    if (story.running) {
+        return fmt::format(
+            "running: {} of {} blocks were executed for certain.", story.executed_blocks, blocks);
+    }
+    if (!story.broken_off()) {
+        return fmt::format("{} after {}: {} of {} blocks were executed for certain.",
+                           to_text(*story.end),
+                           clock_time(story.time),
+                           story.executed_blocks,
+                           blocks);
+    }
+    if (story.executed_blocks == blocks) {
+        return fmt::format("Millwright ended before it could write the end: all {} blocks were executed.",
+                           blocks);
+    }
+    const int open = std::max(0, story.allowed_blocks - story.executed_blocks);
+    const std::string where =
+        story.next_line > 0 ? fmt::format(" (line {} comes next)", story.next_line) : std::string();
+    return fmt::format(
+        "Millwright ended while the job ran, after {} or later: {} of {} blocks were executed for "
+        "certain{}; of the next {} nobody knows{}.",
+        clock_time(story.time),
+        story.executed_blocks,
+        blocks,
+        where,
+        open,
+        story.allowed_blocks < blocks ? "; the others were never sent" : "");
+}
+
+} // namespace
+
+JobStory job_story(const fs::path& log_file) {
+    JobStory story;
+    story.running = is_being_written(log_file); // before it is read, so that an end is never overlooked
+    const ReadLog log = read_job_log(log_file);
+    story.log_file = log_file;
+    story.start = log.start;
+    story.end = log.end();
+    story.running = story.running && !story.end;
+    story.executed_blocks = log.executed_blocks();
+    story.allowed_blocks = log.allowed_blocks();
+    story.next_line = log.next_line();
+    if (!log.records.empty()) {
+        story.time = log.records.back().time;
+        story.position = log.records.back().position;
+    }
+    story.sentence = sentence_of(story);
+    return story;
+}
+
+JobFolder read_job_folder(const fs::path& folder) {
+    JobFolder result;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+        if (entry.path().extension() == ".jsonl") {
+            files.emplace_back(entry.last_write_time(none), entry.path());
+        }
+    }
+    std::ranges::sort(files, std::ranges::greater());
+    for (const auto& [time, file] : files) {
+        try {
+            result.jobs.push_back(job_story(file));
+        } catch (const Error& error) {
+            result.unreadable.push_back(error.diagnostic());
+        }
+    }
+    return result;
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,43 @@
+// Beginning a program in its middle, as after a broken tool: what the lines before would have brought into
+// force is rebuilt, and the tool comes to where it should be from above.
+#pragma once
+
+#include "core/gcode/reader/dialect.h"
+#include "core/machine/job.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine {
+
+struct RunFromSettings {
+    gcode::Dialect dialect = gcode::Dialect::linuxcnc;
+    /// Z, in the work coordinates and the unit that are in force at the line, in which the tool can go
+    /// anywhere; none: the highest to which the lines before have gone rapidly.
+    std::optional<double> clearance;
+    double spindle_time = 3.0; ///< s for the spindle to come to its speed
+};
+
+struct RunFrom {
+    /// The whole program with the same line numbers: above `line` stands the approach, and empty lines.
+    std::string text;
+    int line = 0;
+    int tool = 0; ///< that has to be in the spindle; 0: none was called
+};
+
+/// The approach: modes, tool, spindle and coolant; Z up to the clearance; the other axes; Z down at the feed
+/// in force. Throws Error with place and reason where nobody can know what was in force: programs with
+/// subroutines, loops or parameters; a line within a canned cycle or cutter compensation; after probing, or
+/// after the program itself has changed offsets; no feed, no clearance; a line among the first ten, which is
+/// run from the beginning as easily.
+[[nodiscard]] RunFrom run_from_line(std::string_view text,
+                                    const std::filesystem::path& file,
+                                    int line,
+                                    const RunFromSettings& settings);
+
+/// The job of what is left of `job`, a text, from `line` on; its log tells the lines of the file.
+[[nodiscard]] Job job_from_line(const Job& job, int line, const RunFromSettings& settings);
+
+} // namespace millwright::machine

@@ -1,0 +1,263 @@
+#include "core/machine/survey.h"
+
+#include "core/base/units.h"
+#include "core/gcode/reader/canon_frame.h"
+#include "core/gcode/reader/interpreter.h"
+#include "core/machine/hand_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+using gcode::AxisValues;
+using gcode::Command;
+using gcode::CommandKind;
+using gcode::Move;
+using gcode::MoveKind;
+
+constexpr double seconds_per_minute = 60.0;
+
+class Surveyor final : public gcode::CanonSink {
+public:
+    Surveyor(Survey& found, const AxisValues& start) : found_(found), at_(start) {}
+
+    void move(const Move& move, const gcode::SourceLine&) override {
+        const AxisValues begin = frame_.from_machine(at_);
+        if (move.kind != MoveKind::traverse) {
+            cut(move.source.line);
+        }
+        if (move.kind == MoveKind::arc) {
+            take_arc(begin, move);
+        }
+        go(move.target, move.source.line);
+    }
+
+    void curve(const gcode::Curve& curve, const gcode::SourceLine&) override {
+        cut(curve.source.line);
+        AxisValues point = frame_.from_machine(at_);
+        for (const gcode::ControlPoint& corner : curve.points) { // the curve lies within their hull
+            point[gcode::Axis::x] = corner.x;
+            point[gcode::Axis::y] = corner.y;
+            go(point, curve.source.line);
+        }
+    }
+
+    void command(const Command& command, const gcode::SourceLine&) override {
+        frame_.command(command);
+        switch (command.kind) {
+        case CommandKind::set_feed_rate:
+            take_feed(command);
+            break;
+        case CommandKind::set_spindle_speed:
+            found_.greatest_spindle_rpm = std::max(found_.greatest_spindle_rpm, command.value);
+            break;
+        case CommandKind::start_spindle_clockwise:
+        case CommandKind::start_spindle_counterclockwise:
+            turning_ = true;
+            break;
+        case CommandKind::stop_spindle_turning:
+            turning_ = false;
+            break;
+        case CommandKind::select_tool:
+            if (std::ranges::find(found_.tools, command.index) == found_.tools.end()) {
+                found_.tools.push_back(command.index);
+            }
+            break;
+        default:
+            break;
+        }
+    }
+
+private:
+    Survey& found_;
+    gcode::CanonFrame frame_;
+    AxisValues at_; ///< machine, mm and degrees
+    bool turning_ = false;
+
+    void cut(int line) {
+        if (found_.first_cut_line == 0) {
+            found_.first_cut_line = line;
+            found_.spindle_before_cut = turning_;
+        }
+    }
+
+    void take_feed(const Command& command) {
+        const double feed = command.value * frame_.unit() / seconds_per_minute;
+        if (feed > found_.greatest_feed) {
+            found_.greatest_feed = feed;
+            found_.greatest_feed_line = command.source.line;
+        }
+    }
+
+    void go(const AxisValues& target, int line) {
+        at_ = frame_.to_machine(target);
+        for (std::size_t n = 0; n < gcode::axis_count; ++n) {
+            const double value = gcode::is_rotary(n) ? from_degrees(at_[n]) : at_[n];
+            Survey::Range& range = found_.ranges[n];
+            if (value < range.min) {
+                range.min = value;
+                range.min_line = line;
+            }
+            if (value > range.max) {
+                range.max = value;
+                range.max_line = line;
+            }
+        }
+    }
+
+    /// The points where an arc comes farthest along the axes of its plane.
+    void take_arc(const AxisValues& begin, const Move& move) {
+        using gcode::Axis;
+        using gcode::Plane;
+        const auto [first, second] = move.plane == Plane::xz   ? std::pair{Axis::z, Axis::x}
+                                     : move.plane == Plane::yz ? std::pair{Axis::y, Axis::z}
+                                                               : std::pair{Axis::x, Axis::y};
+        const double x = begin[first] - move.centre_1;
+        const double y = begin[second] - move.centre_2;
+        const double radius = std::hypot(x, y);
+        const double from = std::atan2(y, x);
+        constexpr double quarter = 0.5 * std::numbers::pi;
+        constexpr double step = quarter / 16.0; // the quarters themselves, and near enough where XY is turned
+        const double low = std::min(from, from + move.sweep);
+        const double high = std::min(std::max(from, from + move.sweep), low + 4.0 * quarter);
+        AxisValues point = begin;
+        for (double angle = std::ceil(low / step) * step; angle <= high; angle += step) {
+            point[first] = move.centre_1 + radius * std::cos(angle);
+            point[second] = move.centre_2 + radius * std::sin(angle);
+            go(point, move.source.line);
+        }
+    }
+};
+
+std::string in_people_units(char letter, double value) {
+    const bool rotary = letter >= 'A' && letter <= 'C';
+    return fmt::format("{:.3f} {}", rotary ? to_degrees(value) : value, rotary ? "deg" : "mm");
+}
+
+std::size_t index_of(char letter) {
+    return static_cast<std::size_t>(std::ranges::find(gcode::axis_letters, letter) -
+                                    gcode::axis_letters.begin());
+}
+
+AxisValues values_of(const kinematics::AxisPositions& axes, const std::vector<gcode::ProgramAxis>& letters) {
+    AxisValues values;
+    for (Eigen::Index n = 0; n < axes.size() && n < std::ssize(letters); ++n) {
+        const gcode::ProgramAxis& axis = letters[static_cast<std::size_t>(n)];
+        values[index_of(axis.letter)] =
+            axis.kind == kinematics::AxisKind::rotary ? to_degrees(axes[n]) : axes[n];
+    }
+    return values;
+}
+
+/// LinuxCNC's number of the first of the nine parameters of a stored offset; 0 for others.
+int first_parameter(std::string_view name) {
+    constexpr int first_system = 5221;
+    constexpr int stride = 20;
+    for (int system = 1; system <= 9; ++system) {
+        if (name == work_system_name(system)) {
+            return first_system + stride * (system - 1);
+        }
+    }
+    return name == "G28" ? 5161 : name == "G30" ? 5181 : name == "G92" ? 5211 : 0;
+}
+
+} // namespace
+
+Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
+    Survey found;
+    gcode::ReaderSettings reading;
+    reading.dialect = settings.dialect;
+    reading.any_tool = true;
+    reading.start = values_of(settings.start, settings.axes);
+    constexpr int most_errors = 100;
+    reading.most_errors = most_errors;
+    const std::filesystem::path folder = file.parent_path();
+    reading.subroutine_folders.push_back(folder.empty() ? "." : folder);
+    for (const StoredOffset& offset : settings.offsets) {
+        const AxisValues values = values_of(offset.value, settings.axes);
+        const int first = first_parameter(offset.name);
+        for (std::size_t n = 0; first > 0 && n < gcode::axis_count; ++n) {
+            reading.parameters.emplace_back(first + static_cast<int>(n), values[n]);
+        }
+        if (offset.name == "G92") {
+            constexpr int g92_active = 5210;
+            reading.parameters.emplace_back(g92_active, 1.0);
+        }
+    }
+    Surveyor surveyor(found, reading.start);
+    gcode::Interpreter reader(text, file, std::move(reading), surveyor);
+    reader.run();
+    found.errors = reader.errors();
+    return found;
+}
+
+std::vector<Diagnostic>
+faults_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file) {
+    std::vector<Diagnostic> faults = survey.errors;
+    constexpr double rounding = 1e-6;
+    for (const MachineLimits::Axis& axis : limits.axes) {
+        const Survey::Range& range = survey.ranges[index_of(axis.letter)];
+        const auto outside = [&](double value, int line) {
+            faults.push_back({{file, line, 0, -1},
+                              fmt::format("axis {} would go to {} in machine coordinates, outside {} ... {}",
+                                          axis.letter,
+                                          in_people_units(axis.letter, value),
+                                          in_people_units(axis.letter, axis.min.value_or(-0.0)),
+                                          in_people_units(axis.letter, axis.max.value_or(0.0))),
+                              "check work offset and program"});
+        };
+        if (!range.empty() && axis.min && range.min < *axis.min - rounding) {
+            outside(range.min, range.min_line);
+        }
+        if (!range.empty() && axis.max && range.max > *axis.max + rounding) {
+            outside(range.max, range.max_line);
+        }
+    }
+    return faults;
+}
+
+std::vector<Diagnostic>
+warnings_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file) {
+    std::vector<Diagnostic> warnings;
+    const auto warn = [&](int line, std::string sentence, std::string hint = {}) {
+        warnings.push_back({{file, line, 0, -1}, std::move(sentence), std::move(hint)});
+    };
+    if (!survey.tools.empty()) {
+        std::string list;
+        for (const int tool : survey.tools) {
+            list += fmt::format("{}T{}", list.empty() ? "" : ", ", tool);
+        }
+        warn(0, "the program calls for tools " + list, "have them ready");
+    }
+    if (survey.first_cut_line > 0 && !survey.spindle_before_cut) {
+        warn(survey.first_cut_line, "the first cut comes before the spindle was started");
+    }
+    double fastest = 0.0;
+    for (const MachineLimits::Axis& axis : limits.axes) {
+        fastest = std::hypot(fastest, axis.speed.value_or(std::numeric_limits<double>::infinity()));
+    }
+    if (!limits.axes.empty() && survey.greatest_feed > fastest) {
+        warn(
+            survey.greatest_feed_line,
+            fmt::format("the feed of {:.0f} mm/min is more than the machine reaches in any direction, {:.0f}",
+                        survey.greatest_feed * seconds_per_minute,
+                        fastest * seconds_per_minute),
+            "it will be slower");
+    }
+    if (limits.spindle_rpm && survey.greatest_spindle_rpm > *limits.spindle_rpm) {
+        warn(0,
+             fmt::format("the program wants {:.0f} rpm and the spindle reaches {:.0f}",
+                         survey.greatest_spindle_rpm,
+                         *limits.spindle_rpm));
+    }
+    return warnings;
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,59 @@
+// What a G-code file would do, read with the interpreter before a controller gets it: how far it goes, how
+// fast, with which tools. Lengths mm, angles rad, times s.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/gcode/reader/axes.h"
+#include "core/gcode/reader/dialect.h"
+#include "core/machine/driver.h"
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine {
+
+struct Survey {
+    struct Range {
+        double min = std::numeric_limits<double>::infinity();
+        double max = -std::numeric_limits<double>::infinity();
+        int min_line = 0, max_line = 0; ///< where they are reached
+
+        [[nodiscard]] bool empty() const { return max < min; }
+    };
+
+    std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
+    double greatest_feed = 0.0;                  ///< mm/s, per minute feeds alone
+    int greatest_feed_line = 0;
+    double greatest_spindle_rpm = 0.0;
+    std::vector<int> tools;         ///< numbers that are called, in their order, each once
+    int first_cut_line = 0;         ///< the first feed move, 0: none
+    bool spindle_before_cut = true; ///< it turned at the first feed move
+    std::vector<Diagnostic> errors; ///< what breaks the rules of the dialect
+};
+
+/// `start` and `offsets` tell where the machine stands and what its work systems are; without them the
+/// program is taken to begin at zero, and all offsets to be zero.
+struct SurveySettings {
+    gcode::Dialect dialect = gcode::Dialect::linuxcnc;
+    std::vector<gcode::ProgramAxis> axes; ///< of `start` and `offsets`
+    kinematics::AxisPositions start;      ///< machine coordinates; may be empty
+    std::vector<StoredOffset> offsets;
+};
+
+/// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.
+[[nodiscard]] Survey
+survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings);
+
+/// What stands against running it: errors and ways beyond the travel.
+[[nodiscard]] std::vector<Diagnostic>
+faults_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file);
+/// What a person should know before: tools, feeds and speeds that the machine cannot reach, a cut without
+/// spindle.
+[[nodiscard]] std::vector<Diagnostic>
+warnings_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file);
+
+} // namespace millwright::machine

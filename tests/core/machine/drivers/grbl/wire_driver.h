@@ -1,0 +1,60 @@
+// The session of a GrblWire as a Driver, and its time as a Clock: whoever waits lets the wire go on.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/machine/clock.h"
+#include "tests/core/machine/drivers/grbl/grbl_wire.h"
+
+namespace millwright::test {
+
+class WireClock final : public machine::Clock {
+public:
+    /// Waiting beyond `end` is a Defect: something does not come to its end.
+    WireClock(GrblWire& wire, double end) : wire_(wire), end_(end) {}
+
+    [[nodiscard]] double now() const override { return wire_.now; }
+    void wait(double seconds) override {
+        expects(wire_.now < end_, "the run has no end");
+        for (const double until = wire_.now + seconds - 1e-9; wire_.now < until;) {
+            wire_.step();
+        }
+    }
+
+private:
+    GrblWire& wire_;
+    double end_;
+};
+
+class WireDriver final : public machine::Driver {
+public:
+    explicit WireDriver(GrblWire& wire) : wire_(wire) {}
+
+    [[nodiscard]] std::string name() const override { return "grbl"; }
+    [[nodiscard]] machine::DriverStatus status() const override { return wire_.session.status(); }
+    [[nodiscard]] machine::Capabilities capabilities() const override {
+        using kinematics::AxisKind;
+        machine::Capabilities able;
+        able.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
+        able.plans = able.overrides = able.single_block = able.piecewise = true;
+        return able;
+    }
+    void connect() override {}
+    void start(machine::Work work) override {
+        wire_.session.start(
+            machine::grbl::program_lines(*work.listing, "test.ngc"), wire_.now, work.allowed_blocks);
+    }
+    void allow(int blocks) override { wire_.session.allow(blocks); }
+    void hold() override { wire_.session.hold(wire_.now); }
+    void resume() override { wire_.session.resume(wire_.now); }
+    void stop() override { wire_.session.stop(wire_.now); }
+    void emergency_stop() override { wire_.session.emergency_stop(wire_.now); }
+    void reset() override { wire_.session.reset(wire_.now); }
+    void close() noexcept override {}
+    void set_overrides(const machine::Overrides& wanted) override { wire_.session.set_overrides(wanted); }
+    void set_single_block(bool on) override { wire_.session.set_single_block(on); }
+
+private:
+    GrblWire& wire_;
+};
+
+} // namespace millwright::test

@@ -1,0 +1,247 @@
+// The driver against the real LinuxCNC: its simulation without a window, started by this test. One test,
+// since a computer can run one LinuxCNC at a time. Skipped with the reason where it does not start.
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/links/tcp_link.h"
+#include "core/machine/links/tcp_server.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/scratch_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+
+std::string configuration(int port, const std::string& folder) {
+    std::string text =
+        fmt::format("[EMC]\nVERSION = 1.1\nMACHINE = test\nDEBUG = 0\n"
+                    "[DISPLAY]\nDISPLAY = linuxcncrsh --port {}\nCYCLE_TIME = 0.1\nPROGRAM_PREFIX = {}\n",
+                    port,
+                    folder);
+    text += "[TASK]\nTASK = milltask\nCYCLE_TIME = 0.001\n[RS274NGC]\nPARAMETER_FILE = sim.var\n"
+            "[EMCMOT]\nEMCMOT = motmod\nCOMM_TIMEOUT = 4.0\nSERVO_PERIOD = 1000000\n"
+            "[EMCIO]\nEMCIO = io\nCYCLE_TIME = 0.1\nTOOL_TABLE = sim.tbl\n[HAL]\nHALFILE = sim.hal\n"
+            "[TRAJ]\nCOORDINATES = X Y Z\nLINEAR_UNITS = mm\nANGULAR_UNITS = degree\nDEFAULT_LINEAR_VELOCITY "
+            "= 30\n"
+            "MAX_LINEAR_VELOCITY = 50\nDEFAULT_LINEAR_ACCELERATION = 500\nMAX_LINEAR_ACCELERATION = 500\n"
+            "[KINS]\nKINEMATICS = trivkins\nJOINTS = 3\n";
+    for (int n = 0; n < 3; ++n) {
+        const std::string limits =
+            "MAX_VELOCITY = 50\nMAX_ACCELERATION = 500\nMIN_LIMIT = -250\nMAX_LIMIT = 250\n";
+        text += fmt::format("[AXIS_{}]\n{}", "XYZ"[n], limits);
+        text +=
+            fmt::format("[JOINT_{}]\nTYPE = LINEAR\nHOME = 0\n{}FERROR = 5\nMIN_FERROR = 1\nHOME_OFFSET = 0\n"
+                        "HOME_SEARCH_VEL = 0\nHOME_LATCH_VEL = 0\nHOME_SEQUENCE = 0\n",
+                        n,
+                        limits);
+    }
+    return text;
+}
+
+constexpr const char* wires =
+    "loadrt [KINS]KINEMATICS\n"
+    "loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS\n"
+    "addf motion-command-handler servo-thread\naddf motion-controller servo-thread\n"
+    "net j0 joint.0.motor-pos-cmd => joint.0.motor-pos-fb\n"
+    "net j1 joint.1.motor-pos-cmd => joint.1.motor-pos-fb\n"
+    "net j2 joint.2.motor-pos-cmd => joint.2.motor-pos-fb\n"
+    "net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in\n"
+    "net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared\n"
+    "net change iocontrol.0.tool-change => iocontrol.0.tool-changed\n";
+
+/// LinuxCNC as a child process.
+class Simulator {
+public:
+    explicit Simulator(const std::filesystem::path& folder) : folder_(folder) {
+        {
+            TcpServer any(0);
+            any.open();
+            port = any.port();
+        }
+        ::chmod(folder.c_str(), 0777); // as root its real-time part runs as nobody
+        write_file(folder / "sim.ini", configuration(port, folder.string()));
+        write_file(folder / "sim.hal", wires);
+        write_file(folder / "sim.tbl", "T1 P1 D3 ;mill\n");
+        write_file(folder / "sim.var", "");
+        child_ = ::fork();
+        if (child_ == 0) {
+            run();
+        }
+        ::setpgid(child_, child_);
+    }
+    Simulator(const Simulator&) = delete;
+    Simulator& operator=(const Simulator&) = delete;
+    ~Simulator() {
+        ::kill(-child_, SIGTERM); // its script takes everything down, once the user interface has ended
+        for (int n = 0; n < 200 && ::waitpid(child_, nullptr, WNOHANG) == 0; ++n) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        ::kill(-child_, SIGKILL);
+    }
+
+    std::uint16_t port = 0;
+
+    /// Connects as soon as it listens. Empty: done. Else what it said.
+    std::string connect(LinuxCncDriver& driver) {
+        for (int n = 0; n < 300; ++n) {
+            try {
+                driver.connect();
+                return {};
+            } catch (const Error&) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            }
+            if (::waitpid(child_, nullptr, WNOHANG) != 0) {
+                break;
+            }
+        }
+        return read_file(folder_ / "out.txt");
+    }
+
+private:
+    std::filesystem::path folder_;
+    pid_t child_ = -1;
+
+    [[noreturn]] void run() const {
+        ::setpgid(0, 0);
+        const int out = ::open((folder_ / "out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+        ::dup2(out, 1);
+        ::dup2(out, 2);
+        ::setenv("HOME", folder_.c_str(), 1);
+        ::setenv("RTAPI_FIFO_PATH", (folder_ / "fifo").c_str(), 1);
+        if (::getuid() == 0) {
+            ::setenv("RTAPI_UID", "65534", 1);
+        }
+        ::execlp("linuxcnc", "linuxcnc", "-r", (folder_ / "sim.ini").c_str(), nullptr);
+        ::_exit(127);
+    }
+};
+
+struct LinuxCncSimulator : testing::Test {
+    test::ScratchFolder scratch;
+    SteadyClock clock;
+
+    template <class Done> static bool within(double seconds, const Done& done) {
+        for (double waited = 0.0; waited < seconds; waited += 0.01) {
+            if (done()) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return done();
+    }
+};
+
+constexpr const char* square = "G21 G90 G94\nG0 X0 Y0\n(around)\nG1 X20 F1200\nG1 Y20\n\nG1 X0\nG1 Y0\nM2\n";
+
+TEST_F(LinuxCncSimulator, IsDrivenThroughProgramPauseOverrideStopCommandAndJog) {
+    if (::access("/usr/bin/linuxcnc", X_OK) != 0 || ::access("/usr/bin/linuxcncrsh", X_OK) != 0) {
+        GTEST_SKIP() << "LinuxCNC is not installed (Debian package linuxcnc-uspace)";
+    }
+    Simulator simulator(scratch.path());
+    LinuxCncOptions options;
+    options.program_folder = scratch.path();
+    LinuxCncDriver driver(std::make_unique<TcpLink>("127.0.0.1", simulator.port), clock, options);
+    const auto state = [&] { return driver.status().state; };
+    const auto reaches = [&](DriverState wanted) { return within(20.0, [&] { return state() == wanted; }); };
+
+    if (const std::string said = simulator.connect(driver); !said.empty()) {
+        GTEST_SKIP() << "LinuxCNC does not start here: " << said;
+    }
+    // It begins in the emergency stop, and leaves it when a person says so.
+    EXPECT_EQ(state(), DriverState::alarm);
+    EXPECT_THROW(driver.home(), Error);
+    driver.reset();
+    ASSERT_TRUE(reaches(DriverState::idle)) << driver.status().message;
+    driver.home();
+    ASSERT_TRUE(reaches(DriverState::idle)) << driver.status().message;
+
+    // A program, with pause and override, and its log.
+    Dispatcher dispatcher(driver, clock, scratch / "logs");
+    bool held = false;
+    kinematics::AxisPositions rest;
+    int looks = 0;
+    const JobOutcome outcome =
+        dispatcher.run(text_job(square, "square.ngc"), {}, [&](const JobReport& report) {
+            if (!held && report.driver.position[0] > 5.0) {
+                held = true;
+                dispatcher.set_overrides({.feed = 50, .rapid = 100, .spindle = 100});
+                dispatcher.hold();
+            } else if (held && ++looks == 20) {
+                rest = report.driver.position;
+            } else if (looks == 40) {
+                EXPECT_EQ(report.driver.position, rest);
+                EXPECT_EQ(report.driver.state, DriverState::holding);
+                EXPECT_EQ(report.driver.overrides.feed, 50);
+                dispatcher.resume();
+            }
+        });
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.executed_blocks, 8);
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_EQ(log.end(), JobEnd::done);
+    driver.set_overrides({});
+
+    // Stopped on its way: no more is claimed than the position proves.
+    driver.start({nullptr, nullptr, text_job(square, "square.ngc").listing, {}});
+    ASSERT_TRUE(within(20.0, [&] { return driver.status().position[1] > 5.0; }));
+    driver.stop();
+    ASSERT_TRUE(reaches(DriverState::stopped));
+    EXPECT_LE(driver.status().executed_blocks, 4); // up to the line that it was on
+    EXPECT_GE(driver.status().executed_blocks, 3);
+
+    // Single lines, and what is wrong with them.
+    (void)driver.command("G0 X3 Y4");
+    ASSERT_TRUE(reaches(DriverState::idle));
+    EXPECT_NEAR(driver.status().position[0], 3.0, 1e-3);
+    EXPECT_EQ(driver.status().answer.state, CommandAnswer::State::done);
+    (void)driver.command("G10 L20 P0 X1");
+    ASSERT_TRUE(reaches(DriverState::idle));
+    EXPECT_NEAR(driver.status().work_position()[0], 1.0, 1e-3);
+    (void)driver.command("G1 Q");
+    ASSERT_TRUE(reaches(DriverState::idle));
+    EXPECT_EQ(driver.status().answer.state, CommandAnswer::State::refused);
+    EXPECT_FALSE(driver.status().answer.text.empty());
+
+    // Jogs: exactly as far as they say, and no farther than the hand.
+    Jog jog{kinematics::AxisPositions::Zero(3), 10.0, 0.0};
+    jog.way[1] = -2.5;
+    driver.jog(jog);
+    ASSERT_TRUE(within(1.0, [&] { return driver.status().activity == Activity::jog; }));
+    ASSERT_TRUE(reaches(DriverState::idle));
+    EXPECT_NEAR(driver.status().position[1], 1.5, 1e-3);
+    jog = {kinematics::AxisPositions::Zero(3), 10.0, 0.3};
+    jog.way[0] = 100.0;
+    driver.jog(jog);
+    ASSERT_TRUE(reaches(DriverState::idle));
+    EXPECT_GT(driver.status().position[0], 3.0);
+    EXPECT_LT(driver.status().position[0], 3.0 + 10.0);
+
+    // A way that the machine does not have ends in an alarm with LinuxCNC's own words.
+    driver.start(
+        {nullptr, nullptr, text_job("G21 G90 G94\nG1 X10 F1200\nG1 X900\nM2\n", "far.ngc").listing, {}});
+    ASSERT_TRUE(reaches(DriverState::alarm));
+    EXPECT_THAT(driver.status().message, HasSubstr("exceed"));
+    EXPECT_LE(driver.status().executed_blocks, 2);
+    driver.reset();
+    ASSERT_TRUE(reaches(DriverState::idle));
+    driver.emergency_stop();
+    EXPECT_EQ(state(), DriverState::alarm);
+    driver.close();
+}
+
+} // namespace
+} // namespace millwright::machine

@@ -1,0 +1,192 @@
+#include "core/machine/drivers/stream/stream_driver.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/links/file_link.h"
+#include "core/machine/links/tcp_link.h"
+#include "core/machine/links/tcp_server.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/jobs.h"
+#include "tests/support/machines.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace millwright::machine {
+namespace {
+
+using kinematics::AxisPositions;
+using testing::HasSubstr;
+
+std::shared_ptr<const kinematics::MachineModel> router() {
+    return std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
+}
+
+struct Received {
+    std::string heading;
+    std::vector<AxisPositions> samples;
+};
+
+Received received(const std::string& text, int axes) {
+    Received result;
+    std::istringstream lines(text);
+    std::getline(lines, result.heading);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        AxisPositions position = AxisPositions::Zero(axes);
+        for (int n = 0; n < axes; ++n) {
+            words >> position[n];
+        }
+        EXPECT_FALSE(words.fail()) << line;
+        result.samples.push_back(position);
+    }
+    return result;
+}
+
+struct Bench {
+    test::ScratchFolder scratch;
+    SteadyClock clock;
+    std::shared_ptr<const kinematics::MachineModel> model = router();
+    std::filesystem::path file = scratch / "stream.txt";
+
+    std::unique_ptr<StreamDriver> driver(StreamOptions options) {
+        return std::make_unique<StreamDriver>(
+            std::make_unique<FileLink>(file), clock, model, AxisPositions::Zero(3), options);
+    }
+};
+
+constexpr const char* square = "G21 G90 G94\nG1 X20 Y5 F3000\nX20 Y25\nX0 Y0\n";
+
+void wait_for_end(const Driver& driver) {
+    test::wait_until([&] { return driver.status().activity == Activity::none; });
+}
+
+/// No axis faster, and none with more acceleration, than the machine has; from one sample to the next.
+void expect_within_limits(const Received& got, const kinematics::MachineModel& model, double period) {
+    const double rounding = 1e-6;
+    for (std::size_t k = 2; k < got.samples.size(); ++k) {
+        for (int n = 0; n < model.axis_count(); ++n) {
+            const double before = (got.samples[k - 1][n] - got.samples[k - 2][n]) / period;
+            const double now = (got.samples[k][n] - got.samples[k - 1][n]) / period;
+            EXPECT_LE(std::abs(now), model.axis(n).max_velocity + rounding / period);
+            // a corner may take a step of 2 ms of acceleration
+            const double step = model.axis(n).max_acceleration * (period + 0.002);
+            EXPECT_LE(std::abs(now - before), step + 4.0 * rounding / period) << "sample " << k;
+        }
+    }
+}
+
+TEST(StreamDriver, SendsTheTrajectorySampleBySample) {
+    Bench bench;
+    constexpr double period = 0.004;
+    const auto driver = bench.driver({.period = period, .decimals = 7, .paced = false});
+    driver->connect();
+    gcode::Program program;
+    program.machine = bench.model->name();
+    for (const kinematics::MachineAxis& axis : bench.model->axes()) {
+        program.axes.push_back({axis.letter, axis.kind});
+    }
+    program.start = AxisPositions::Zero(3);
+    gcode::Block move;
+    move.kind = gcode::BlockKind::feed;
+    move.target = AxisPositions::Constant(3, 10.0);
+    move.named = gcode::AxisSet::all(3);
+    move.duration = 0.5;
+    program.blocks = {move, move};
+    program.blocks[1].kind = gcode::BlockKind::end;
+    const auto trajectory =
+        std::make_shared<const motion::Trajectory>(motion::plan(program, *bench.model, {}, {}));
+    test::wait_until([&] { return driver->samples() == 1; }); // where it stands
+    driver->start({std::make_shared<const gcode::Program>(program), trajectory, nullptr, {}});
+    wait_for_end(*driver);
+    driver->close();
+    const Received got = received(read_file(bench.file), 3);
+    EXPECT_EQ(got.heading, "# millwright-stream 1 period_s 0.004 X mm Y mm Z mm");
+    ASSERT_GT(got.samples.size(), 100U);
+    for (std::size_t k = 0; k < got.samples.size(); ++k) {
+        const double time = static_cast<double>(k) * period;
+        EXPECT_LT((got.samples[k] - trajectory->at(time).position).cwiseAbs().maxCoeff(), 1e-6) << k;
+    }
+    EXPECT_LT((got.samples.back() - move.target).norm(), 1e-6);
+}
+
+TEST(StreamDriver, HoldsAndResumesWithoutAJump) {
+    Bench bench;
+    constexpr double period = 0.002;
+    const auto driver = bench.driver({.period = period, .decimals = 7});
+    driver->connect();
+    (void)driver->command(square);
+    for (const double x : {3.0, 12.0}) {
+        test::wait_until([&] { return driver->status().position[0] > x; });
+        driver->hold();
+        test::wait_until([&] { return driver->status().velocity.norm() < 1e-9; });
+        const std::int64_t sent = driver->samples();
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        EXPECT_LE(driver->samples(), sent + 1); // a machine that stands needs no samples
+        driver->resume();
+    }
+    wait_for_end(*driver);
+    driver->close();
+    const Received got = received(read_file(bench.file), 3);
+    expect_within_limits(got, *bench.model, period);
+    EXPECT_LT(got.samples.back().norm(), 1e-6);
+}
+
+TEST(StreamDriver, KeepsItsPeriod) {
+    Bench bench;
+    const auto driver = bench.driver({.period = 0.01});
+    driver->connect();
+    const double begin = bench.clock.now();
+    (void)driver->command("G21 G91 G1 X20 F1200");
+    wait_for_end(*driver);
+    const double took = bench.clock.now() - begin;
+    EXPECT_GT(took, 0.9); // 20 mm at 20 mm/s
+    EXPECT_NEAR(static_cast<double>(driver->samples()), took / 0.01, 0.5 * took / 0.01);
+    driver->close();
+}
+
+TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
+    SteadyClock clock;
+    auto server = std::make_unique<TcpServer>(0);
+    server->open();
+    const std::uint16_t port = server->port();
+    StreamDriver driver(
+        std::make_unique<TcpLink>("127.0.0.1", port), clock, router(), AxisPositions::Zero(3));
+    driver.connect();
+    (void)driver.command(square);
+    std::string text;
+    test::wait_until([&] {
+        text += server->read();
+        return std::ranges::count(text, '\n') > 10;
+    });
+    EXPECT_THAT(text, HasSubstr("# millwright-stream 1"));
+    server.reset();
+    test::wait_until([&] { return driver.status().state == DriverState::alarm; });
+    EXPECT_THAT(driver.status().message, HasSubstr("the link was lost"));
+    EXPECT_THROW((void)driver.command("G0 X0"), Error);
+    EXPECT_THROW(driver.reset(), Error); // nobody is there
+    TcpServer again(port);
+    again.open();
+    driver.reset();
+    EXPECT_EQ(driver.status().state, DriverState::idle);
+    const std::int64_t sent = driver.samples();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_LE(driver.samples(), sent + 1);
+    driver.close();
+}
+
+TEST(StreamDriver, RefusesPeriodsAndDecimalsThatAreNone) {
+    Bench bench;
+    EXPECT_THROW(bench.driver({.period = 0.0}), Error);
+    EXPECT_THROW(bench.driver({.period = std::nan("")}), Error);
+    EXPECT_THROW(bench.driver({.decimals = 10}), Error);
+}
+
+} // namespace
+} // namespace millwright::machine

@@ -1,0 +1,97 @@
+#include "core/machine/recovery.h"
+
+#include "core/base/files.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+
+LogStart start_of(int blocks) {
+    LogStart start;
+    start.job = "part";
+    start.driver = "grbl";
+    start.axes = {{'X', kinematics::AxisKind::linear}};
+    start.blocks = blocks;
+    return start;
+}
+
+LogRecord record(LogEvent event, int executed, int line, int allowed = 0) {
+    LogRecord result;
+    result.event = event;
+    result.executed_blocks = executed;
+    result.line = line;
+    result.allowed_blocks = allowed;
+    result.position = kinematics::AxisPositions::Zero(1);
+    return result;
+}
+
+struct Bench {
+    test::ScratchFolder folder;
+    std::optional<JobLog> log;
+    std::filesystem::path file;
+
+    Bench() {
+        log.emplace(folder / "logs", "part");
+        file = log->file();
+        log->write(start_of(100));
+        log->write(record(LogEvent::ahead, 0, 1, 40));
+        log->write(record(LogEvent::executed, 12, 15));
+        log->write(record(LogEvent::ahead, 12, 15, 60));
+    }
+    [[nodiscard]] JobStory story() const { return job_story(file); }
+};
+
+TEST(Recovery, TellsARunningJobFromOneWhoseProgramWasKilled) {
+    Bench bench;
+    EXPECT_TRUE(bench.story().running);
+    EXPECT_FALSE(bench.story().broken_off());
+    bench.log.reset(); // as the end of its program does
+    const JobStory story = bench.story();
+    EXPECT_TRUE(story.broken_off());
+    EXPECT_EQ(story.executed_blocks, 12);
+    EXPECT_EQ(story.allowed_blocks, 60);
+    EXPECT_EQ(story.next_line, 15);
+    EXPECT_THAT(story.sentence,
+                HasSubstr("12 of 100 blocks were executed for certain (line 15 comes next); of the "
+                          "next 48 nobody knows; the others were never sent"));
+}
+
+TEST(Recovery, TellsHowAJobEnded) {
+    Bench bench;
+    LogRecord end = record(LogEvent::end, 12, 15);
+    end.end = JobEnd::stopped;
+    bench.log->write(end);
+    EXPECT_FALSE(bench.story().running); // its end is written
+    EXPECT_FALSE(bench.story().broken_off());
+    EXPECT_THAT(bench.story().sentence, HasSubstr("stopped after"));
+}
+
+TEST(Recovery, LeavesOutALineThatWasCutOff) {
+    Bench bench;
+    bench.log.reset();
+    const std::string text = read_file(bench.file);
+    write_file(bench.file, text + R"({"record":"executed","time_s":1,"executed_b)");
+    EXPECT_EQ(bench.story().executed_blocks, 12);
+}
+
+TEST(Recovery, ReadsAFolderAndNamesWhatIsNoLog) {
+    Bench bench;
+    bench.log.reset();
+    write_file(bench.folder / "logs" / "other.jsonl", "nonsense\n");
+    write_file(bench.folder / "logs" / "notes.txt", "nonsense\n");
+    const JobFolder folder = read_job_folder(bench.folder / "logs");
+    EXPECT_EQ(folder.jobs.size(), 1U);
+    ASSERT_EQ(folder.unreadable.size(), 1U);
+    EXPECT_EQ(folder.unreadable[0].place.file.filename(), "other.jsonl");
+    EXPECT_TRUE(read_job_folder(bench.folder / "nothing").jobs.empty());
+}
+
+} // namespace
+} // namespace millwright::machine

@@ -1,0 +1,81 @@
+#include "core/machine/survey.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::machine {
+namespace {
+
+using gcode::Dialect;
+using kinematics::AxisKind;
+using testing::HasSubstr;
+
+const std::vector<gcode::ProgramAxis> xyz = {
+    {'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
+
+TEST(Survey, FindsHowFarAProgramGoesAndWhere) {
+    const Survey found = survey("G21 G90\nG0 X-5 Y2\nG1 X30 F600\nG0 Z4\nM2\n", "a.ngc", {});
+    EXPECT_TRUE(found.errors.empty());
+    EXPECT_EQ(found.ranges[0].min, -5.0);
+    EXPECT_EQ(found.ranges[0].min_line, 2);
+    EXPECT_EQ(found.ranges[0].max, 30.0);
+    EXPECT_EQ(found.ranges[0].max_line, 3);
+    EXPECT_EQ(found.ranges[2].max, 4.0);
+    EXPECT_EQ(found.greatest_feed, 10.0);
+    EXPECT_EQ(found.first_cut_line, 3);
+    EXPECT_FALSE(found.spindle_before_cut);
+}
+
+TEST(Survey, FollowsArcsToTheirFarthestPoints) {
+    const Survey half = survey("G21 G17\nG0 X10\nG3 X-10 I-10 F100\nM2\n", "a.ngc", {});
+    EXPECT_NEAR(half.ranges[1].max, 10.0, 1e-9);
+    EXPECT_NEAR(half.ranges[1].min, 0.0, 1e-9);
+    const Survey full = survey("G21 G17\nG0 X10\nG2 I-10 F100\nM2\n", "a.ngc", {});
+    EXPECT_NEAR(full.ranges[0].min, -10.0, 1e-9);
+    EXPECT_NEAR(full.ranges[1].min, -10.0, 1e-9);
+}
+
+TEST(Survey, KnowsWhereTheWorkIs) {
+    kinematics::AxisPositions offset = kinematics::AxisPositions::Zero(3);
+    offset[0] = -100.0;
+    const SurveySettings settings{Dialect::grbl, xyz, kinematics::AxisPositions::Zero(3), {{"G55", offset}}};
+    const Survey found = survey("G21 G90 G55\nG0 X5\nG54\nG0 X1\n", "a.ngc", settings);
+    EXPECT_EQ(found.ranges[0].min, -95.0);
+    EXPECT_EQ(found.ranges[0].max, 1.0);
+}
+
+TEST(Survey, SaysWhatStandsAgainstAProgram) {
+    MachineLimits limits;
+    limits.axes = {{'X', -200.0, 0.0, 50.0}};
+    const Survey found = survey("G21 G90\nG0 X-5\nG0 X3\nG1 Y1 F9000\nM2\n", "a.ngc", {});
+    const auto faults = faults_of(found, limits, "a.ngc");
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].place.line, 3);
+    EXPECT_THAT(faults[0].message,
+                HasSubstr("axis X would go to 3.000 mm in machine coordinates, outside -200.000"));
+    EXPECT_TRUE(faults_of(found, {}, "a.ngc").empty());
+}
+
+TEST(Survey, SaysWhatAPersonShouldKnow) {
+    MachineLimits limits;
+    limits.axes = {{'X', {}, {}, 50.0}};
+    limits.spindle_rpm = 1000.0;
+    const Survey found = survey("G21 T3 M6\nT5 M6\nS2000\nG1 X3 F9000\nM2\n", "a.ngc", {});
+    std::string all;
+    for (const Diagnostic& one : warnings_of(found, limits, "a.ngc")) {
+        all += to_text(one) + "\n";
+    }
+    EXPECT_THAT(all, HasSubstr("T3, T5"));
+    EXPECT_THAT(all, HasSubstr("a.ngc:4: the first cut comes before the spindle"));
+    EXPECT_THAT(all, HasSubstr("9000 mm/min is more than the machine reaches in any direction, 3000"));
+    EXPECT_THAT(all, HasSubstr("2000 rpm"));
+}
+
+TEST(Survey, ReportsErrorsWithTheirPlace) {
+    const Survey found = survey("G21\nG1 X1\nG5 X1\n", "a.ngc", {Dialect::grbl, {}, {}, {}});
+    ASSERT_FALSE(found.errors.empty());
+    EXPECT_EQ(faults_of(found, {}, "a.ngc").front().place.file, "a.ngc");
+}
+
+} // namespace
+} // namespace millwright::machine
