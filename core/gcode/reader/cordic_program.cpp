@@ -3,7 +3,7 @@
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/cordic/arithmetic.h"
-#include "core/gcode/reader/internal/canon_frame.h"
+#include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
 
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ private:
     std::filesystem::path file_;
     CordicProgramSettings settings_;
     CordicProgram result_;
-    internal::CanonFrame frame_;
+    CanonFrame frame_;
     AxisValues at_;     ///< on the machine, mm and degrees
     double feed_ = 0.0; ///< mm/s
     std::array<std::optional<Word>, cordic::register_count>
