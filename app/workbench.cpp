@@ -13,8 +13,9 @@ namespace millwright::app {
 namespace {
 
 std::string title_of(const actions::Workbench& now) {
-    const std::string name =
+    const std::string project =
         now.document.file.empty() ? now.project.name : now.document.file.filename().string();
+    const std::string name = now.opened ? now.opened->file.filename().string() + " - " + project : project;
     return name + (now.changed() ? " * - Millwright" : " - Millwright");
 }
 
@@ -59,7 +60,7 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
 
 } // namespace
 
-void run_workbench(const std::optional<std::filesystem::path>& project) {
+void run_workbench(const std::optional<std::filesystem::path>& file) {
     render::WindowContext window({});
     actions::Workshop workshop({.assets = project::assets_folder(),
                                 .log_folder = "jobs",
@@ -71,9 +72,9 @@ void run_workbench(const std::optional<std::filesystem::path>& project) {
         ask.open_file(files.front());
         workshop.perform(ask);
     });
-    if (project) {
+    if (file) {
         actions::ActionQueue ask;
-        ask.open_file(*project);
+        ask.open_file(*file);
         workshop.perform(ask);
     }
     run(window, workshop);

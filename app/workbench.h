@@ -6,8 +6,9 @@
 
 namespace millwright::app {
 
-/// Opens the workbench on `project`, or on a new one, and returns when the window is closed. Throws Error if
-/// there is no display or no OpenGL; a project that cannot be opened is told in the window.
-void run_workbench(const std::optional<std::filesystem::path>& project);
+/// Opens the workbench, with a project or G-code `file` if one is named, and returns when the window is
+/// closed. Throws Error if there is no display or no OpenGL; a file that cannot be opened is told in the
+/// window.
+void run_workbench(const std::optional<std::filesystem::path>& file);
 
 } // namespace millwright::app

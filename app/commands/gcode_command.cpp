@@ -1,6 +1,8 @@
 #include "app/commands/gcode_command.h"
 
+#include "app/posting.h"
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/gcode/reader/canon_printer.h"
 #include "core/gcode/reader/interpreter.h"
@@ -20,6 +22,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::app {
@@ -43,6 +46,8 @@ struct Options {
     double path_tolerance = 0.0;     ///< mm; 0: exact path
     double junction_deviation = 0.0; ///< mm; 0: corners by small steps
     int look_ahead = 0;
+    std::string out;
+    PostChoice post;
     bool block_delete = false;
     bool json = false;
 };
@@ -145,18 +150,45 @@ motion::PlannerSettings planner_settings(const Options& options) {
     return settings;
 }
 
-/// How long the machine takes: the duration of the motion that is planned for it.
-int time(const Options& options) {
-    const auto machine = kinematics::read_machine(
+/// A program as its machine executes it. Throws Error with the first thing that is wrong.
+struct MachineRun {
+    kinematics::MachineModel machine;
+    gcode::MachineProgram found;
+};
+
+MachineRun machine_run(const Options& options) {
+    auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
     gcode::MachineProgramBuilder builder(machine, options.file);
     gcode::Interpreter program(options.file, settings_of(options), builder);
     program.run();
     throw_first(program.errors());
-    const gcode::MachineProgram found = builder.take();
+    gcode::MachineProgram found = builder.take();
     throw_first(found.faults);
+    return {std::move(machine), std::move(found)};
+}
+
+/// For another control.
+int convert(const Options& options) {
+    const MachineRun run = machine_run(options);
+    const std::string name = std::filesystem::path(options.file).stem().string();
+    const PostedText result = posted(run.found.program, run.machine, options.post, name);
+    print_notes(result);
+    const std::string& text = result.text.listing.text;
+    if (options.out.empty()) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    } else {
+        write_file(options.out, text);
+    }
+    return 0;
+}
+
+/// How long the machine takes: the duration of the motion that is planned for it.
+int time(const Options& options) {
+    const MachineRun run = machine_run(options);
+    const gcode::MachineProgram& found = run.found;
     const double duration =
-        motion::plan(found.program, machine, planner_settings(options), Progress()).duration();
+        motion::plan(found.program, run.machine, planner_settings(options), Progress()).duration();
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["time_s"] = duration;
@@ -211,6 +243,12 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
         .add_option("--look-ahead", options->look_ahead, "Moves that the controller knows at a time; 0: all")
         ->check(CLI::Range(0, most_blocks));
     timing.add_flag("--json", options->json, "Print the answer as JSON");
+    CLI::App& converting = add_reader(
+        group, "convert", "Write it for another control; read back before it is released", options);
+    converting.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    converting.add_option("--out", options->out, "File; without it standard output")->type_name("FILE");
+    add_post_options(converting, options->post).required();
+    converting.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });
     printing.callback([&chosen, options] { chosen = [options] { return canon(*options); }; });
 }

@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/outputs.h"
+#include "app/posting.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -23,6 +24,7 @@ namespace {
 struct Options {
     std::string project;
     std::string out;
+    PostChoice post;
 };
 
 void print_figures(std::string_view name, const project::Evaluation& evaluation) {
@@ -58,13 +60,16 @@ int plan(const Options& options) {
     const OpenedProject opened = open_project(options.project);
     make_folder(options.out);
     const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
+    const PostedText text =
+        posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     constexpr render::PixelSize preview_size{1280, 800};
     const render::Picture preview = viewport::render_view(
         opened.project, plan, viewport::ViewKind::error, preview_size, render::Theme::dark);
     write_outputs(options.out,
-                  {{"program.ngc", plan.listing->text},
+                  {{"program." + text.format.extension, text.text.listing.text},
                    {"report.json", project::report_text(opened.project, plan)},
                    {"preview.png", render::to_png(preview)}});
+    print_notes(text);
     print_summary(plan, opened.project);
     return 0;
 }
@@ -76,9 +81,10 @@ void add_plan_command(CLI::App& app, Command& chosen) {
     CLI::App& command =
         *app.add_subcommand("plan", "Make the program of a project, with a report and a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--out", options->out, "Folder for program.ngc, report.json and preview.png")
+    command.add_option("--out", options->out, "Folder for program, report.json and preview.png")
         ->required()
         ->type_name("DIR");
+    add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }
 

@@ -1,6 +1,8 @@
 #include "app/commands/run_command.h"
 
+#include "app/controller.h"
 #include "app/interrupt.h"
+#include "app/posting.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
@@ -13,13 +15,13 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <charconv>
-#include <ctime>
 #include <memory>
+#include <stop_token>
 #include <string>
+#include <utility>
 
 namespace millwright::app {
 
@@ -29,8 +31,9 @@ struct Options {
     std::string project;
     std::string driver = "virtual";
     double speed = 1.0;
-    std::string port;
     double period = 0.01;
+    ControllerChoice controller; ///< for grbl; its port also for stream
+    PostChoice post{.post = ""}; ///< empty: that of the driver
     std::string log = "jobs";
 };
 
@@ -48,18 +51,21 @@ std::string fault_of_speed(const std::string& text) {
                              VirtualSpeed::fastest);
 }
 
-std::string now_for_people() {
-    return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
-}
-
-machine::Job job_of(const OpenedProject& opened, const project::Plan& plan) {
+/// In the words of the driver's control, or of the one that was chosen.
+machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const Options& options) {
+    PostChoice choice = options.post;
+    if (choice.post.empty()) {
+        choice.post = options.driver == "grbl" ? "grbl" : "linuxcnc";
+    }
     machine::Job job;
     job.name = opened.file.stem().string();
     job.project = opened.file.string();
     job.started_at = now_for_people();
     job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
-    job.program = plan.program;
-    job.listing = plan.listing;
+    PostedText text = posted(*plan.program, *job.machine, choice, job.name);
+    print_notes(text);
+    job.program = std::make_shared<const gcode::Program>(std::move(text.text.program));
+    job.listing = std::make_shared<const gcode::Listing>(std::move(text.text.listing));
     return job;
 }
 
@@ -69,37 +75,44 @@ make_driver(const machine::Job& job, const Options& options, machine::Clock& clo
         return std::make_unique<machine::VirtualMachine>(
             job.program->start, machine::VirtualSpeed{options.speed}, clock);
     }
-    const bool to_file = options.port.starts_with("file:");
+    const bool to_file = options.controller.port.starts_with("file:");
     return std::make_unique<machine::StreamDriver>(
-        machine::make_link(options.port),
+        machine::make_link(options.controller.port),
         clock,
         job.machine,
         job.program->start,
         machine::StreamOptions{.period = options.period, .paced = !to_file});
 }
 
-machine::JobOutcome run_job(const machine::Job& job, const Options& options, const Progress& progress) {
+machine::JobOutcome
+run_on_planned_machine(const machine::Job& job, const Options& options, const std::stop_token& stop) {
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
     machine::SteadyClock clock;
     const auto driver = make_driver(job, options, clock);
     driver->connect();
     machine::Dispatcher dispatcher(*driver, clock, options.log);
-    const machine::JobOutcome outcome = dispatcher.run(job, progress);
+    machine::JobOutcome outcome = dispatcher.run(job, progress);
     driver->close();
     return outcome;
 }
 
+/// Before the work is done.
+void refuse_missing_port(const Options& options) {
+    if (options.driver != "virtual" && options.controller.port.empty()) {
+        throw Error("the " + options.driver + " driver needs a port", {}, "give --port");
+    }
+}
+
 int run(const Options& options) {
+    refuse_missing_port(options);
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
-    const machine::Job job = job_of(opened, plan);
-    machine::JobOutcome outcome;
-    {
-        ProgressPrinter printer;
-        const Progress progress([&](const Progress::Report& report) { printer.show(report); },
-                                interrupt.token());
-        outcome = run_job(job, options, progress);
-    }
+    const machine::Job job = job_of(opened, plan, options);
+    const machine::JobOutcome outcome =
+        options.driver == "grbl" ? run_on_controller(job, options.controller, options.log, interrupt.token())
+                                 : run_on_planned_machine(job, options, interrupt.token());
     fmt::print("{}\nLog: {}\n", outcome.sentence, outcome.log_file.string());
     if (outcome.end == machine::JobEnd::cancelled) {
         throw Cancelled();
@@ -115,18 +128,16 @@ void add_run_command(CLI::App& app, Command& chosen) {
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--driver", options->driver, "Machine to run on")
         ->required()
-        ->check(CLI::IsMember({"virtual", "stream"}));
+        ->check(CLI::IsMember({"virtual", "grbl", "stream"}));
+    add_controller_options(command, options->controller);
+    command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
+        ->type_name("S")
+        ->capture_default_str();
+    add_post_options(command, options->post);
     command
         .add_option(
             "--speed", options->speed, "Times real time, of the virtual machine; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
-        ->capture_default_str();
-    command
-        .add_option(
-            "--port", options->port, "Where a coordinate stream goes: serial port, tcp:HOST:PORT, file:PATH")
-        ->type_name("PORT");
-    command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
-        ->type_name("S")
         ->capture_default_str();
     command.add_option("--log", options->log, "Folder of the job logs")
         ->type_name("DIR")

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/gcode/post.h"
+#include "core/gcode/posts/post_file.h"
+#include "core/gcode/posts/release.h"
 #include "core/gcode/program.h"
 #include "core/gcode/program_settings.h"
 #include "core/gcode/retract.h"

@@ -66,7 +66,7 @@ public:
         for (const kinematics::MachineAxis& axis : machine.axes()) {
             program.axes.push_back({axis.letter, axis.kind});
         }
-        program.start = internal::written(machine, rest_position(machine), settings, -1);
+        program.start = internal::written(machine, rest_position(machine), internal::digits_of(settings), -1);
     }
 
     void comment(std::string text) { add(BlockKind::comment).text = std::move(text); }
@@ -156,15 +156,15 @@ private:
 
     /// The target as it will be written; nothing if the axes are there already.
     std::optional<AxisPositions> new_target(const AxisPositions& target) const {
-        const AxisPositions rounded =
-            internal::written(machine_, target, settings_, result_.program.block_count());
+        const AxisPositions rounded = internal::written(
+            machine_, target, internal::digits_of(settings_), result_.program.block_count());
         const bool same = (rounded - here()).cwiseAbs().maxCoeff() <= 0.0;
         return same ? std::nullopt : std::optional(rounded);
     }
 
     void rapid(const AxisPositions& target, MoveRole role, AxisSet named) {
-        const AxisPositions rounded =
-            internal::written(machine_, target, settings_, result_.program.block_count());
+        const AxisPositions rounded = internal::written(
+            machine_, target, internal::digits_of(settings_), result_.program.block_count());
         Block& block = add(BlockKind::rapid);
         block.role = role;
         block.named = named;

@@ -34,6 +34,7 @@ public:
     [[nodiscard]] static AxisSet all(int axis_count);
     [[nodiscard]] static AxisSet only(int axis);
     [[nodiscard]] bool contains(int axis) const { return ((bits_ >> axis) & 1U) != 0; }
+    void insert(int axis) { bits_ |= 1U << axis; }
 
     friend bool operator==(const AxisSet&, const AxisSet&) = default;
 

@@ -1,16 +1,14 @@
 #include "core/gcode/writer.h"
 
 #include "core/base/error.h"
-#include "core/base/numbers.h"
-#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/internal/comment_text.h"
-#include "core/gcode/internal/written.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace millwright::gcode {
@@ -18,137 +16,358 @@ namespace millwright::gcode {
 namespace {
 
 using kinematics::AxisKind;
+using kinematics::AxisPositions;
 
-/// Motion code and feed mode go together: rapids in units per minute, feeds in inverse time.
-enum class Mode { none, rapid, feed };
+/// `pattern` with {word} filled in.
+std::string filled(std::string pattern, std::string_view word, std::string_view with) {
+    const std::string place = fmt::format("{{{}}}", word);
+    for (std::size_t at = pattern.find(place); at != std::string::npos;
+         at = pattern.find(place, at + with.size())) {
+        pattern.replace(at, place.size(), with);
+    }
+    return pattern;
+}
 
 class Writer {
 public:
-    Writer(const Program& program, const ProgramSettings& settings)
-        : program_(program), settings_(settings), words_(program.axes.size()) {}
+    Writer(const Program& program,
+           const Wording& wording,
+           const PostFormat& format,
+           const TextSettings& settings)
+        : program_(program), wording_(wording), format_(format), settings_(settings),
+          words_(program.axes.size()), feed_code_(format.feed.first_code),
+          number_(format.line_numbers.first - format.line_numbers.step) {
+        expects(wording.blocks.size() == program.blocks.size(), "a wording belongs to its program");
+    }
 
     Listing take() {
-        for (const Block& block : program_.blocks) {
-            if (block.kind != BlockKind::comment && !prepared_) {
-                prepare();
+        frame(format_.blocks.top);
+        auto arc = wording_.arcs.begin();
+        for (block_ = 0; block_ < program_.block_count(); ++block_) {
+            const bool begins_arc = arc != wording_.arcs.end() && arc->first == block_;
+            const int last = begins_arc ? arc->last : block_;
+            begin(last);
+            if (begins_arc) {
+                code_line(arc_text(*arc++));
+                block_ = last;
+            } else {
+                write(program_.blocks[static_cast<std::size_t>(block_)]);
             }
-            listing_.line_of_block.push_back(static_cast<int>(listing_.line_starts.size()) + 1);
-            write(block);
         }
+        frame(format_.blocks.bottom);
         listing_.line_starts.push_back(listing_.text.size());
         return std::move(listing_);
     }
 
 private:
     const Program& program_;
-    const ProgramSettings& settings_;
+    const Wording& wording_;
+    const PostFormat& format_;
+    const TextSettings& settings_;
     Listing listing_;
-    std::vector<std::string> words_; ///< last written position of each axis; empty: never
-    Mode mode_ = Mode::none;
+    std::vector<std::string> words_; ///< last written position of each axis; empty: not known
+    std::string motion_code_;
+    std::string feed_code_;
+    std::string feed_;
+    Plane plane_ = Plane::xy;
     bool prepared_ = false;
+    bool tip_ = false;
     int number_ = 0;
+    int block_ = 0;
 
-    void line(std::string_view text) {
+    [[nodiscard]] const BlockWords& words(int block) const {
+        return wording_.blocks[static_cast<std::size_t>(block)];
+    }
+
+    [[noreturn]] void refuse(std::string_view what) const {
+        throw Error(fmt::format("block {}: {}", block_ + 1, what));
+    }
+
+    // ---- lines
+
+    void line(std::string text, bool numbered) {
+        if (numbered) {
+            number_ += format_.line_numbers.step;
+            text =
+                fmt::format("{}{}{}{}", format_.line_numbers.prefix, number_, format_.lines.separator, text);
+        }
+        if (std::ssize(text) > format_.lines.longest) {
+            refuse(fmt::format("its line would have {} characters, and {} takes {}",
+                               text.size(),
+                               format_.name,
+                               format_.lines.longest));
+        }
         listing_.line_starts.push_back(listing_.text.size());
         listing_.text += text;
         listing_.text += '\n';
     }
 
-    void code_line(std::string_view text) {
-        constexpr int step = 10; // leaves room for lines that a person adds
-        if (settings_.line_numbers) {
-            number_ += step;
-            line(fmt::format("N{} {}", number_, text));
-        } else {
-            line(text);
+    void code_line(std::string text) {
+        const bool asked = settings_.line_numbers;
+        line(std::move(text), asked || format_.line_numbers.lines != NumberedLines::on_request);
+    }
+
+    void frame_line(std::string text) {
+        line(std::move(text), format_.line_numbers.lines == NumberedLines::every_line);
+    }
+
+    void frame(const Lines& lines) {
+        for (const std::string& pattern : lines) {
+            frame_line(filled(pattern, "name", settings_.name));
+        }
+    }
+
+    void comment(const std::string& text) {
+        for (std::string& part : internal::comment_lines(text, format_.comment)) {
+            frame_line(std::move(part));
+        }
+    }
+
+    /// What a control that has no lines for it cannot do.
+    void switch_lines(const Lines& lines,
+                      std::string_view what,
+                      std::string_view word = {},
+                      std::string_view with = {}) {
+        if (lines.empty()) {
+            refuse(fmt::format("{} cannot be written for {}", what, format_.name));
+        }
+        for (const std::string& pattern : lines) {
+            code_line(filled(pattern, word, with));
+        }
+    }
+
+    // ---- blocks
+
+    /// What comes before the blocks up to `last`, which belong to the next line.
+    void begin(int last) {
+        const BlockKind kind = program_.blocks[static_cast<std::size_t>(block_)].kind;
+        if (kind != BlockKind::comment && !std::exchange(prepared_, true)) {
+            prepare();
+        }
+        for (int n = block_; n <= last; ++n) {
+            listing_.line_of_block.push_back(static_cast<int>(listing_.line_starts.size()) + 1);
+        }
+        const bool moves = kind == BlockKind::rapid || kind == BlockKind::feed;
+        if (moves || kind == BlockKind::end) {
+            control_tip(moves && words(block_).tip);
         }
     }
 
     void prepare() {
-        prepared_ = true;
-        code_line("G21 G90 G17 G40 G49 G80");
-        code_line(settings_.path_tolerance > 0.0 ? "G54 G94 G64 P" + fixed(settings_.path_tolerance, 4)
-                                                 : std::string("G54 G94 G61"));
+        const std::string path =
+            settings_.path_tolerance > 0.0
+                ? filled(format_.blocks.path_blended,
+                         "tolerance",
+                         format_.numbers.tolerance.text(settings_.path_tolerance / format_.length_unit()))
+                : format_.blocks.path_exact;
+        for (const std::string& pattern : format_.blocks.head) {
+            code_line(filled(pattern, "path", path));
+        }
+    }
+
+    void control_tip(bool wanted) {
+        if (wanted == std::exchange(tip_, wanted)) {
+            return;
+        }
+        expects(format_.tip.has_value(), "a control that keeps the tip says how");
+        for (const std::string& text : wanted ? format_.tip->on : format_.tip->off) {
+            code_line(text);
+        }
+        // The same letters mean something else from here on.
+        std::fill(words_.begin(), words_.end(), std::string());
+        motion_code_.clear();
     }
 
     void write(const Block& block) {
+        const BlockLines& lines = format_.blocks;
         switch (block.kind) {
         case BlockKind::comment:
-            for (const std::string& part : internal::comment_lines(block.text)) {
-                line(part);
-            }
-            return;
+            return comment(block.text);
         case BlockKind::spindle_on:
-            return code_line("S" + shortest(std::abs(block.spindle_rpm)) +
-                             (block.spindle_rpm < 0.0 ? " M4" : " M3"));
+            return switch_lines(block.spindle_rpm < 0.0 ? lines.spindle_counterclockwise
+                                                        : lines.spindle_clockwise,
+                                "this direction of the spindle",
+                                "speed",
+                                format_.numbers.speed.text(std::abs(block.spindle_rpm)));
         case BlockKind::spindle_off:
-            return code_line("M5");
+            return switch_lines(lines.spindle_off, "spindle off");
         case BlockKind::coolant_on:
-            return code_line("M8");
+            return switch_lines(lines.coolant_on, "coolant on");
         case BlockKind::coolant_off:
-            return code_line("M9");
-        case BlockKind::dwell:
-            return code_line("G4 P" + fixed(block.duration, 4));
+            return switch_lines(lines.coolant_off, "coolant off");
+        case BlockKind::dwell: {
+            const double unit = format_.milliseconds ? 1e-3 : 1.0;
+            return switch_lines(
+                lines.dwell, "a dwell", "time", format_.numbers.time.text(block.duration / unit));
+        }
         case BlockKind::pause:
-            for (const std::string& part : internal::comment_lines(block.text)) {
-                line(part);
-            }
-            return code_line("M0");
+            comment(block.text);
+            return switch_lines(lines.pause, "a pause");
         case BlockKind::rapid:
         case BlockKind::feed:
             return code_line(move_text(block));
         case BlockKind::end:
-            return code_line("M2");
+            return switch_lines(lines.end, "an end");
         }
     }
+
+    // ---- moves
 
     std::string move_text(const Block& block) {
-        std::string text = mode_text(block.kind == BlockKind::rapid ? Mode::rapid : Mode::feed);
-        text += axis_words(block);
-        if (block.kind == BlockKind::feed) {
-            // In inverse time the feed word belongs to its line and is never left out.
-            constexpr double seconds_a_minute = 60.0;
-            text += " F" + fixed(seconds_a_minute / block.duration, internal::feed_decimals);
+        const bool feeds = block.kind == BlockKind::feed;
+        const bool machine = !words(block_).tip && format_.tip.has_value();
+        if (machine && feeds) {
+            refuse("a feed that names not all axes cannot be written with positions of the tip");
         }
-        return text.substr(text.find_first_not_of(' '));
+        const MoveFormat& move = machine ? format_.tip->machine_rapid
+                                 : feeds ? format_.moves.feed
+                                         : format_.moves.rapid;
+        if (machine) { // for one line only, whatever it says
+            motion_code_.clear();
+            std::fill(words_.begin(), words_.end(), std::string());
+        }
+        std::vector<std::string> text = codes(move.code, feeds);
+        const std::vector<std::string> axes = axis_words(block);
+        text.insert(text.end(), axes.begin(), axes.end());
+        if (!move.behind.empty()) {
+            text.push_back(move.behind);
+        }
+        if (feeds) {
+            const FeedWay way = feed_way(program_.axes, words(block_).from, words(block_).to);
+            append_feed(text, way, block.duration);
+        }
+        return joined(text);
     }
 
-    std::string mode_text(Mode wanted) {
-        const Mode before = std::exchange(mode_, wanted);
-        if (before == wanted) {
-            return {};
+    std::string arc_text(const FittedArc& arc) {
+        expects(format_.arcs.has_value(), "only a control with arcs is given any");
+        const bool clockwise = arc.sweep < 0.0;
+        std::vector<std::string> text =
+            codes(clockwise ? format_.arcs->clockwise : format_.arcs->counterclockwise, true);
+        if (plane_ != arc.plane) {
+            plane_ = arc.plane;
+            text.insert(text.begin(), plane_ == Plane::xy ? "G17" : plane_ == Plane::xz ? "G18" : "G19");
         }
-        if (wanted == Mode::feed) {
-            return "G93 G1";
+        const PlaneAxes axes = plane_axes(program_.axes, arc.plane);
+        const AxisPositions& from = words(arc.first).from;
+        const AxisPositions& to = words(arc.last).to;
+        // Both axes of the plane always stand there, so that the end is plain to see.
+        for (const int n : {axes.first, axes.second}) {
+            words_[static_cast<std::size_t>(n)].clear();
         }
-        return before == Mode::none ? "G0" : "G94 G0";
-    }
-
-    std::string axis_words(const Block& block) {
-        std::string text;
-        std::string first;
         for (int n = 0; n < std::ssize(program_.axes); ++n) {
-            if (!block.named.contains(n)) {
-                continue;
-            }
-            std::string word = axis_word(n, block.target[n]);
-            std::string& last = words_[static_cast<std::size_t>(n)];
-            if (word != last) {
-                text += " " + word;
-                last = word;
-            }
-            if (first.empty()) {
-                first = std::move(word);
+            append_if_new(text, n, to[n]);
+        }
+        append_centre(text, arc, axes, from);
+        double duration = 0.0;
+        for (int n = arc.first; n <= arc.last; ++n) {
+            duration += program_.blocks[static_cast<std::size_t>(n)].duration;
+        }
+        const double rise = axes.third < 0 ? 0.0 : to[axes.third] - from[axes.third];
+        append_feed(text, {std::hypot(arc.radius * arc.sweep, rise), false}, duration);
+        return joined(text);
+    }
+
+    void append_centre(std::vector<std::string>& text,
+                       const FittedArc& arc,
+                       const PlaneAxes& axes,
+                       const AxisPositions& from) const {
+        const NumberFormat& number = format_.numbers.length;
+        if (format_.arcs->centre == ArcCentre::radius) {
+            text.push_back("R" + number.text(arc.radius / format_.length_unit()));
+            return;
+        }
+        const bool relative = format_.arcs->centre == ArcCentre::relative;
+        const std::string_view letters = arc.plane == Plane::xy ? "IJ" : arc.plane == Plane::xz ? "KI" : "JK";
+        const double first = arc.centre.x() - (relative ? from[axes.first] : 0.0);
+        const double second = arc.centre.y() - (relative ? from[axes.second] : 0.0);
+        text.push_back(letters[0] + number.text(first / format_.length_unit()));
+        text.push_back(letters[1] + number.text(second / format_.length_unit()));
+    }
+
+    /// Feed mode and motion, as far as they are not in force.
+    std::vector<std::string> codes(const std::string& motion, bool feeds) {
+        std::vector<std::string> text;
+        const std::string& mode = feeds ? format_.feed.feed_code : format_.feed.rapid_code;
+        if (mode != feed_code_ && !mode.empty()) {
+            feed_code_ = mode;
+            text.push_back(mode);
+        }
+        if (motion != motion_code_ || !format_.moves.modal_codes) {
+            text.push_back(motion);
+        }
+        motion_code_ = motion;
+        return text;
+    }
+
+    std::vector<std::string> axis_words(const Block& block) {
+        std::vector<std::string> text;
+        int first = -1;
+        for (int n = 0; n < std::ssize(program_.axes); ++n) {
+            if (block.named.contains(n)) {
+                first = first < 0 ? n : first;
+                append_if_new(text, n, words(block_).to[n]);
             }
         }
-        return text.empty() ? " " + first : text; // a move without any axis word would be no move
+        expects(first >= 0, "a move names an axis");
+        if (text.empty()) { // a move without any axis word would be no move
+            text.push_back(axis_word(first, words(block_).to[first]));
+        }
+        return text;
+    }
+
+    void append_if_new(std::vector<std::string>& text, int n, double position) {
+        std::string word = axis_word(n, position);
+        std::string& last = words_[static_cast<std::size_t>(n)];
+        if (word != last || !format_.moves.modal_axes) {
+            last = word;
+            text.push_back(std::move(word));
+        }
     }
 
     [[nodiscard]] std::string axis_word(int n, double position) const {
         const ProgramAxis& axis = program_.axes[static_cast<std::size_t>(n)];
         const bool rotary = axis.kind == AxisKind::rotary;
-        return axis.letter + (rotary ? fixed(to_degrees(position), settings_.angle_decimals)
-                                     : fixed(position, settings_.length_decimals));
+        return axis.letter + (rotary ? format_.numbers.angle.text(to_degrees(position))
+                                     : format_.numbers.length.text(position / format_.length_unit()));
+    }
+
+    void append_feed(std::vector<std::string>& text, const FeedWay& way, double duration) {
+        std::string word = format_.feed.word + format_.numbers.feed.text(feed_of(way, duration));
+        if (!format_.feed.modal || word != feed_) {
+            text.push_back(word);
+        }
+        feed_ = std::move(word);
+    }
+
+    /// In inverse time rounded down, so that rounding never makes a move faster; mm a minute to the nearest,
+    /// as people write them.
+    [[nodiscard]] double feed_of(const FeedWay& way, double duration) const {
+        constexpr double seconds_a_minute = 60.0;
+        constexpr double rounding = 1e-6; // of a digit: of a duration that was rounded to be written
+        const NumberFormat& number = format_.numbers.feed;
+        const double moves_a_minute = seconds_a_minute / duration;
+        if (format_.feed.mode == FeedWriting::inverse_time) {
+            const double steps = std::floor(moves_a_minute / number.digit() + rounding);
+            return std::max(1.0, steps) * number.digit();
+        }
+        const double length = way.angular ? to_degrees(way.length) : way.length / format_.length_unit();
+        const double feed = number.rounded(length * moves_a_minute);
+        if (!(feed > 0.0)) {
+            refuse(fmt::format("its feed, {} a minute, is too small to be written",
+                               way.angular      ? "degrees"
+                               : format_.inches ? "inch"
+                                                : "mm"));
+        }
+        return feed;
+    }
+
+    [[nodiscard]] std::string joined(const std::vector<std::string>& text) const {
+        std::string line;
+        for (const std::string& word : text) {
+            line += (line.empty() ? "" : format_.lines.separator) + word;
+        }
+        return line;
     }
 };
 
@@ -166,8 +385,31 @@ int Listing::block_at_line(int line) const {
     return static_cast<int>(after - line_of_block.begin()) - 1;
 }
 
+std::string text_name(std::string_view name) {
+    constexpr std::size_t longest = 24;
+    std::string text;
+    for (const char c : name.substr(0, longest)) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+        text += plain ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : '_';
+    }
+    return text.find_first_not_of('_') == std::string::npos ? "PROGRAM" : text;
+}
+
+Listing write_text(const Program& program,
+                   const Wording& wording,
+                   const PostFormat& format,
+                   const TextSettings& settings) {
+    return Writer(program, wording, format, settings).take();
+}
+
 Listing write_gcode(const Program& program, const ProgramSettings& settings) {
-    return Writer(program, settings).take();
+    PostFormat format;
+    format.numbers.length.decimals = settings.length_decimals;
+    format.numbers.angle.decimals = settings.angle_decimals;
+    return write_text(program,
+                      axis_wording(program),
+                      format,
+                      {.line_numbers = settings.line_numbers, .path_tolerance = settings.path_tolerance});
 }
 
 } // namespace millwright::gcode

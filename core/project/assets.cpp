@@ -37,6 +37,28 @@ bool is_id(const std::string& name) {
     return name.find_first_of("./") == std::string::npos;
 }
 
+std::vector<std::string> ids_in(const fs::path& folder) {
+    std::vector<std::string> ids;
+    for (const fs::path& file : json_files(folder)) {
+        ids.push_back(file.stem().string());
+    }
+    return ids;
+}
+
+/// Of what `kind` calls, shipped in `shipped`.
+fs::path
+named_file(std::string_view kind, const std::string& name, const fs::path& folder, const fs::path& shipped) {
+    const fs::path file = is_id(name) ? shipped / (name + ".json") : folder / name;
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) {
+        const std::string known =
+            fmt::format("known: {}; or a path to a {} file", fmt::join(ids_in(shipped), ", "), kind);
+        throw is_id(name) ? Error(fmt::format("unknown {} '{}'", kind, name), {}, known)
+                          : Error(fmt::format("no such {} file", kind), file, known);
+    }
+    return file;
+}
+
 } // namespace
 
 fs::path assets_folder() {
@@ -71,15 +93,11 @@ fs::path assets_folder(const AssetsSearch& search) {
 }
 
 fs::path machine_path(const std::string& name, const fs::path& folder, const fs::path& assets) {
-    const fs::path file = is_id(name) ? assets / "machines" / (name + ".json") : folder / name;
-    std::error_code failure;
-    if (!fs::is_regular_file(file, failure)) {
-        const std::string known =
-            fmt::format("known: {}; or a path to a machine file", fmt::join(machine_ids(assets), ", "));
-        throw is_id(name) ? Error(fmt::format("unknown machine '{}'", name), {}, known)
-                          : Error("no such machine file", file, known);
-    }
-    return file;
+    return named_file("machine", name, folder, assets / "machines");
+}
+
+fs::path post_path(const std::string& name, const fs::path& folder, const fs::path& assets) {
+    return named_file("post", name, folder, assets / "posts");
 }
 
 fs::path machine_path(const Project& project, const fs::path& project_folder, const fs::path& assets) {
@@ -93,11 +111,11 @@ fs::path machine_path(const Project& project, const fs::path& project_folder, co
 }
 
 std::vector<std::string> machine_ids(const fs::path& assets) {
-    std::vector<std::string> ids;
-    for (const fs::path& file : json_files(assets / "machines")) {
-        ids.push_back(file.stem().string());
-    }
-    return ids;
+    return ids_in(assets / "machines");
+}
+
+std::vector<std::string> post_ids(const fs::path& assets) {
+    return ids_in(assets / "posts");
 }
 
 std::vector<fs::path> sample_projects(const fs::path& assets) {

@@ -35,6 +35,14 @@ struct AssetsSearch {
 /// Ids of the shipped machines, in order.
 [[nodiscard]] std::vector<std::string> machine_ids(const std::filesystem::path& assets);
 
+/// The post file that `name` means: an id (no '/', no '.') is looked up in `assets`/posts, a path is taken
+/// relative to `folder`. Throws Error naming the known ids if there is none.
+[[nodiscard]] std::filesystem::path
+post_path(const std::string& name, const std::filesystem::path& folder, const std::filesystem::path& assets);
+
+/// Ids of the shipped posts, in order.
+[[nodiscard]] std::vector<std::string> post_ids(const std::filesystem::path& assets);
+
 /// The shipped sample projects, in order of their names.
 [[nodiscard]] std::vector<std::filesystem::path> sample_projects(const std::filesystem::path& assets);
 

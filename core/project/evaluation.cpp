@@ -1,5 +1,6 @@
 #include "core/project/evaluation.h"
 
+#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/zigzag.h"
 
 #include <utility>
@@ -21,8 +22,9 @@ toolpath::AxisPath axes_of(const Workpiece& workpiece, const toolpath::Toolpath&
 
 Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
     progress.check();
-    toolpath::Toolpath toolpath =
-        toolpath::zigzag(workpiece.patch, outcome.grid, workpiece.direction, workpiece.flipped);
+    toolpath::Toolpath toolpath = toolpath::on_machine(
+        workpiece.machine,
+        toolpath::zigzag(workpiece.patch, outcome.grid, workpiece.direction, workpiece.flipped));
     toolpath::AxisPath axes = axes_of(workpiece, toolpath);
     toolpath::ErrorField field =
         toolpath::error_field(workpiece.patch, workpiece.machine, toolpath, axes, samples, progress);

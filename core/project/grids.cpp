@@ -138,7 +138,7 @@ Evaluation improved_evaluation(GridMethod method,
     GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
     const int samples = effort == Effort::live ? live_samples : report_samples;
     Evaluation found = evaluate(workpiece, std::move(outcome), samples, progress.part(measuring, 1.0));
-    if (!is_worse(found, uniform)) {
+    if (!is_worse(found, uniform, workpiece.machine)) {
         return found;
     }
     Evaluation kept = uniform;
@@ -153,11 +153,12 @@ Evaluation improved_evaluation(GridMethod method,
     return kept;
 }
 
-bool is_worse(const Evaluation& found, const Evaluation& start) {
+bool is_worse(const Evaluation& found, const Evaluation& start, const kinematics::MachineModel& machine) {
     constexpr double rounding = 1e-9; // of figures that are sums over many moves
+    const bool turns = !machine.rotary_axes().empty();
     return !(found.closest.mean <= start.closest.mean * (1.0 + rounding)) ||
            !(found.closest.max <= start.closest.max * (1.0 + rounding)) ||
-           !(found.closest.axis_max <= start.closest.axis_max * (1.0 + rounding));
+           (turns && !(found.closest.axis_max <= start.closest.axis_max * (1.0 + rounding)));
 }
 
 } // namespace millwright::project

@@ -45,8 +45,9 @@ inline constexpr int report_samples = 40;
                                              Effort effort,
                                              const Progress& progress);
 
-/// Whether `found` is worse than `start` in the mean distance to the surface, or in the largest angle between
-/// tool axis and normal.
-[[nodiscard]] bool is_worse(const Evaluation& found, const Evaluation& start);
+/// Whether `found` is worse than `start` in the mean or largest distance to the surface, or in the largest
+/// angle between tool axis and normal; that one counts on machines that can turn the tool only.
+[[nodiscard]] bool
+is_worse(const Evaluation& found, const Evaluation& start, const kinematics::MachineModel& machine);
 
 } // namespace millwright::project

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/gcode/posts/release.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
@@ -92,13 +93,18 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     gcode::PostResult posted = gcode::post(
         machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen), progress);
     progress.check();
-    auto listing = std::make_shared<const gcode::Listing>(gcode::write_gcode(posted.program, settings));
+    gcode::ReleasedText released = gcode::release(posted.program,
+                                                  machine,
+                                                  gcode::PostFormat{},
+                                                  {.text = {.name = gcode::text_name(project.name),
+                                                            .line_numbers = settings.line_numbers,
+                                                            .path_tolerance = settings.path_tolerance}});
     progress.report(0.4, "Planning the motion");
     auto trajectory = std::make_shared<const motion::Trajectory>(
-        motion::plan(posted.program, machine, motion::PlannerSettings{}, progress.part(0.4, 1.0)));
-    plan.program = std::make_shared<const gcode::Program>(std::move(posted.program));
+        motion::plan(released.program, machine, motion::PlannerSettings{}, progress.part(0.4, 1.0)));
+    plan.program = std::make_shared<const gcode::Program>(std::move(released.program));
     plan.program_notes = posted.notes;
-    plan.listing = std::move(listing);
+    plan.listing = std::make_shared<const gcode::Listing>(std::move(released.listing));
     plan.trajectory = std::move(trajectory);
     plan.estimated_time(project.grid.method) = plan.trajectory->duration();
     progress.report(1.0);

@@ -7,11 +7,13 @@
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
+#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace millwright::toolpath {
@@ -47,11 +49,17 @@ ToolPose pose_at(const BezierPatch& patch, const Vec2& uv, bool flipped) {
 
 Node node_at(const MachineModel& machine, const ToolPose& pose) {
     Node node{pose, {}, false};
-    if (pose.axis.squaredNorm() > 0.5) { // a degenerate normal leaves no branch: the move is out of reach
-        node.branches =
-            kinematics::inverse_branches(machine, pose, AxisPositions::Zero(machine.axis_count()));
-        node.on_pole = kinematics::at_pole(machine, pose.axis);
+    if (pose.axis.squaredNorm() < 0.5) {
+        return node; // a degenerate normal leaves no branch: the move is out of reach
     }
+    const std::optional<ToolPose> reachable = pose_on(machine, pose);
+    if (!reachable) {
+        return node;
+    }
+    node.pose = *reachable;
+    node.branches =
+        kinematics::inverse_branches(machine, node.pose, AxisPositions::Zero(machine.axis_count()));
+    node.on_pole = kinematics::at_pole(machine, node.pose.axis);
     return node;
 }
 
@@ -260,7 +268,7 @@ grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
                                            const Progress& progress) const {
     progress.check();
     try {
-        const Toolpath path = zigzag(patch_, grid, direction, flipped_);
+        const Toolpath path = on_machine(machine_, zigzag(patch_, grid, direction, flipped_));
         const AxisPath axes = sequence(machine_, path);
         const ErrorField field = error_field(patch_, machine_, path, axes, finely, progress);
         return summary(field, Distance::closest, MoveKind::track);

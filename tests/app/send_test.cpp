@@ -1,3 +1,4 @@
+#include "tests/app/emulator.h"
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -5,10 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <csignal>
 #include <sstream>
-#include <thread>
 
 namespace millwright::test {
 namespace {
@@ -23,31 +22,6 @@ std::string zigzag(int lines) {
     }
     return text + "M30\n";
 }
-
-/// An emulated controller as a program of its own.
-class Emulator {
-public:
-    explicit Emulator(const fs::path& link, std::vector<std::string> more = {})
-        : program_(words(link, more)) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        while (!fs::exists(link) && std::chrono::steady_clock::now() < end) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-    }
-    Ended stop() {
-        program_.send(SIGINT);
-        return program_.end();
-    }
-
-private:
-    Program program_;
-
-    static std::vector<std::string> words(const fs::path& link, std::vector<std::string> more) {
-        std::vector<std::string> all = {"emulate", "grbl", "--pty", link.string()};
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }
-};
 
 nlohmann::json last_record(const fs::path& folder) {
     nlohmann::json last;

@@ -43,12 +43,21 @@ void ActionQueue::show(std::function<void(Session&)> change) {
 
 void ActionQueue::open_file(std::filesystem::path file) {
     requests_.emplace_back([file = std::move(file)](Workshop& workshop) {
-        workshop.leave("open " + file.filename().string(), [file](Workshop& free) { free.open(file); });
+        if (file.extension() == ".json") {
+            workshop.leave("open " + file.filename().string(), [file](Workshop& free) { free.open(file); });
+        } else { // the project stays
+            workshop.open(file);
+        }
     });
 }
 
 void ActionQueue::save_file(std::filesystem::path file) {
     requests_.emplace_back([file = std::move(file)](Workshop& workshop) { workshop.save(file); });
+}
+
+void ActionQueue::tell(std::function<void(machine::Driver&)> what) {
+    requests_.emplace_back(
+        [what = std::move(what)](Workshop& workshop) { workshop.controller().tell(what); });
 }
 
 std::vector<ActionQueue::Request> ActionQueue::take() {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "core/project/history.h"
+#include "ui/actions/jog_hand.h"
 #include "ui/actions/workbench.h"
 #include "ui/widgets/permission.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::actions {
@@ -22,6 +25,7 @@ struct ActionInfo {
     std::string_view tip;      ///< a sentence
     std::string_view shortcut; ///< "Ctrl+S" as people read it; empty for none
     std::string_view icon;
+    std::string_view second_shortcut = {}; ///< does the same
 };
 
 /// The menu of actions that only answer a dialog: in no menu and not in the palette.
@@ -81,11 +85,18 @@ public:
     void open_file(std::filesystem::path file);
     void save_file(std::filesystem::path file);
 
+    /// What the connected machine is to do, at once.
+    void tell(std::function<void(machine::Driver&)> what);
+    /// Wanted in this frame alone: the machine moves while every frame says so.
+    void jog(JogWish wish) { jog_ = std::move(wish); }
+    [[nodiscard]] std::optional<JogWish> take_jog() { return std::exchange(jog_, std::nullopt); }
+
     using Request = std::function<void(Workshop&)>;
     [[nodiscard]] std::vector<Request> take();
 
 private:
     std::vector<Request> requests_;
+    std::optional<JogWish> jog_;
 };
 
 } // namespace millwright::actions

@@ -64,7 +64,7 @@ void add_edit_actions(Actions& actions) {
         [](Hands& hands) { hands.history.undo(); });
     add(
         actions,
-        {"edit.redo", "Edit", "Redo", "Brings back what was undone.", "Ctrl+Y", icons::redo},
+        {"edit.redo", "Edit", "Redo", "Brings back what was undone.", "Ctrl+Y", icons::redo, "Ctrl+Shift+Z"},
         [](const Workbench& now) {
             return now.redo_title.empty() ? Permission::refused("There is nothing to redo.") : Permission{};
         },

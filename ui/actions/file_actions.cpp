@@ -26,6 +26,13 @@ Permission has_listing(const Workbench& now) {
     return now.listing() ? Permission{} : Permission::refused("There is no program yet.");
 }
 
+Permission has_file(const Workbench& now) {
+    if (!now.opened) {
+        return Permission::refused("No G-code file is open.");
+    }
+    return now.job.running ? Permission::refused("A job is running.") : Permission{};
+}
+
 /// Beside the project file, or in the current folder for a project never saved.
 std::filesystem::path program_file(const Document& document) {
     std::filesystem::path file = document.file.empty() ? "program.json" : document.file;
@@ -49,7 +56,12 @@ void add_file_actions(Actions& actions) {
                                  [](Workshop& workshop) { workshop.new_from_preset("dome"); });
         });
     add(actions,
-        {"file.open", "File", "Open a project ...", "Opens a project file.", "Ctrl+O", icons::folder},
+        {"file.open",
+         "File",
+         "Open ...",
+         "Opens a project, or a G-code file beside it.",
+         "Ctrl+O",
+         icons::folder},
         always,
         [](Hands& hands) { ask_for(hands, FileQuestion::open); });
     add(actions,
@@ -74,6 +86,24 @@ void add_file_actions(Actions& actions) {
          ""},
         has_listing,
         write_program);
+    add(actions,
+        {"file.read_again",
+         "File",
+         "Read the G-code file again",
+         "For a file that another program has changed.",
+         "",
+         icons::redo},
+        has_file,
+        [](Hands& hands) { hands.workshop.read_again(); });
+    add(actions,
+        {"file.close_program",
+         "File",
+         "Close the G-code file",
+         "The Program workspace shows the project's own program again.",
+         "Ctrl+W",
+         ""},
+        has_file,
+        [](Hands& hands) { hands.workshop.close_file(); });
     add(actions,
         {"file.quit", "File", "Quit", "Closes the workbench; a running job is stopped first.", "Ctrl+Q", ""},
         always,

@@ -1,4 +1,5 @@
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -125,7 +126,7 @@ void add_grid_actions(Actions& actions) {
         [](const Workbench& now) {
             return now.activity.busy ? Permission{} : Permission::refused("Nothing runs in the background.");
         },
-        [](Hands& hands) { hands.pipeline.cancel(); });
+        [](Hands& hands) { hands.workshop.cancel_work(); });
 }
 
 } // namespace millwright::actions

@@ -12,20 +12,32 @@ namespace millwright::actions {
 /// One job with its machine, its thread and what is known of it.
 class JobRunner::Run {
 public:
-    Run(machine::Job job, double speed, const std::filesystem::path& log_folder, std::function<void()> wake)
+    /// On `driver`, or without one on a virtual machine of its own.
+    Run(machine::Job job,
+        std::shared_ptr<machine::Driver> driver,
+        double speed,
+        const std::filesystem::path& log_folder,
+        std::function<void()> wake)
         : job_(std::move(job)), wake_(std::move(wake)),
-          machine_(job_.program->start, machine::VirtualSpeed{speed}, clock_),
-          dispatcher_(machine_, clock_, log_folder) {
+          own_(driver ? nullptr
+                      : std::make_shared<machine::VirtualMachine>(
+                            job_.program->start, machine::VirtualSpeed{speed}, clock_)),
+          driver_(driver ? std::move(driver) : own_), dispatcher_(*driver_, clock_, log_folder) {
         view_.running = true;
         view_.name = job_.name;
+        view_.listing = job_.listing;
         thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
     }
 
     void hold() { dispatcher_.hold(); }
     void resume() { dispatcher_.resume(); }
     void stop() { dispatcher_.stop(); }
-    void emergency_stop() { machine_.emergency_stop(); }
-    void set_speed(double speed) { machine_.set_speed(machine::VirtualSpeed{speed}); }
+    void emergency_stop() { driver_->emergency_stop(); }
+    void set_speed(double speed) {
+        if (own_) {
+            own_->set_speed(machine::VirtualSpeed{speed});
+        }
+    }
     void wait() {
         if (thread_.joinable()) {
             thread_.join();
@@ -58,14 +70,17 @@ private:
         } catch (const std::exception& defect) {
             publish([&](JobView& view) { view.failure = Diagnostic{{}, defect.what(), {}}; });
         }
-        machine_.close();
+        if (own_) {
+            own_->close();
+        }
         publish([](JobView& view) { view.running = false; });
     }
 
     machine::Job job_;
     std::function<void()> wake_;
     machine::SteadyClock clock_;
-    machine::VirtualMachine machine_;
+    std::shared_ptr<machine::VirtualMachine> own_; ///< null on a connected machine
+    std::shared_ptr<machine::Driver> driver_;
     machine::Dispatcher dispatcher_;
     mutable std::mutex mutex_;
     JobView view_;
@@ -78,9 +93,17 @@ JobRunner::JobRunner(std::filesystem::path log_folder, std::function<void()> wak
 JobRunner::~JobRunner() = default;
 
 void JobRunner::start(machine::Job job, double speed) {
+    start(std::move(job), nullptr, speed);
+}
+
+void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver) {
+    start(std::move(job), std::move(driver), 1.0);
+}
+
+void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed) {
     expects(!view().running, "one job at a time");
     run_.reset();
-    run_ = std::make_unique<Run>(std::move(job), speed, log_folder_, wake_);
+    run_ = std::make_unique<Run>(std::move(job), std::move(driver), speed, log_folder_, wake_);
 }
 
 void JobRunner::hold() {

@@ -16,11 +16,12 @@ namespace millwright::actions {
 
 /// What is known of the job, for one frame.
 struct JobView {
-    bool running = false;                       ///< the dispatcher has it
-    std::string name;                           ///< empty before the first job
-    std::optional<machine::JobReport> report;   ///< the last
-    std::optional<machine::JobOutcome> outcome; ///< of the last job that ended
-    std::optional<Diagnostic> failure;          ///< it did not start, or its log could not be written
+    bool running = false;                          ///< the dispatcher has it
+    std::string name;                              ///< empty before the first job
+    std::optional<machine::JobReport> report;      ///< the last
+    std::shared_ptr<const gcode::Listing> listing; ///< what is sent
+    std::optional<machine::JobOutcome> outcome;    ///< of the last job that ended
+    std::optional<Diagnostic> failure;             ///< it did not start, or its log could not be written
 };
 
 class JobRunner {
@@ -35,6 +36,8 @@ public:
     /// Starts `job` on a virtual machine at `speed` times real time (0: as fast as can be computed). Throws
     /// Defect if one is running.
     void start(machine::Job job, double speed);
+    /// Starts `job` on a connected machine, which stays connected.
+    void start(machine::Job job, std::shared_ptr<machine::Driver> driver);
     void hold();
     void resume();
     void stop();
@@ -47,6 +50,8 @@ public:
 
 private:
     class Run;
+    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed);
+
     std::filesystem::path log_folder_;
     std::function<void()> wake_;
     std::unique_ptr<Run> run_;

@@ -1,5 +1,12 @@
 #include "core/machine/driver.h"
+#include "core/machine/drivers/grbl/grbl_driver.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
 
 namespace millwright::actions {
 
@@ -10,14 +17,53 @@ namespace {
 using machine::DriverState;
 using widgets::Permission;
 
-Permission can_run(const Workbench& now) {
-    if (now.job.running) {
-        return Permission::refused("A job is running.");
+/// Nothing but the text is needed where the controller plans for itself.
+bool sends_text(const Workbench& now) {
+    return now.controller.connected() && now.controller.can.plans;
+}
+
+Permission machine_ready(const Workbench& now) {
+    switch (now.controller.link) {
+    case LinkState::none:
+        return {};
+    case LinkState::connecting:
+    case LinkState::closing:
+        return Permission::refused("The machine is being connected or disconnected.");
+    case LinkState::connected:
+        break;
+    }
+    const DriverState state = now.controller.status.state;
+    if (state == DriverState::alarm) {
+        return Permission::refused("There is an alarm: home or unlock first.");
+    }
+    return state == DriverState::idle || state == DriverState::stopped
+               ? Permission{}
+               : Permission::refused("The machine is moving.");
+}
+
+Permission program_ready(const Workbench& now) {
+    if (now.in_file()) {
+        if (!now.opened->finished || !now.opened->text) {
+            return Permission::refused("The program is being read.");
+        }
+        if (!now.opened->errors.empty()) {
+            return Permission::refused("The program has errors.");
+        }
+        return sends_text(now) || now.opened->motion ? Permission{}
+                                                     : Permission::refused(now.opened->no_motion);
     }
     if (!now.program() || !now.trajectory() || !now.listing()) {
         return Permission::refused("There is no program yet.");
     }
     return now.plan->exact ? Permission{} : Permission::refused("The program is still being computed.");
+}
+
+Permission can_run(const Workbench& now) {
+    if (now.job.running) {
+        return Permission::refused("A job is running.");
+    }
+    const Permission program = program_ready(now);
+    return program.allowed ? machine_ready(now) : program;
 }
 
 template <DriverState state> Permission driver_is(const Workbench& now) {
@@ -31,17 +77,58 @@ Permission job_runs(const Workbench& now) {
     return now.job.running ? Permission{} : Permission::refused("No job is running.");
 }
 
-void run_job(Hands& hands) {
-    const project::PublishedPlan& plan = *hands.now.plan;
+machine::Job file_job(const Workbench& now) {
+    const project::OpenedProgram& opened = *now.opened;
+    if (sends_text(now)) {
+        return machine::text_job(std::string(opened.text->bytes.text()), opened.file);
+    }
     machine::Job job;
-    job.name = "job";
-    job.project = hands.document.file.empty() ? hands.history.current().name : hands.document.file.string();
-    job.machine = std::make_shared<const kinematics::MachineModel>(plan.plan.workpiece->machine);
-    job.program = plan.plan.program;
-    job.listing = plan.plan.listing;
+    job.machine = opened.machine;
+    job.program = opened.motion->program;
+    job.listing = opened.motion->listing;
+    return job;
+}
+
+machine::Job project_job(const Workbench& now) {
+    const project::Plan& plan = now.plan->plan;
+    if (sends_text(now)) {
+        return machine::text_job(plan.listing->text, now.project.name + ".ngc");
+    }
+    machine::Job job;
+    job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
+    job.program = plan.program;
+    job.listing = plan.listing;
+    return job;
+}
+
+void run_job(Hands& hands) {
+    const Workbench& now = hands.now;
+    machine::Job job = now.in_file() ? file_job(now) : project_job(now);
+    const std::filesystem::path& file = now.in_file() ? now.opened->file : hands.document.file;
+    job.name = file.empty() ? now.project.name : file.stem().string();
+    job.project = file.empty() ? now.project.name : file.string();
+    job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
     hands.session.playback.playing = false;
+    hands.session.file.step.reset();
     hands.session.workspace = Workspace::machine;
-    hands.jobs.start(std::move(job), hands.session.machine_speed);
+    if (auto driver = hands.workshop.controller().driver()) {
+        if (const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver.get())) {
+            grbl->check(*job.listing, file);
+        }
+        hands.jobs.start(std::move(job), std::move(driver));
+    } else {
+        hands.jobs.start(std::move(job), hands.session.machine_speed);
+    }
+}
+
+Permission can_stop_at_once(const Workbench& now) {
+    return now.job.running || now.controller.connected() ? Permission{}
+                                                         : Permission::refused("No machine is connected.");
+}
+
+void stop_at_once(Hands& hands) {
+    hands.workshop.controller().emergency_stop();
+    hands.jobs.emergency_stop();
 }
 
 } // namespace
@@ -50,8 +137,8 @@ void add_machine_actions(Actions& actions) {
     add(actions,
         {"machine.run",
          "Machine",
-         "Run on the virtual machine",
-         "Checks the program and sends it to the virtual machine.",
+         "Run the program",
+         "Checks the program and sends it to the connected machine, else to a virtual one.",
          "F9",
          icons::play},
         can_run,
@@ -75,8 +162,8 @@ void add_machine_actions(Actions& actions) {
         [](Hands& hands) { hands.jobs.stop(); });
     add(actions,
         {"machine.emergency_stop", "Machine", "Emergency stop", "Stops at once.", "F8", icons::danger},
-        job_runs,
-        [](Hands& hands) { hands.jobs.emergency_stop(); });
+        can_stop_at_once,
+        stop_at_once);
 }
 
 } // namespace millwright::actions

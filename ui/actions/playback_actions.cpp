@@ -14,11 +14,53 @@ Permission can_play(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("The view follows the running job.");
     }
-    return now.trajectory() ? Permission{} : Permission::refused("There is no program yet.");
+    if (now.session.hand.keys_armed && now.session.workspace == Workspace::machine) {
+        return Permission::refused("The arrow keys move the machine.");
+    }
+    return now.duration() > 0.0 || now.file_place() ? Permission{}
+                                                    : Permission::refused("There is no program yet.");
+}
+
+Permission can_step_lines(const Workbench& now) {
+    const Permission playing = can_play(now);
+    if (!playing.allowed) {
+        return playing;
+    }
+    return now.file_place() ? Permission{}
+                            : Permission::refused("Lines are stepped in an opened G-code file.");
+}
+
+Permission in_program(const Workbench& now) {
+    return now.session.workspace == Workspace::program
+               ? Permission{}
+               : Permission::refused("The listing is searched in the Program workspace.");
+}
+
+void go_to(Hands& hands, gcode::Step step) {
+    hands.session.playback.playing = false;
+    hands.session.playback.time = time_of(*hands.now.opened, step);
+    hands.session.file.step = step;
+}
+
+/// To the line that is executed next, or was before.
+template <int direction> void step_line(Hands& hands) {
+    const gcode::Step now = hands.now.file_place()->step;
+    const gcode::Step last = hands.now.opened->execution->count() - 1;
+    const bool stays = direction > 0 ? now == last : now == 0;
+    go_to(hands, stays ? now : now + static_cast<gcode::Step>(direction));
+}
+
+void step_file(Hands& hands, int direction) {
+    if (const auto next = moving_step(*hands.now.opened, hands.now.file_place()->step, direction)) {
+        go_to(hands, *next);
+    }
 }
 
 /// To the start of the next (or this, or the previous) block that takes time.
 void step(Hands& hands, int direction) {
+    if (hands.now.in_file()) {
+        return step_file(hands, direction);
+    }
     const auto trajectory = hands.now.trajectory();
     Playback& playback = hands.session.playback;
     playback.playing = false;
@@ -40,7 +82,7 @@ void step(Hands& hands, int direction) {
 
 void play(Hands& hands) {
     Playback& playback = hands.session.playback;
-    const bool at_end = playback.time >= hands.now.trajectory()->duration();
+    const bool at_end = playback.time >= hands.now.duration();
     playback.time = at_end ? 0.0 : playback.time;
     playback.playing = true;
 }
@@ -48,6 +90,7 @@ void play(Hands& hands) {
 void jump(Hands& hands, double time) {
     hands.session.playback.playing = false;
     hands.session.playback.time = time;
+    hands.session.file.step.reset();
 }
 
 } // namespace
@@ -98,7 +141,43 @@ void add_playback_actions(Actions& actions) {
     add(actions,
         {"play.last", "Step-through", "To the end", "After the last block.", "Ctrl+Right", icons::skip_last},
         can_play,
-        [](Hands& hands) { jump(hands, hands.now.trajectory()->duration()); });
+        [](Hands& hands) { jump(hands, hands.now.duration()); });
+    add(actions,
+        {"play.line_forward",
+         "Step-through",
+         "One line forward",
+         "To the line that is executed next, whether it moves anything or not.",
+         "Shift+Right",
+         icons::step_forward},
+        can_step_lines,
+        step_line<1>);
+    add(actions,
+        {"play.line_back",
+         "Step-through",
+         "One line back",
+         "To the line that was executed before.",
+         "Shift+Left",
+         icons::step_back},
+        can_step_lines,
+        step_line<-1>);
+    add(actions,
+        {"program.find_next",
+         "Step-through",
+         "Find the next place",
+         "Goes on with the search in the listing.",
+         "Ctrl+G",
+         icons::search},
+        in_program,
+        [](Hands& hands) { hands.session.file.find_next = 1; });
+    add(actions,
+        {"program.find_previous",
+         "Step-through",
+         "Find the place before",
+         "Goes back with the search in the listing.",
+         "Ctrl+Shift+G",
+         icons::search},
+        in_program,
+        [](Hands& hands) { hands.session.file.find_next = -1; });
 }
 
 } // namespace millwright::actions

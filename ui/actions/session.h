@@ -2,13 +2,16 @@
 // loses no work. Kept apart from the project so that undo never moves the camera.
 #pragma once
 
+#include "core/project/opened_program.h"
 #include "core/project/project.h"
+#include "ui/actions/hand_settings.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +22,14 @@ enum class Workspace { design, grid, toolpath, program, machine };
 inline constexpr int workspace_count = 5;
 
 /// What the lower pane shows.
-enum class LowerTab { plots, listing, compare, jobs, log };
+enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, jobs, log };
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
 struct PaneSizes {
     float outline = 220.0F;
     float inspector = 350.0F;
     float lower = 190.0F;
+    float listing = 350.0F; ///< the left pane in the Program and Machine workspaces
     bool outline_shown = true;
     bool inspector_shown = true;
     bool lower_shown = true;
@@ -36,6 +40,15 @@ struct Playback {
     double time = 0.0;
     bool playing = false;
     double speed = 1.0; ///< times real time
+};
+
+/// An opened G-code file as a person looks at it.
+struct FileView {
+    project::ReadingChoice reading;  ///< for the next file, too
+    Playback parked;                 ///< where the other motion stands: the file's, or the project's
+    bool plays_file = false;         ///< whose motion Session::playback is
+    std::optional<gcode::Step> step; ///< chosen by hand; nothing: that of the motion
+    int find_next = 0;               ///< 1: the listing goes on to the next hit, -1: back
 };
 
 /// A file that is asked for, until the person has chosen or given up.
@@ -49,8 +62,10 @@ struct Session {
     viewport::ErrorScale error;
     bool four_views = false;
     Playback playback;
+    FileView file;
+    HandSettings hand;
     std::array<LowerTab, workspace_count> lower_tabs{
-        LowerTab::plots, LowerTab::plots, LowerTab::plots, LowerTab::listing, LowerTab::listing};
+        LowerTab::plots, LowerTab::plots, LowerTab::plots, LowerTab::motion, LowerTab::console};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time

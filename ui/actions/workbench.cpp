@@ -37,11 +37,40 @@ std::shared_ptr<const project::Evaluation> Workbench::shown() const {
     return evaluation(project::GridMethod::uniform);
 }
 
+bool Workbench::in_file() const {
+    return opened && (session.workspace == Workspace::program || session.workspace == Workspace::machine);
+}
+
+double Workbench::duration() const {
+    if (in_file()) {
+        return duration_of(*opened);
+    }
+    const auto planned = trajectory();
+    return planned ? planned->duration() : 0.0;
+}
+
+std::optional<FilePlace> Workbench::file_place() const {
+    if (!in_file()) {
+        return std::nullopt;
+    }
+    const auto& chosen = session.file.step;
+    if (chosen && !job.running && opened->execution && *chosen < opened->execution->count()) {
+        return place_in(*opened, *chosen, time());
+    }
+    return place_at(*opened, time());
+}
+
 std::shared_ptr<const motion::Trajectory> Workbench::trajectory() const {
+    if (in_file()) {
+        return opened->motion ? opened->motion->trajectory : nullptr;
+    }
     return plan ? plan->plan.trajectory : nullptr;
 }
 
 std::shared_ptr<const gcode::Program> Workbench::program() const {
+    if (in_file()) {
+        return opened->motion ? opened->motion->program : nullptr;
+    }
     return plan ? plan->plan.program : nullptr;
 }
 
@@ -53,9 +82,21 @@ std::string Workbench::failure() const {
     return plan && plan->failure ? to_text(*plan->failure) : std::string();
 }
 
+/// Where a controller plans for itself, from the line that it executes.
+double Workbench::job_time() const {
+    const machine::DriverStatus& status = job.report->driver;
+    const bool by_line = in_file() && opened->execution && job.listing && status.block >= 0 &&
+                         status.block < static_cast<int>(job.listing->line_of_block.size());
+    if (status.planned_time > 0.0 || !by_line) {
+        return status.planned_time;
+    }
+    const int line = job.listing->line_of_block[static_cast<std::size_t>(status.block)];
+    return time_of(*opened, opened->execution->step_at_or_after(line));
+}
+
 double Workbench::time() const {
     if (job.running && job.report) {
-        return job.report->driver.planned_time;
+        return job_time();
     }
     return session.playback.time;
 }
@@ -79,7 +120,13 @@ std::optional<viewport::Moment> Workbench::moment() const {
     if (!planned || !made || made->blocks.empty()) {
         return std::nullopt;
     }
-    viewport::Moment moment = moment_in(*made, planned->at(time()));
+    viewport::Moment moment;
+    if (in_file()) {
+        moment.axes = planned->at(time()).position;
+        moment.move = -1;
+    } else {
+        moment = moment_in(*made, planned->at(time()));
+    }
     if (job.running && job.report && job.report->driver.position.size() == moment.axes.size()) {
         moment.axes = job.report->driver.position;
     }

@@ -4,7 +4,9 @@
 #include "core/project/pipeline.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
+#include "ui/actions/controller.h"
 #include "ui/actions/document.h"
+#include "ui/actions/file_place.h"
 #include "ui/actions/job_runner.h"
 #include "ui/actions/session.h"
 
@@ -20,9 +22,12 @@ struct Workbench {
     const Document& document;
     std::shared_ptr<const project::PublishedPlan> plan;        ///< null before the first
     std::shared_ptr<const project::WatchedAdaptation> watched; ///< null while none is watched
-    project::Activity activity;
+    project::Activity activity;                                ///< of whatever works in the background
+    std::shared_ptr<const project::OpenedProgram> opened;      ///< a G-code file; null while none is open
     JobView job;
-    std::string undo_title, redo_title; ///< empty if there is nothing
+    ControllerView controller;
+    std::shared_ptr<machine::Console> console; ///< of the connected machine; null without one
+    std::string undo_title, redo_title;        ///< empty if there is nothing
     std::filesystem::path assets;
     const project::RecentFiles& recent;
     /// "open sine.json": waits until the person has said what becomes of unsaved changes; empty: nothing
@@ -30,11 +35,19 @@ struct Workbench {
     std::string leaving_to;
     const std::vector<project::LeftBehind>& left_behind; ///< by programs that crashed; to be asked about
 
+    /// The opened file is what is shown and moved, not the project's own program.
+    [[nodiscard]] bool in_file() const;
+    /// Of the motion that is shown, s; 0 without one.
+    [[nodiscard]] double duration() const;
+    /// In the opened file; nothing unless in_file() and the file is read.
+    [[nodiscard]] std::optional<FilePlace> file_place() const;
+
     /// Null-safe access to what is shown.
     [[nodiscard]] std::shared_ptr<const project::Evaluation> shown() const;
     [[nodiscard]] std::shared_ptr<const project::Evaluation> evaluation(project::GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const motion::Trajectory> trajectory() const;
     [[nodiscard]] std::shared_ptr<const gcode::Program> program() const;
+    /// Of the project's own program.
     [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
     /// Of the plan: why it stops short of a program; empty if it does not.
     [[nodiscard]] std::string failure() const;
@@ -46,8 +59,9 @@ struct Workbench {
     /// The block that is being executed, stepped or scrubbed, and where on the tool path that is. Follows the
     /// running job, else the playback.
     [[nodiscard]] std::optional<viewport::Moment> moment() const;
-    [[nodiscard]] int block() const;   ///< -1 without a program
-    [[nodiscard]] double time() const; ///< s of the trajectory
+    [[nodiscard]] int block() const;       ///< -1 without a program
+    [[nodiscard]] double time() const;     ///< s of the trajectory
+    [[nodiscard]] double job_time() const; ///< the same, of the running job
     /// What moment() says is where the machine stands, not what the timeline would have it do.
     [[nodiscard]] bool at_machine() const;
 };

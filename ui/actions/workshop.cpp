@@ -32,6 +32,9 @@ Workshop::Workshop(WorkshopOptions options)
     guarded([this] { start_autosave(); });
     const auto wake = options_.wake ? options_.wake : [] {};
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
+    reader_ = std::make_unique<project::ProgramReader>(wake);
+    controller_ = std::make_unique<Controller>(wake);
+    jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
     request_plan();
 }
@@ -44,8 +47,11 @@ Workbench Workshop::look() const {
             document(),
             pipeline_->latest(),
             pipeline_->adaptation(),
-            pipeline_->activity(),
+            reader_->activity().busy ? reader_->activity() : pipeline_->activity(),
+            reader_->latest(),
             jobs_->view(),
+            controller_->view(),
+            controller_->console(),
             history_.undo_title(),
             history_.redo_title(),
             options_.assets,
@@ -93,26 +99,49 @@ void Workshop::run(std::string_view id) {
     }
 }
 
-void Workshop::perform(ActionQueue& asked) {
+void Workshop::perform(ActionQueue& asked, bool focused) {
+    const auto wish = asked.take_jog();
     for (const ActionQueue::Request& request : asked.take()) {
         guarded([&] { request(*this); });
     }
+    const bool allowed = focused && !look().asks() && !session_.quit;
+    guarded([&] { jog_->follow(wish, allowed); });
     follow_autosave();
 }
 
+void Workshop::connect() {
+    const Workbench now = look();
+    std::shared_ptr<const kinematics::MachineModel> model;
+    if (now.opened && now.opened->machine) {
+        model = now.opened->machine;
+    } else if (now.plan && now.plan->plan.workpiece) {
+        model = std::make_shared<const kinematics::MachineModel>(now.plan->plan.workpiece->machine);
+    }
+    session_.hand.keys_armed = session_.hand.single_block = false;
+    controller_->connect(session_.hand.choice, std::move(model));
+}
+
+void Workshop::watch_jog(bool held, bool focused) {
+    if (jog_->moving() && (!held || !focused)) {
+        jog_->let_go();
+    }
+}
+
 bool Workshop::advance(double seconds) {
+    follow_file();
     Playback& playback = session_.playback;
-    const auto trajectory = look().trajectory();
-    if (!trajectory) {
+    const double duration = look().duration();
+    if (!(duration > 0.0)) {
         playback.playing = false;
         return false;
     }
     const double before = playback.time;
     follow_job();
-    playback.time = std::clamp(playback.time, 0.0, trajectory->duration());
+    playback.time = std::clamp(playback.time, 0.0, duration);
     if (playback.playing) {
-        playback.time = std::min(playback.time + seconds * playback.speed, trajectory->duration());
-        playback.playing = playback.time < trajectory->duration();
+        session_.file.step.reset();
+        playback.time = std::min(playback.time + seconds * playback.speed, duration);
+        playback.playing = playback.time < duration;
     }
     return playback.time < before || playback.time > before;
 }
@@ -143,6 +172,7 @@ void Workshop::edit(const std::string& title,
 
 void Workshop::wait_idle() {
     pipeline_->wait_idle();
+    reader_->wait_idle();
     jobs_->wait();
 }
 

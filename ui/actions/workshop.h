@@ -37,18 +37,34 @@ public:
     [[nodiscard]] Workbench look() const;
 
     /// Carries out what was asked; what an Error says becomes a notice and changes nothing.
-    void perform(ActionQueue& asked);
+    /// `focused`: the window has the keyboard; without it no jog goes on.
+    void perform(ActionQueue& asked, bool focused = true);
     void run(std::string_view id);
 
     /// Lets `seconds` of wall time pass for what plays. True if the picture changed.
     bool advance(double seconds);
 
-    /// Replaces the project by the file's, whatever is unsaved; undo goes back. Throws Error; the open
-    /// project then stays.
+    /// A project file opens in place of the project, whatever is unsaved; undo goes back. Any other file is
+    /// taken for G-code and opens beside the project. Throws Error; what is open then stays.
     void open(const std::filesystem::path& file);
     /// Throws Error; the old file then stays as it was. Goes on with what waited for it.
     void save(const std::filesystem::path& file);
+    /// Reads the opened G-code file once more, by the rules and for the machine of the session.
+    void read_again();
+    void close_file();
+    /// Stops whatever works in the background.
+    void cancel_work();
     void new_from_preset(std::string_view preset_id);
+
+    /// The machine that is connected, or not.
+    [[nodiscard]] Controller& controller() { return *controller_; }
+    /// To what the session names.
+    void connect();
+    /// Before a frame is drawn: stops a jog that nobody can be holding any more. `held`: a mouse button or a
+    /// key of the jog is down.
+    void watch_jog(bool held, bool focused);
+    /// A jog is held: frames have to come, lest its dead man stops it.
+    [[nodiscard]] bool jogging() const { return jog_->moving(); }
 
     /// Does `then` at once if nothing is unsaved, else after the person has answered. `to` goes on after
     /// "before you": "open sine.json".
@@ -93,6 +109,8 @@ private:
     [[nodiscard]] bool changed() const { return !(history_.current() == document().saved); }
     void begin(project::Project other, const std::string& title, Document document);
     void look_at_another();
+    void open_gcode(const std::filesystem::path& file);
+    void follow_file();
     void remember(const std::filesystem::path& file);
     void start_autosave();
     void follow_autosave();
@@ -111,8 +129,12 @@ private:
     std::optional<Document> kept_; ///< what the autosave was last told: the file, the unsaved state
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<project::Pipeline> pipeline_;
+    std::unique_ptr<project::ProgramReader> reader_;
+    std::unique_ptr<Controller> controller_; ///< before what runs on it
+    std::unique_ptr<JogHand> jog_;
     std::unique_ptr<JobRunner> jobs_;
-    bool follows_job_ = false; ///< a job was running when it was last looked at
+    bool tells_of_file_ = false; ///< it is being read: how that ended is still to be told
+    bool follows_job_ = false;   ///< a job was running when it was last looked at
 };
 
 } // namespace millwright::actions

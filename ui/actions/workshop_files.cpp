@@ -16,6 +16,10 @@ std::int64_t seconds_since_1970() {
     return std::chrono::duration_cast<std::chrono::seconds>(now).count();
 }
 
+bool is_project_file(const fs::path& file) {
+    return file.extension() == ".json";
+}
+
 /// What stands in `file`, to tell what is unsaved; a project like no other if it cannot be read.
 project::Project on_disk(const fs::path& file) {
     try {
@@ -28,10 +32,71 @@ project::Project on_disk(const fs::path& file) {
 } // namespace
 
 void Workshop::open(const fs::path& file) {
+    if (!is_project_file(file)) {
+        open_gcode(file);
+        return;
+    }
     project::Project opened = project::read_project(file);
     session_.shown = opened.grid.method;
     begin(opened, "Open " + file.filename().string(), {fs::absolute(file).lexically_normal(), opened});
     remember(file);
+}
+
+void Workshop::open_gcode(const fs::path& file) {
+    if (jobs_->view().running) {
+        throw Error("a job is running; another program can be opened when it has ended", file);
+    }
+    reader_->open(file, session_.file.reading, options_.assets);
+    session_.workspace = Workspace::program;
+    session_.question = FileQuestion::none;
+    session_.fit_wanted = true;
+    session_.file.step.reset();
+    follow_file();
+    session_.playback = {};
+    tells_of_file_ = true;
+    remember(file);
+}
+
+void Workshop::read_again() {
+    if (const auto opened = reader_->latest()) {
+        open_gcode(fs::path(opened->file));
+    }
+}
+
+void Workshop::close_file() {
+    reader_->close();
+    session_.file.step.reset();
+    session_.fit_wanted = true;
+    follow_file();
+}
+
+void Workshop::cancel_work() {
+    pipeline_->cancel();
+    reader_->cancel();
+}
+
+/// The file's motion and the project's each keep their time; and a person is told once what is wrong with the
+/// file.
+void Workshop::follow_file() {
+    if (const bool in_file = look().in_file(); in_file != session_.file.plays_file) {
+        session_.playback.playing = false;
+        std::swap(session_.playback, session_.file.parked);
+        session_.file.plays_file = in_file;
+    }
+    const auto opened = reader_->latest();
+    if (!tells_of_file_ || !opened || !opened->finished) {
+        return;
+    }
+    tells_of_file_ = false;
+    const std::size_t faults = opened->errors.size() + opened->faults.size();
+    if (faults > 0) {
+        const Diagnostic& first = opened->errors.empty() ? opened->faults.front() : opened->errors.front();
+        const std::string more = faults > 1 ? ", and " + std::to_string(faults - 1) + " more" : "";
+        const Diagnostic shown{{first.place.file.filename(), first.place.line, first.place.column, -1},
+                               first.message,
+                               first.hint};
+        tell(session_, widgets::Severity::warning, to_text(shown) + more);
+    }
 }
 
 void Workshop::save(const fs::path& file) {

@@ -8,7 +8,8 @@
 namespace millwright::panels {
 
 Desktop::Desktop(render::WindowContext& context, actions::Workshop& workshop)
-    : context_(context), workshop_(workshop), session_(std::make_unique<render::ImGuiSession>(context)) {
+    : context_(context), screen_(&context), workshop_(workshop),
+      session_(std::make_unique<render::ImGuiSession>(context)) {
     start();
 }
 
@@ -43,10 +44,10 @@ void Desktop::follow_theme() {
     }
 }
 
-void Desktop::draw() {
+void Desktop::draw(bool focused) {
     const render::PixelSize size = context_.framebuffer_size();
     ui_->begin_frame();
-    window_->draw(*ui_, static_cast<float>(size.width), static_cast<float>(size.height));
+    window_->draw(*ui_, static_cast<float>(size.width), static_cast<float>(size.height), focused);
     ui_->end_frame();
     session_->end_frame();
 }
@@ -55,14 +56,14 @@ void Desktop::frame() {
     follow_theme();
     context_.begin();
     session_->begin_frame();
-    draw();
+    draw(screen_ == nullptr || screen_->focused());
 }
 
 void Desktop::frame(const render::InputState& input) {
     follow_theme();
     context_.begin();
     session_->begin_frame(input);
-    draw();
+    draw(input.focused);
 }
 
 std::optional<double> Desktop::next_change() const {

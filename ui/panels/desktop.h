@@ -33,10 +33,11 @@ public:
 
 private:
     void start();
-    void draw();
+    void draw(bool focused);
     void follow_theme();
 
     render::Context& context_;
+    render::WindowContext* screen_ = nullptr; ///< null in memory
     actions::Workshop& workshop_;
     std::unique_ptr<render::ImGuiSession> session_;
     std::unique_ptr<widgets::Ui> ui_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdlib>
 
 namespace millwright::panels {
@@ -19,6 +20,8 @@ using widgets::Permission;
 using widgets::Rank;
 
 constexpr std::string_view extension = ".json";
+constexpr std::array<std::string_view, 8> gcode_extensions{
+    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
 constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
 
 struct Listed {
@@ -26,8 +29,15 @@ struct Listed {
     std::string fault;
 };
 
-/// Folders and project files by name; hidden ones left out.
-Listed listed(const fs::path& folder) {
+bool is_gcode(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(
+        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
+}
+
+/// Folders and the files of `question` by name; hidden ones left out.
+Listed listed(const fs::path& folder, FileQuestion question) {
     Listed result;
     std::error_code failure;
     for (const auto& entry : fs::directory_iterator(folder, failure)) {
@@ -37,7 +47,8 @@ Listed listed(const fs::path& folder) {
         }
         if (entry.is_directory(unreadable)) {
             result.folders.push_back(entry.path());
-        } else if (entry.path().extension() == extension) {
+        } else if (entry.path().extension() == extension ||
+                   (question == FileQuestion::open && is_gcode(entry.path()))) {
             result.files.push_back(entry.path());
         }
     }
@@ -79,7 +90,7 @@ void FilePanel::begin(const Workbench& now) {
 }
 
 void FilePanel::enter(const fs::path& folder) {
-    Listed found = listed(folder);
+    Listed found = listed(folder, asked_);
     folder_ = folder;
     folders_ = found.folders.size();
     entries_ = std::move(found.folders);
@@ -100,7 +111,8 @@ void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         begin(now);
     }
     const bool opening = asked_ == FileQuestion::open;
-    const auto dialog = ui.dialog("files", opening ? "Open a project" : "Save the project as", ui.px(620.0F));
+    const auto dialog = ui.dialog(
+        "files", opening ? "Open a project or a G-code file" : "Save the project as", ui.px(620.0F));
     if (!dialog) {
         return;
     }
@@ -150,7 +162,8 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
         }
         const bool is_folder = static_cast<std::size_t>(row) < folders_;
         return source_ == Source::recent ? shortened(entry.parent_path())
-                                         : std::string(is_folder ? "folder" : "");
+               : is_folder               ? std::string("folder")
+                                         : std::string(is_gcode(entry) ? "G-code" : "");
     };
     view.row_id = [this](std::ptrdiff_t row) {
         const fs::path& entry = entries_[static_cast<std::size_t>(row)];
@@ -159,7 +172,7 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
     const auto chosen = std::find(entries_.begin(), entries_.end(), chosen_);
     view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
     view.height = ui.px(212.0F);
-    view.when_empty = fault_.empty() ? "No project files here." : std::string_view(fault_);
+    view.when_empty = fault_.empty() ? "No projects and no G-code here." : std::string_view(fault_);
     const auto row = widgets::table(ui, "entries", view);
     if (!row) {
         return;
@@ -177,11 +190,15 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
 
 void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
-    preview_.draw(ui, chosen_);
+    if (is_gcode(chosen_)) {
+        ui.note("A G-code program: it opens beside the project, in the Program workspace.");
+    } else {
+        preview_.draw(ui, chosen_);
+    }
     ui.gap();
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
-    const auto allowed = chosen_.empty() ? Permission::refused("Choose a project first.") : Permission{};
+    const auto allowed = chosen_.empty() ? Permission::refused("Choose a file first.") : Permission{};
     const bool entered = ui.enter_pressed() && allowed.allowed;
     if (ui.button("open", "Open", allowed, {icons::folder, Rank::primary, -1.0F, "Enter"}) || entered) {
         ask.open_file(chosen_);

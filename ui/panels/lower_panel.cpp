@@ -5,13 +5,15 @@
 #include "ui/panels/error_table.h"
 #include "ui/panels/path_series.h"
 #include "ui/widgets/icons.h"
-#include "ui/widgets/listing.h"
 #include "ui/widgets/plot.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -21,11 +23,30 @@ namespace icons = widgets::icons;
 using actions::LowerTab;
 using project::GridMethod;
 
-constexpr std::array<widgets::Option, 5> tabs{{{"plots", "Error along the path", icons::plot},
-                                               {"listing", "Listing", icons::program},
-                                               {"compare", "Side by side", icons::table},
-                                               {"jobs", "Job", icons::machine},
-                                               {"log", "Log", icons::info}}};
+struct Tab {
+    LowerTab tab;
+    widgets::Option option;
+};
+
+constexpr std::array<Tab, 6> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
+                                     {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
+                                     {LowerTab::listing, {"listing", "Listing", icons::program}},
+                                     {LowerTab::compare, {"compare", "Side by side", icons::table}},
+                                     {LowerTab::jobs, {"jobs", "Job", icons::machine}},
+                                     {LowerTab::log, {"log", "Log", icons::info}}}};
+constexpr std::array<Tab, 7> driving{{{LowerTab::console, {"console", "Console", icons::keyboard}},
+                                      {LowerTab::listing, {"listing", "Listing", icons::program}},
+                                      {LowerTab::offsets, {"offsets", "Offsets", icons::table}},
+                                      {LowerTab::settings, {"settings", "Settings", icons::settings}},
+                                      {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
+                                      {LowerTab::jobs, {"jobs", "Job", icons::machine}},
+                                      {LowerTab::log, {"log", "Log", icons::info}}}};
+
+/// What a person needs while making a part, or at the machine.
+std::span<const Tab> tabs_of(actions::Workspace workspace) {
+    return workspace == actions::Workspace::machine ? std::span<const Tab>(driving)
+                                                    : std::span<const Tab>(making);
+}
 
 /// The time at which the program has done the move that lies at `length` of the path.
 void go_to_length(ActionQueue& ask,
@@ -56,18 +77,32 @@ void go_to_length(ActionQueue& ask,
 } // namespace
 
 void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const int tab = static_cast<int>(now.session.lower_tab_now());
-    if (const auto chosen = ui.tabs("tabs", tab, tabs)) {
-        ask.show(
-            [t = static_cast<LowerTab>(*chosen)](actions::Session& session) { session.lower_tab_now() = t; });
+    const auto tabs = tabs_of(now.session.workspace);
+    std::vector<widgets::Option> options;
+    for (const Tab& tab : tabs) {
+        options.push_back(tab.option);
+    }
+    const auto at = std::ranges::find(tabs, now.session.lower_tab_now(), &Tab::tab);
+    if (const auto chosen = ui.tabs("tabs", static_cast<int>(at - tabs.begin()), options)) {
+        ask.show([t = tabs[static_cast<std::size_t>(*chosen)].tab](actions::Session& session) {
+            session.lower_tab_now() = t;
+        });
     }
     switch (now.session.lower_tab_now()) {
     case LowerTab::plots:
         return draw_plots(ui, now, ask);
+    case LowerTab::motion:
+        return motion_.draw(ui, now, ask);
     case LowerTab::listing:
-        return draw_listing(ui, now, ask);
+        return listing_.draw_lines(ui, now, ask);
     case LowerTab::compare:
         return error_table(ui, "compare", now, ask);
+    case LowerTab::console:
+        return console_.draw(ui, now, ask);
+    case LowerTab::offsets:
+        return offsets_.draw(ui, now, ask);
+    case LowerTab::settings:
+        return settings_.draw(ui, now, ask);
     case LowerTab::jobs:
         return draw_jobs(ui, now);
     case LowerTab::log:
@@ -107,32 +142,9 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void LowerPanel::draw_listing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto listing = now.listing();
-    const auto trajectory = now.trajectory();
-    if (!listing || !trajectory) {
-        ui.note("No program yet.");
-        return;
-    }
-    widgets::ListingView view;
-    view.lines = listing->line_count();
-    view.line = [&](std::ptrdiff_t line) { return std::string(listing->line(static_cast<int>(line) + 1)); };
-    const int block = now.block();
-    view.current = block >= 0 ? listing->line_of_block[static_cast<std::size_t>(block)] - 1 : -1;
-    if (const auto line = widgets::listing(ui, "listing", view)) {
-        const int chosen = listing->block_at_line(static_cast<int>(*line) + 1);
-        if (chosen >= 0) {
-            ask.show([time = trajectory->start_of(chosen)](actions::Session& session) {
-                session.playback.playing = false;
-                session.playback.time = time;
-            });
-        }
-    }
-}
-
 void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
     if (now.job.name.empty()) {
-        ui.note("No job has been sent yet. Machine > Run on the virtual machine (F9).");
+        ui.note("No job has been sent yet. Machine > Run the program (F9).");
         return;
     }
     if (now.job.report) {

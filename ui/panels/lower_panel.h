@@ -1,6 +1,10 @@
 // The lower pane: plots over the path, the listing in step with the motion, results side by side, jobs, log.
 #pragma once
 
+#include "ui/panels/console_panel.h"
+#include "ui/panels/controller_tables.h"
+#include "ui/panels/listing_panel.h"
+#include "ui/panels/motion_plots.h"
 #include "ui/panels/panel.h"
 
 #include <cstdint>
@@ -14,9 +18,14 @@ public:
 
 private:
     void draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_listing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_jobs(Ui& ui, const Workbench& now) const;
     void draw_log(Ui& ui, const Workbench& now) const;
+
+    MotionPlots motion_;
+    ListingPanel listing_;
+    ConsolePanel console_;
+    OffsetTable offsets_;
+    SettingTable settings_;
 };
 
 } // namespace millwright::panels

@@ -4,10 +4,12 @@
 #include "core/base/units.h"
 #include "core/kinematics/forward.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/widgets/notices.h"
 #include "ui/widgets/readout.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace millwright::panels {
@@ -66,18 +68,31 @@ int speed_index(double speed) {
 } // namespace
 
 void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    connection_.draw(ui, now, ask);
     draw_job(ui, now, ask);
-    draw_position(ui, now);
+    if (now.controller.connected()) {
+        controls_.draw(ui, now, ask);
+    }
+}
+
+void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.controller.connected()) {
+        hand_.draw(ui, now, ask);
+    } else {
+        draw_position(ui, now);
+    }
 }
 
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     const auto section =
         ui.section("position", now.at_machine() ? "Position of the machine" : "Position on the timeline");
     const auto moment = now.moment();
-    if (!section || !now.plan || !now.plan->plan.workpiece) {
+    const bool known = now.in_file() ? now.opened->machine != nullptr : now.plan && now.plan->plan.workpiece;
+    if (!section || !known) {
         return;
     }
-    const kinematics::MachineModel& machine = now.plan->plan.workpiece->machine;
+    const kinematics::MachineModel& machine =
+        now.in_file() ? *now.opened->machine : now.plan->plan.workpiece->machine;
     if (!moment || moment->axes.size() != machine.axis_count()) {
         ui.note("No program yet.");
         return;
@@ -97,19 +112,52 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
         fmt::format("{}  {}  {}", fixed(pose.axis.x(), 3), fixed(pose.axis.y(), 3), fixed(pose.axis.z(), 3)));
 }
 
+/// What is known before anything is sent.
+void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
+    if (!now.in_file() || !now.opened->finished || now.job.running) {
+        return;
+    }
+    const auto& opened = *now.opened;
+    const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
+    if (found == 0) {
+        ui.note(opened.motion ? "Checked: axes, limits and feeds are within the machine's."
+                              : "Checked: the program can be read.");
+        return;
+    }
+    const Diagnostic& first = !opened.errors.empty()   ? opened.errors.front()
+                              : !opened.faults.empty() ? opened.faults.front()
+                                                       : opened.findings.front();
+    const std::string more = found > 1 ? fmt::format(", and {} more", found - 1) : "";
+    const std::string where = first.place.line > 0 ? fmt::format("line {}: ", first.place.line) : "";
+    (void)widgets::banner(ui, "findings", {widgets::Severity::warning, where + first.message + more, {}});
+}
+
 void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const auto section = ui.section("job", "Job");
     if (!section) {
         return;
     }
-    if (const auto chosen = ui.choice("speed",
-                                      "Virtual machine",
-                                      speed_index(now.session.machine_speed),
-                                      speed_options,
-                                      "How fast the virtual machine's time passes")) {
-        ask.show([speed = speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
-            session.machine_speed = speed;
-        });
+    ui.value("program", "Program", now.in_file() ? now.opened->file.filename().string() : now.project.name);
+    draw_findings(ui, now);
+    if (now.controller.link == actions::LinkState::none) {
+        if (const auto chosen = ui.choice("speed",
+                                          "Virtual machine",
+                                          speed_index(now.session.machine_speed),
+                                          speed_options,
+                                          "How fast the virtual machine's time passes")) {
+            ask.show([speed = speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
+                session.machine_speed = speed;
+            });
+        }
+    } else if (now.controller.can.single_block) {
+        const actions::Action& single = catalogue_.find("machine.single_block");
+        if (ui.toggle("single_block",
+                      "Single block",
+                      now.session.hand.single_block,
+                      single.info().tip,
+                      single.permission(now))) {
+            ask.run("machine.single_block");
+        }
     }
     action_button(ui, now, ask, catalogue_, "machine.run", widgets::Rank::primary, "Run");
     {
@@ -119,13 +167,19 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         action_button(ui, now, ask, catalogue_, "machine.stop", widgets::Rank::normal, "Stop");
     }
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
+    ui.keep_clear(ui.path("machine_emergency_stop"));
+    draw_progress(ui, now, ask);
+}
+
+void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (now.job.running && now.job.report) {
         const machine::JobReport& report = *now.job.report;
         const double fraction =
             report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
         ui.value("state", "State", machine::to_text(report.driver.state));
-        ui.value(
-            "time", "Time", clock_time(report.driver.planned_time) + " / " + clock_time(report.planned_time));
+        const double total = report.planned_time > 0.0 ? report.planned_time : now.duration();
+        ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
+        ui.value("left", "Left", total > 0.0 ? clock_time(std::max(0.0, total - now.time())) : "not known");
         if (ui.progress("progress",
                         fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks),
                         fraction)) {

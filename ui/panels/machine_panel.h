@@ -1,21 +1,33 @@
-// The inspector of the Machine workspace: the position in big figures, the job with hold, stop and emergency
-// stop, the virtual machine's speed.
+// The Machine workspace: at the left the position in big figures and the jog; in the inspector which machine,
+// the job with hold and stop, and the rest of what a machine can be told.
 #pragma once
 
+#include "ui/panels/connection_panel.h"
+#include "ui/panels/controls_panel.h"
+#include "ui/panels/hand_panel.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {
 
 class MachinePanel final : public Panel {
 public:
-    explicit MachinePanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    explicit MachinePanel(const actions::Catalogue& catalogue)
+        : catalogue_(catalogue), connection_(catalogue), controls_(catalogue), hand_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    /// The position, and what moves the machine by hand.
+    void draw_left(Ui& ui, const Workbench& now, ActionQueue& ask);
 
 private:
     void draw_position(Ui& ui, const Workbench& now) const;
     void draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
+    void draw_findings(Ui& ui, const Workbench& now) const;
+    void draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+
     const actions::Catalogue& catalogue_;
+    ConnectionPanel connection_;
+    ControlsPanel controls_;
+    HandPanel hand_;
 };
 
 } // namespace millwright::panels

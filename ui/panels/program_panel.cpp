@@ -9,34 +9,10 @@
 
 namespace millwright::panels {
 
-namespace {
-
-std::string limit_text(const motion::Cause& limit, const gcode::Program& program) {
-    switch (limit.limit) {
-    case motion::Limit::standing:
-        return "stands still";
-    case motion::Limit::programmed_feed:
-        return "programmed feed";
-    case motion::Limit::corner:
-        return "corner";
-    case motion::Limit::axis_velocity:
-    case motion::Limit::axis_acceleration:
-    case motion::Limit::axis_jerk: {
-        const std::string what = limit.limit == motion::Limit::axis_velocity ? "velocity"
-                                 : limit.limit == motion::Limit::axis_jerk   ? "jerk"
-                                                                             : "acceleration";
-        const bool known = limit.axis >= 0 && limit.axis < static_cast<int>(program.axes.size());
-        return known
-                   ? fmt::format("{} of {}", what, program.axes[static_cast<std::size_t>(limit.axis)].letter)
-                   : what;
-    }
-    }
-    return {};
-}
-
-} // namespace
-
 void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.in_file()) {
+        return file_.draw(ui, now, ask);
+    }
     draw_settings(ui, now, ask);
     draw_summary(ui, now, ask);
     draw_block(ui, now);

@@ -1,14 +1,15 @@
-// The inspector of the Program workspace: feeds and clearances, what the program is, the block under the
-// cursor.
+// The inspector of the Program workspace: of the project's own program feeds and clearances, what the program
+// is, the block under the cursor.
 #pragma once
 
 #include "ui/panels/panel.h"
+#include "ui/panels/program_file_panel.h"
 
 namespace millwright::panels {
 
 class ProgramPanel final : public Panel {
 public:
-    explicit ProgramPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    explicit ProgramPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), file_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -17,6 +18,7 @@ private:
     void draw_block(Ui& ui, const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;
+    ProgramFilePanel file_; ///< in its place while a G-code file is open
 };
 
 } // namespace millwright::panels

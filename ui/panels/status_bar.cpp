@@ -1,6 +1,7 @@
 #include "ui/panels/status_bar.h"
 
 #include "core/base/text.h"
+#include "ui/panels/connection_panel.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +12,10 @@ namespace millwright::panels {
 namespace {
 
 std::string machine_state(const Workbench& now) {
-    if (now.job.running && now.job.report) {
+    if (now.controller.link == actions::LinkState::none && now.job.running && now.job.report) {
         return fmt::format("virtual machine {}", machine::to_text(now.job.report->driver.state));
     }
-    return "virtual machine idle";
+    return controller_text(now);
 }
 
 std::string mouse_text(const std::optional<Vec3>& p) {
@@ -38,10 +39,10 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
     } else {
         ui.words(now.failure().empty() ? "Ready" : "No program: see the outline", widgets::Tone::muted);
     }
-    const std::string file =
-        now.document.file.empty() ? now.project.name : now.document.file.filename().string();
-    for (const std::string& text :
-         {machine_state(now), mouse_text(under_mouse), file + (now.changed() ? " (not saved)" : "")}) {
+    std::string file = now.document.file.empty() ? now.project.name : now.document.file.filename().string();
+    file += now.changed() ? " (not saved)" : "";
+    file += now.opened ? ", " + now.opened->file.filename().string() : "";
+    for (const std::string& text : {machine_state(now), mouse_text(under_mouse), file}) {
         ui.beside();
         ui.move_by(ui.px(between), 0.0F);
         ui.words(text, widgets::Tone::muted);

@@ -1,5 +1,6 @@
 #include "ui/panels/timeline_panel.h"
 
+#include "ui/panels/internal/lines.h"
 #include "ui/widgets/timeline.h"
 
 #include <array>
@@ -26,13 +27,13 @@ std::string_view action_of(TimelineAsk::Kind kind) {
     }
 }
 
-void obey(const TimelineAsk& asked, const motion::Trajectory& trajectory, ActionQueue& ask) {
+void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
     if (asked.kind == TimelineAsk::Kind::scrub) {
-        const double time = trajectory.time_at_part_length(asked.value * trajectory.part_length());
-        ask.show([time](actions::Session& session) {
-            session.playback.playing = false;
-            session.playback.time = time;
-        });
+        const auto planned = now.trajectory();
+        go_to_time(ask,
+                   now.in_file() || !planned
+                       ? asked.value * now.duration()
+                       : planned->time_at_part_length(asked.value * planned->part_length()));
     } else if (asked.kind == TimelineAsk::Kind::speed) {
         ask.show([speed = asked.value](actions::Session& session) { session.playback.speed = speed; });
     } else {
@@ -56,7 +57,39 @@ void TimelinePanel::refresh(const Workbench& now) {
                   : TrajectorySeries{};
 }
 
+/// Over time: a file may have no plan, and then no way of the tip to count by.
+void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const MotionSeries& motion = motion_.series(now);
+    const std::array<widgets::TimelineSeries, 1> series{{{"feed", "mm/min", motion.feed, 0}}};
+    widgets::TimelineView view;
+    const auto place = now.file_place();
+    if (!place) {
+        view.permission = widgets::Permission::refused(now.opened->finished ? "The program moves nothing."
+                                                                            : "The file is being read.");
+        (void)widgets::timeline(ui, "timeline", view);
+        return;
+    }
+    view.series = series;
+    view.total_s = now.duration();
+    view.time_s = now.time();
+    view.fraction = view.total_s > 0.0 ? view.time_s / view.total_s : 0.0;
+    view.is_playing = now.session.playback.playing;
+    view.speed = now.session.playback.speed;
+    view.block = place->line;
+    view.blocks = now.opened->text->lines.count();
+    view.what = "Line";
+    if (now.job.running) {
+        view.permission = widgets::Permission::refused("The view follows the running job.");
+    }
+    if (const auto asked = widgets::timeline(ui, "timeline", view)) {
+        obey(*asked, now, ask);
+    }
+}
+
 void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.in_file()) {
+        return draw_file(ui, now, ask);
+    }
     refresh(now);
     widgets::TimelineView view;
     const std::array<widgets::TimelineSeries, 2> series{
@@ -79,7 +112,7 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         view.permission = widgets::Permission::refused("The view follows the running job.");
     }
     if (const auto asked = widgets::timeline(ui, "timeline", view)) {
-        obey(*asked, *trajectory_, ask);
+        obey(*asked, now, ask);
     }
 }
 

@@ -1,6 +1,7 @@
 // The step-through: play, step and scrub the program, with its error and feed over the way of the tip.
 #pragma once
 
+#include "ui/panels/motion_plots.h"
 #include "ui/panels/panel.h"
 #include "ui/panels/path_series.h"
 
@@ -14,9 +15,11 @@ public:
 
 private:
     void refresh(const Workbench& now);
+    void draw_file(Ui& ui, const Workbench& now, ActionQueue& ask);
 
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< that `series_` was made of
     TrajectorySeries series_;
+    MotionPlots motion_; ///< for its series of an opened file
 };
 
 } // namespace millwright::panels

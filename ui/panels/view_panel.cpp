@@ -32,6 +32,18 @@ void move_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
     }
 }
 
+void go_to_path_place(const gcode::PathPlace& place, const Workbench& now, ActionQueue& ask) {
+    if (!now.in_file() || !now.opened->execution || now.job.running) {
+        return;
+    }
+    const gcode::Step step = now.opened->path.point(place.point).step();
+    ask.show([step, time = actions::time_of(*now.opened, place)](actions::Session& session) {
+        session.playback.playing = false;
+        session.playback.time = time;
+        session.file.step = step;
+    });
+}
+
 void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQueue& ask) {
     const auto program = now.program();
     const auto trajectory = now.trajectory();
@@ -62,6 +74,14 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.layers = now.session.layers_now();
     scene.selected = now.session.selected;
     scene.error = now.session.error;
+    if (now.in_file()) {
+        scene.layers.machine = false;
+        scene.opened = now.opened;
+        if (const auto place = now.file_place()) {
+            scene.opened_now = place->moment;
+        }
+        return scene;
+    }
     if (!now.plan) {
         return scene;
     }
@@ -90,11 +110,40 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
         ask.show([points = select->points](actions::Session& session) { session.selected = points; });
     } else if (const auto* go = std::get_if<viewport::GoToMove>(&event)) {
         go_to_move(*go, now, ask);
+    } else if (const auto* place = std::get_if<viewport::GoToPathPlace>(&event)) {
+        go_to_path_place(place->place, now, ask);
+    }
+}
+
+/// To what is there of the path as soon as there is any, and to all of it unless a person has turned it by
+/// then.
+void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
+    const auto& path = now.opened->path;
+    if (path.empty() && !now.opened->finished) {
+        return;
+    }
+    if (now.session.fit_wanted) {
+        view_.fit();
+        growing_ = !now.opened->finished;
+        ask.show([](actions::Session& session) { session.fit_wanted = false; });
+        return;
+    }
+    if (growing_ && !fitted_) {
+        fitted_ = view_.camera().pose();
+    }
+    if (growing_ && now.opened->finished) {
+        if (fitted_ && view_.camera().pose() == *fitted_) {
+            view_.fit();
+        }
+        growing_ = false;
+        fitted_.reset();
     }
 }
 
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
-    if (now.session.fit_wanted && shows_the_project(now)) {
+    if (now.in_file()) {
+        fit_file(now, ask);
+    } else if (now.session.fit_wanted && shows_the_project(now)) {
         view_.fit();
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }

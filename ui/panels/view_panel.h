@@ -21,8 +21,12 @@ public:
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
+    void fit_file(const Workbench& now, ActionQueue& ask);
+
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
+    bool growing_ = false;                     ///< an opened file was fitted before all of it was there
+    std::optional<render::CameraPose> fitted_; ///< how the camera stood then
 };
 
 /// What the view shows of the workbench.

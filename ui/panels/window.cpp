@@ -8,6 +8,7 @@
 #include "ui/widgets/splitter.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace millwright::panels {
@@ -29,6 +30,26 @@ constexpr float emergency_width = 184.0F;
 constexpr float seam = 2.0F;
 constexpr float smallest_view = 240.0F;
 
+bool is_wide(const actions::Session& session) {
+    return session.workspace == Workspace::program || session.workspace == Workspace::machine;
+}
+
+/// Something that could hold a jog is down.
+bool jog_may_be_held() {
+    using render::Key;
+    constexpr std::array keys{
+        Key::left, Key::right, Key::up, Key::down, Key::page_up, Key::page_down, Key::space};
+    return ImGui::GetIO().MouseDown[0] || std::ranges::any_of(keys, render::key_down);
+}
+
+/// A text field keeps the keys that mean something to it; Ctrl+A is the text's, too.
+bool pressed(const actions::Shortcut& keys, bool typing) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool is_texts = typing && keys.key < render::Key::f1;
+    return !is_texts && io.KeyCtrl == keys.ctrl && io.KeyShift == keys.shift && io.KeyAlt == keys.alt &&
+           render::key_pressed(keys.key);
+}
+
 } // namespace
 
 Window::Window(actions::Workshop& workshop)
@@ -42,7 +63,8 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float s = ui.px(seam);
     const float top = ui.px(menu_height);
     const float bottom = height - ui.px(status_height);
-    const float left = sizes.outline_shown ? ui.px(sizes.outline) : 0.0F;
+    const float wanted = is_wide(session) ? sizes.listing : sizes.outline;
+    const float left = sizes.outline_shown ? ui.px(wanted) : 0.0F;
     const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
     const float lower = sizes.lower_shown ? ui.px(sizes.lower) : 0.0F;
     const float emergency = ui.px(emergency_width);
@@ -63,14 +85,15 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     return result;
 }
 
-void Window::draw(Ui& ui, float width, float height) {
+void Window::draw(Ui& ui, float width, float height, bool focused) {
+    workshop_.watch_jog(jog_may_be_held(), focused);
     const Workbench now = workshop_.look();
     const Layout place = layout(ui, now.session, width, height);
     draw_panes(ui, now, place);
     draw_splitters(ui, now, place, width, height);
     draw_over(ui, now, width, height);
-    obey_shortcuts(now);
-    workshop_.perform(ask_);
+    obey_shortcuts(ui, now);
+    workshop_.perform(ask_, focused && !search_.is_open());
     for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
         toasts_.push(std::move(notice));
     }
@@ -86,8 +109,7 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
         draw_emergency_stop(ui, now);
     }
     if (place.outline.w > 0.0F) {
-        const auto pane = ui.pane("outline", place.outline, "Project");
-        outline_.draw(ui, now, ask_);
+        draw_left(ui, now, place.outline);
     }
     {
         const auto pane = ui.bare_pane("view", place.view);
@@ -122,11 +144,27 @@ void Window::draw_emergency_stop(Ui& ui, const Workbench& now) {
                           permission,
                           {stop.info().icon, widgets::Rank::danger, -1.0F, stop.info().tip});
     }
+    ui.keep_clear("emergency/machine_emergency_stop");
     const Rect button = ui.place("emergency/machine_emergency_stop").value_or(Rect{});
     const ImGuiIO& io = ImGui::GetIO();
     const bool hit = io.MouseClicked[0] && button.contains({io.MousePos.x, io.MousePos.y});
     if (asked || (hit && permission.allowed)) {
         ask_.run("machine.emergency_stop");
+    }
+}
+
+/// In the Program workspace the program itself, at the machine what moves it, else what the project is made
+/// of.
+void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
+    if (now.session.workspace == Workspace::program) {
+        const auto pane = ui.pane("program", place, "Program");
+        listing_.draw(ui, now, ask_);
+    } else if (now.session.workspace == Workspace::machine) {
+        const auto pane = ui.pane("hand", place, "By hand");
+        machine_.draw_left(ui, now, ask_);
+    } else {
+        const auto pane = ui.pane("outline", place, "Project");
+        outline_.draw(ui, now, ask_);
     }
 }
 
@@ -167,7 +205,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
         drag("outline",
              {place.outline.w, place.outline.y, s, place.outline.h},
              widgets::SizeOf::left,
-             &actions::PaneSizes::outline,
+             is_wide(now.session) ? &actions::PaneSizes::listing : &actions::PaneSizes::outline,
              140.0F,
              spare - place.inspector.w);
     }
@@ -211,25 +249,24 @@ void Window::draw_over(Ui& ui, const Workbench& now, float width, float height) 
     toasts_.draw(ui, "notices", {0.0F, 0.0F, width, height - ui.px(status_height)});
 }
 
-void Window::obey_shortcuts(const Workbench& now) {
-    const ImGuiIO& io = ImGui::GetIO();
+void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
     for (const auto& action : workshop_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
-        if (info.shortcut.empty() || (now.asks() && info.menu != "Machine")) {
+        if (now.asks() && info.menu != "Machine") {
             continue;
         }
-        const actions::Shortcut keys = actions::shortcut(info.shortcut);
-        const bool typing = io.WantTextInput && keys.key < render::Key::f1; // Ctrl+A is the text's, too
-        const bool modifiers = io.KeyCtrl == keys.ctrl && io.KeyShift == keys.shift && io.KeyAlt == keys.alt;
-        if (!typing && modifiers && render::key_pressed(keys.key) && action->permission(now).allowed) {
-            ask_.run(std::string(info.id));
+        for (const std::string_view text : {info.shortcut, info.second_shortcut}) {
+            if (!text.empty() && pressed(actions::shortcut(text), ui.was_typing()) &&
+                action->permission(now).allowed) {
+                ask_.run(std::string(info.id));
+            }
         }
     }
 }
 
 std::optional<double> Window::next_change() const {
     const auto& session = workshop_.look().session;
-    if (session.playback.playing) {
+    if (session.playback.playing || workshop_.jogging()) {
         return 0.0;
     }
     return std::nullopt;

@@ -6,6 +6,7 @@
 #include "ui/panels/design_panel.h"
 #include "ui/panels/dialogs.h"
 #include "ui/panels/grid_panel.h"
+#include "ui/panels/listing_panel.h"
 #include "ui/panels/lower_panel.h"
 #include "ui/panels/machine_panel.h"
 #include "ui/panels/menu_bar.h"
@@ -25,7 +26,8 @@ public:
 
     /// One frame of `width` x `height` pixels between Ui::begin_frame and end_frame: draws, then performs
     /// what was asked.
-    void draw(Ui& ui, float width, float height);
+    /// `focused`: the window has the keyboard.
+    void draw(Ui& ui, float width, float height, bool focused = true);
 
     /// Seconds until the picture changes by itself; empty: only when something happens.
     [[nodiscard]] std::optional<double> next_change() const;
@@ -38,15 +40,17 @@ private:
     layout(const Ui& ui, const actions::Session& session, float width, float height) const;
     void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
     void draw_emergency_stop(Ui& ui, const Workbench& now);
+    void draw_left(Ui& ui, const Workbench& now, const widgets::Rect& place);
     void draw_inspector(Ui& ui, const Workbench& now);
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
     void draw_over(Ui& ui, const Workbench& now, float width, float height);
-    void obey_shortcuts(const Workbench& now);
+    void obey_shortcuts(const Ui& ui, const Workbench& now);
 
     actions::Workshop& workshop_;
     ActionQueue ask_;
     MenuBar menu_bar_;
     OutlinePanel outline_;
+    ListingPanel listing_;
     DesignPanel design_;
     GridPanel grid_;
     ToolpathPanel toolpath_;

@@ -56,8 +56,8 @@ void VertexArray::attach(const Buffer& buffer, const Attribute& attribute) const
     glEnableVertexAttribArray(attribute.location);
     glVertexAttribPointer(attribute.location,
                           attribute.components,
-                          GL_FLOAT,
-                          GL_FALSE,
+                          attribute.values == Values::floats ? GL_FLOAT : GL_UNSIGNED_SHORT,
+                          attribute.values == Values::unit_16_bit ? GL_TRUE : GL_FALSE,
                           static_cast<GLsizei>(attribute.stride),
                           byte_offset(attribute.offset));
     glVertexAttribDivisor(attribute.location, attribute.per_instance ? 1 : 0);

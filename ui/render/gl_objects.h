@@ -68,7 +68,13 @@ private:
 
 class VertexArray {
 public:
-    /// One attribute: `components` floats at `offset` in every `stride` bytes. With `per_instance` it
+    /// How numbers lie in a buffer; the shader gets floats in any case.
+    enum class Values {
+        floats,
+        unit_16_bit, ///< 0 to 65535 become 0 to 1
+        whole_16_bit ///< 0 to 65535
+    };
+    /// One attribute: `components` values at `offset` in every `stride` bytes. With `per_instance` it
     /// advances once an instance, else once a vertex.
     struct Attribute {
         unsigned int location = 0;
@@ -76,6 +82,7 @@ public:
         std::ptrdiff_t stride = 0;
         std::ptrdiff_t offset = 0;
         bool per_instance = false;
+        Values values = Values::floats;
     };
 
     VertexArray();

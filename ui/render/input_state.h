@@ -18,6 +18,7 @@ struct InputState {
     bool ctrl = false, shift = false, alt = false;
     std::vector<Key> keys = {};   ///< held down
     std::string text = {};        ///< typed in this frame, UTF-8
+    bool focused = true;          ///< the window has the keyboard
     float seconds = 1.0F / 60.0F; ///< since the frame before; must be positive
 };
 

@@ -30,6 +30,13 @@ void Painter::lines(const LineBuffer& buffer, const LineStyle& style, const View
     line_.draw(buffer, style, view, maps_);
 }
 
+void Painter::path(const PathBuffer& buffer,
+                   std::span<const std::uint16_t> indices,
+                   const PathStyle& style,
+                   const View& view) const {
+    path_.draw(buffer, indices, style, view);
+}
+
 void Painter::points(const PointBuffer& buffer, const PointStyle& style, const View& view) const {
     point_.draw(buffer, style, view, maps_);
 }

@@ -5,6 +5,7 @@
 #include "ui/render/gl_objects.h"
 #include "ui/render/line_drawer.h"
 #include "ui/render/mesh_drawer.h"
+#include "ui/render/path_drawer.h"
 #include "ui/render/point_drawer.h"
 #include "ui/render/program.h"
 #include "ui/render/view.h"
@@ -22,6 +23,10 @@ public:
 
     void mesh(const MeshBuffer& buffer, const MeshStyle& style, const View& view) const;
     void lines(const LineBuffer& buffer, const LineStyle& style, const View& view) const;
+    void path(const PathBuffer& buffer,
+              std::span<const std::uint16_t> indices,
+              const PathStyle& style,
+              const View& view) const;
     void points(const PointBuffer& buffer, const PointStyle& style, const View& view) const;
 
 private:
@@ -30,6 +35,7 @@ private:
     Texture maps_;
     MeshDrawer mesh_;
     LineDrawer line_;
+    PathDrawer path_;
     PointDrawer point_;
 };
 

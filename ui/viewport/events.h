@@ -33,7 +33,12 @@ struct GoToMove {
     double fraction = 0.0; ///< of the move, where it was clicked, 0 to 1
 };
 
-using ViewEvent = std::variant<MoveControlPoints, SelectControlPoints, GoToMove>;
+/// The path of an opened program was clicked: the timeline is to go there.
+struct GoToPathPlace {
+    gcode::PathPlace place;
+};
+
+using ViewEvent = std::variant<MoveControlPoints, SelectControlPoints, GoToMove, GoToPathPlace>;
 
 /// What the mouse points at, in workpiece coordinates.
 struct UnderMouse {

@@ -2,6 +2,7 @@
 
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/navigation.h"
+#include "ui/viewport/program_picking.h"
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +19,8 @@ using Stage = MoveControlPoints::Stage;
 constexpr double handle_reach_px = 9.0;
 constexpr double move_reach_px = 6.0;
 constexpr double still_px = 4.0; // a click may move this far
+
+constexpr std::size_t quickly_looked_at = 100'000; // points of a path, in about 5 ms
 
 constexpr double hidden_share = 0.05; // of the surface's size: further behind it, a move cannot be pointed at
 
@@ -107,6 +110,12 @@ void Hand::point_at(const HandInput& input) {
     const Frame s_T_w = scene_from_workpiece(scene);
     const glm::dvec2 pixel = pixel_of(input.pointer);
     const double scale = input.view.content_scale;
+    if (scene.opened) {
+        const auto place =
+            pick_path(scene.opened->path, input.view, pixel, move_reach_px * scale, quickly_looked_at);
+        highlight_.path_point = place ? std::optional(place->point) : std::nullopt;
+        return;
+    }
     const auto hit = input.picker.hit(render::ray(input.view, pixel), s_T_w);
     if (hit) {
         under_mouse_.on_surface = hit->position;
@@ -132,7 +141,8 @@ void Hand::point_at(const HandInput& input) {
 
 void Hand::press(const HandInput& input) {
     pressed_ = Pressed{.pixel = pixel_of(input.pointer), .point = highlight_.point};
-    wants_fit_ = input.pointer.double_clicked && !highlight_.point && !highlight_.move;
+    wants_fit_ =
+        input.pointer.double_clicked && !highlight_.point && !highlight_.move && !highlight_.path_point;
 }
 
 void Hand::hold(const HandInput& input, std::vector<ViewEvent>& events) {
@@ -210,7 +220,13 @@ void Hand::release(const HandInput& input, std::vector<ViewEvent>& events) {
 
 void Hand::click(const HandInput& input, std::vector<ViewEvent>& events) const {
     const std::vector<ControlPointId>& selected = input.scene.selected;
-    if (pressed_->point) {
+    if (input.scene.opened) {
+        const auto place = pick_path(
+            input.scene.opened->path, input.view, pressed_->pixel, move_reach_px * input.view.content_scale);
+        if (place) {
+            events.emplace_back(GoToPathPlace{*place});
+        }
+    } else if (pressed_->point) {
         const ControlPointId point = *pressed_->point;
         events.emplace_back(SelectControlPoints{
             .points = input.pointer.ctrl ? toggled(selected, point) : std::vector<ControlPointId>{point}});

@@ -7,6 +7,7 @@
 #include "core/geometry/surface.h"
 #include "core/grid/improver.h"
 #include "core/project/evaluation.h"
+#include "core/project/opened_program.h"
 #include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
@@ -70,6 +71,17 @@ struct Moment {
     double fraction = 0.0; ///< of that move, 0 to 1
 };
 
+/// Where the motion of an opened program stands.
+struct ProgramMoment {
+    gcode::PathPlace place;
+    Vec3 tip = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ(); ///< from the tip towards the spindle
+    std::int64_t first = 0;    ///< points of the step: those from here ...
+    std::int64_t end = 0;      ///< ... to before here
+
+    friend bool operator==(const ProgramMoment&, const ProgramMoment&) = default;
+};
+
 /// How errors become colours.
 struct ErrorScale {
     render::ColorMap map = render::ColorMap::viridis;
@@ -90,6 +102,8 @@ struct Scene {
     std::shared_ptr<const grid::ImproverState>
         watched; ///< an adaptation on its way; drawn in place of the grid
     std::shared_ptr<const project::WeightMap> weight;
+    std::shared_ptr<const project::OpenedProgram> opened = nullptr; ///< in place of everything above
+    std::optional<ProgramMoment> opened_now = std::nullopt;
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     ErrorScale error;

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace millwright::viewport {
 
 namespace {
@@ -64,13 +66,19 @@ void SceneView::add_origin(const Scene& scene) {
 
 void SceneView::draw(const render::View& view,
                      const render::ViewColors& colors,
-                     const Highlight& highlight) const {
+                     const Highlight& highlight,
+                     render::Edges edges) const {
     Canvas canvas = canvas_for(painter_, view, colors, scene_, content_);
     canvas.highlight = highlight;
+    canvas.edges = edges;
     painter_.background(colors);
     for (const std::unique_ptr<Layer>& layer : layers_) {
         layer->draw(scene_, canvas);
     }
+}
+
+bool SceneView::unfinished() const {
+    return std::ranges::any_of(layers_, [](const auto& layer) { return layer->unfinished(); });
 }
 
 std::vector<Label> SceneView::labels(const render::View& view, const render::ViewColors& colors) const {

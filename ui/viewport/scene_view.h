@@ -2,6 +2,7 @@
 // after it and gone before it.
 #pragma once
 
+#include "ui/render/framebuffer.h"
 #include "ui/render/painter.h"
 #include "ui/viewport/scene.h"
 
@@ -20,6 +21,8 @@ class Layer;
 struct Highlight {
     std::optional<ControlPointId> point;
     std::optional<int> move;
+    std::optional<std::int64_t> path_point =
+        std::nullopt; ///< of an opened program: the piece that ends there
 
     friend bool operator==(const Highlight&, const Highlight&) = default;
 };
@@ -48,8 +51,15 @@ public:
     /// The same as points that lie on the content's outline, for a close fit.
     [[nodiscard]] const std::vector<glm::dvec3>& outline() const { return outline_; }
 
-    /// Background and layers of the scene last updated, into the bound framebuffer.
-    void draw(const render::View& view, const render::ViewColors& colors, const Highlight& highlight) const;
+    /// Background and layers of the scene last updated, into the bound framebuffer. With rough edges quick
+    /// rather than complete where there is very much to draw.
+    void draw(const render::View& view,
+              const render::ViewColors& colors,
+              const Highlight& highlight,
+              render::Edges edges = render::Edges::smooth) const;
+
+    /// There was more to bring to the graphics processor than one frame has time for: update() again.
+    [[nodiscard]] bool unfinished() const;
 
     [[nodiscard]] std::vector<Label> labels(const render::View& view, const render::ViewColors& colors) const;
 

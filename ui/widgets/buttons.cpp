@@ -76,6 +76,23 @@ bool Ui::button(std::string_view id,
     return now.clicked;
 }
 
+HeldButton Ui::hold_button(std::string_view id,
+                           std::string_view label,
+                           const Permission& permission,
+                           const ButtonLook& look) {
+    const bool natural = !(look.width > 0.0F) && !(look.width < 0.0F);
+    const Slot slot(*this, natural ? natural_width(*this, label, look) : look.width, px(gaps::row));
+    const Press now = press(*this, path(id), slot.rect(), permission, look.tip);
+    const Paint with = paint(colours(), look.rank, now);
+    fill(slot.rect(), with.ground, px(gaps::rounding));
+    draw_caption(*this, slot.rect(), with.text, look.icon, label, look.rank);
+    double& before = state().memory[path(id) + "@held"];
+    const bool held = now.enabled && now.held && (now.hovered || now.focused);
+    const bool was = before > 0.5;
+    before = held ? 1.0 : 0.0;
+    return {held, held && !was};
+}
+
 bool Ui::icon_button(std::string_view id,
                      std::string_view icon,
                      std::string_view tip,

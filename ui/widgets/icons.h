@@ -12,6 +12,7 @@ inline constexpr const char* cancel = "\uf00d";
 inline constexpr const char* check = "\uf00c";
 inline constexpr const char* chevron_down = "\uf078";
 inline constexpr const char* chevron_right = "\uf054";
+inline constexpr const char* chevron_up = "\uf077";
 inline constexpr const char* copy = "\uf0c5";
 inline constexpr const char* danger = "\uf06a";
 inline constexpr const char* design = "\uf040";
@@ -64,12 +65,12 @@ inline constexpr const char* warning = "\uf071";
 
 /// What load_fonts takes from the icon font; an icon that is not here is drawn as a question mark.
 inline constexpr std::array all{
-    add,     arm,      back,       cancel,    check,     chevron_down, chevron_right, copy,
-    danger,  design,   download,   error_map, eye,       eye_off,      file,          fit_view,
-    folder,  forward,  grid,       help,      hold,      home,         info,          keyboard,
-    layers,  lock,     machine,    menu,      minus,     moon,         pause,         play,
-    plot,    plug,     processor,  program,   redo,      remove,       reset,         save,
-    search,  settings, skip_first, skip_last, step_back, step_forward, stop,          sun,
-    surface, table,    timer,      toolpath,  undo,      unlock,       warning};
+    add,      arm,     back,     cancel,     check,     chevron_down, chevron_right, chevron_up,
+    copy,     danger,  design,   download,   error_map, eye,          eye_off,       file,
+    fit_view, folder,  forward,  grid,       help,      hold,         home,          info,
+    keyboard, layers,  lock,     machine,    menu,      minus,        moon,          pause,
+    play,     plot,    plug,     processor,  program,   redo,         remove,        reset,
+    save,     search,  settings, skip_first, skip_last, step_back,    step_forward,  stop,
+    sun,      surface, table,    timer,      toolpath,  undo,         unlock,        warning};
 
 } // namespace millwright::widgets::icons

@@ -1,92 +1,125 @@
 #include "ui/widgets/listing.h"
 
 #include "core/base/error.h"
+#include "core/base/text_search.h"
+#include "ui/widgets/gcode_tokens.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/rows.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace millwright::widgets {
 
 namespace {
 
-Colour word_colour(const Palette& colours, std::string_view word) {
-    switch (word.front()) {
-    case '(':
-    case ';':
-    case '%':
-    case 'N':
+Colour colour_of(const Palette& colours, CodeKind kind) {
+    switch (kind) {
+    case CodeKind::blank:
+    case CodeKind::comment:
+    case CodeKind::line_number:
         return colours.muted;
-    case 'G':
-    case 'M':
+    case CodeKind::g_word:
+    case CodeKind::m_word:
         return colours.accent;
-    case 'F':
-    case 'S':
-    case 'T':
+    case CodeKind::parameter:
         return colours.warning;
-    default:
-        return colours.text;
+    case CodeKind::o_word:
+    case CodeKind::expression:
+        return colours.good;
+    case CodeKind::axis_word:
+    case CodeKind::other:
+        break;
+    }
+    return colours.text;
+}
+
+/// Where the `count` first characters of a line end, in a font whose characters have one width.
+float x_after(const Ui& ui, float x, std::string_view text, std::size_t count) {
+    return x + text_width(ui.look().fonts.mono, text.substr(0, std::min(count, text.size())));
+}
+
+void mark_found(const Ui& ui, const Rect& place, std::string_view text, std::string_view wanted) {
+    if (wanted.empty()) {
+        return;
+    }
+    const TextPattern pattern(wanted);
+    for (auto at = pattern.next(text, 0); at; at = pattern.next(text, *at + wanted.size())) {
+        const float from = x_after(ui, place.x, text, *at);
+        const float to = x_after(ui, place.x, text, *at + wanted.size());
+        fill({from, place.y + 1.0F, to - from, place.h - 2.0F},
+             faded(ui.colours().warning, 0.35),
+             ui.px(2.0F));
     }
 }
 
-/// The next word with the blanks before it; a comment is one word.
-std::pair<std::string_view, std::string_view> split_word(std::string_view text) {
-    const std::size_t start = text.find_first_not_of(' ');
-    if (start == std::string_view::npos) {
-        return {text, {}};
-    }
-    const char head = text[start];
-    std::size_t end = std::string_view::npos;
-    if (head == '(') {
-        end = text.find(')', start);
-        end = end == std::string_view::npos ? end : end + 1;
-    } else if (head != ';') {
-        end = text.find_first_of(" (;", start + 1);
-    }
-    end = std::min(end, text.size());
-    return {text.substr(0, end), text.substr(end)};
+void underline(const Ui& ui, const Rect& place, std::string_view text, const LineFault& fault) {
+    const auto first = static_cast<std::size_t>(std::max(fault.column - 1, 0));
+    const std::size_t begin = first < text.size() ? first : 0;
+    const std::size_t length =
+        fault.column > 0 ? std::max<std::size_t>(first_token(text.substr(begin)).length, 1) : text.size();
+    const float from = x_after(ui, place.x, text, begin);
+    const float to = std::max(x_after(ui, place.x, text, begin + length), from + ui.px(6.0F));
+    fill({from, place.bottom() - ui.px(3.0F), to - from, ui.px(2.0F)}, ui.colours().danger);
 }
 
-void draw_code(const Ui& ui, const Rect& place, std::string_view text) {
+void draw_code(const Ui& ui, const Rect& place, std::string_view text, bool coloured) {
     const ImFont* font = ui.look().fonts.mono;
     float x = place.x;
     const float y = std::round(place.y + 0.5F * (place.h - font->FontSize));
     while (!text.empty() && x < place.right()) {
-        const auto [word, others] = split_word(text);
-        const std::size_t start = std::min(word.find_first_not_of(' '), word.size() - 1);
-        const Colour colour = word_colour(ui.colours(), word.substr(start));
+        const CodeToken token = first_token(text);
+        const std::string_view word = text.substr(0, token.length);
+        const Colour colour = coloured ? colour_of(ui.colours(), token.kind) : ui.colours().text;
         ImGui::GetWindowDrawList()->AddText(
             font, font->FontSize, {std::round(x), y}, colour, word.data(), word.data() + word.size());
         x += text_width(font, word);
-        text = others;
+        text.remove_prefix(token.length);
     }
 }
 
-void follow_current(Ui& ui, const std::string& path, const ListingView& view, float rows_in_sight) {
-    const auto [shown, is_new] = ui.state().memory.try_emplace(path + "@current", -1.0);
-    const auto current = static_cast<double>(view.current);
-    if (view.current >= 0 && std::abs(shown->second - current) > 0.5) {
-        bring_into_sight(ui, path, view.current, rows_in_sight);
+/// Brings `line` into sight when it is another one than in the last frame.
+void follow(
+    Ui& ui, const std::string& path, std::string_view what, std::ptrdiff_t line, float rows_in_sight) {
+    const auto [shown, is_new] = ui.state().memory.try_emplace(path + "@" + std::string(what), -1.0);
+    const auto wanted = static_cast<double>(line);
+    if (line >= 0 && std::abs(shown->second - wanted) > 0.5) {
+        bring_into_sight(ui, path, line, rows_in_sight);
     }
-    shown->second = current;
+    shown->second = wanted;
 }
 
-void draw_line(
-    Ui& ui, const Rect& row, float gutter, const ListingView& view, std::ptrdiff_t index, bool hovered) {
+void draw_line(Ui& ui,
+               const std::string& path,
+               const Rect& row,
+               float gutter,
+               const ListingView& view,
+               std::ptrdiff_t index,
+               bool hovered) {
     const Palette& colours = ui.colours();
     if (index == view.current) {
         fill(row, colours.selection);
     } else if (hovered) {
         fill(row, faded(colours.hover, 0.6));
     }
-    const Colour mark = view.mark ? view.mark(index) : 0;
+    const auto fault = view.fault ? view.fault(index) : std::nullopt;
+    const Colour mark = fault ? colours.danger : view.mark ? view.mark(index) : 0;
     fill({row.x, row.y, ui.px(3.0F), row.h}, mark);
-    const Rect number{row.x + ui.px(6.0F), row.y, gutter - ui.px(14.0F), row.h};
-    const Colour number_colour = index == view.current ? colours.text : faded(colours.muted, 0.75);
-    draw_text(ui, ui.look().fonts.mono, number, number_colour, std::to_string(index + 1), Align::right);
-    draw_code(ui, {row.x + gutter, row.y, row.w - gutter, row.h}, view.line(index));
+    if (view.numbers) {
+        const Rect number{row.x + ui.px(6.0F), row.y, gutter - ui.px(14.0F), row.h};
+        const Colour colour = index == view.current ? colours.text : faded(colours.muted, 0.75);
+        draw_text(ui, ui.look().fonts.mono, number, colour, std::to_string(index + 1), Align::right);
+    }
+    const std::string text = view.line(index);
+    const Rect code{row.x + gutter, row.y, row.w - gutter, row.h};
+    mark_found(ui, code, text, view.found);
+    draw_code(ui, code, text, view.coloured);
+    if (fault) {
+        underline(ui, code, text, *fault);
+        if (hovered) {
+            offer_tip(ui, path + "/fault", row, fault->message);
+        }
+    }
 }
 
 } // namespace
@@ -103,7 +136,8 @@ std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const Listing
     if (view.lines == 0) {
         return std::nullopt;
     }
-    follow_current(ui, own, view, box.h / row_height);
+    follow(ui, own, "current", view.current, box.h / row_height);
+    follow(ui, own, "wanted", view.wanted, box.h / row_height);
     const Rows rows(ui, own, box, view.lines, row_height);
     const Rect inside{box.x, box.y, rows.row(0).w, box.h};
     const Press now = press(ui, own + "/lines", inside);
@@ -111,12 +145,13 @@ std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const Listing
         keep_wheel();
     }
     const float digits = text_width(ui.look().fonts.mono, std::to_string(view.lines));
+    const float gutter = view.numbers ? digits + ui.px(20.0F) : ui.px(10.0F);
     std::optional<std::ptrdiff_t> clicked;
     for (std::ptrdiff_t i = rows.first(); i < rows.end(); ++i) {
         const Rect row = rows.row(i);
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         const bool hovered = now.hovered && row.contains({mouse.x, mouse.y});
-        draw_line(ui, row, digits + ui.px(20.0F), view, i, hovered);
+        draw_line(ui, own, row, gutter, view, i, hovered);
         clicked = now.clicked && hovered ? std::optional(i) : clicked;
     }
     return clicked;

@@ -11,12 +11,23 @@
 
 namespace millwright::widgets {
 
+/// What is wrong with a line.
+struct LineFault {
+    int column = 0; ///< from 1; 0: with all of it
+    std::string_view message;
+};
+
 struct ListingView {
     std::ptrdiff_t lines = 0;
     std::function<std::string(std::ptrdiff_t)> line = {}; ///< asked for the lines in sight only, from 0
     std::ptrdiff_t current = -1;                          ///< brought into sight when it changes
     std::function<Colour(std::ptrdiff_t)> mark = {}; ///< of the bar beside a line, such as its error; 0: none
-    float height = 0.0F;                             ///< 0: all that is left
+    std::function<std::optional<LineFault>(std::ptrdiff_t)> fault = {}; ///< underlined; its tip says why
+    std::string_view found = {}; ///< marked wherever it stands in a line; small and capital letters are one
+    bool numbers = true;         ///< of the lines, at the left
+    bool coloured = true;        ///< as G-code; else plain text
+    std::ptrdiff_t wanted = -1;  ///< brought into sight when it changes
+    float height = 0.0F;         ///< 0: all that is left
 };
 
 /// The line just clicked, counted from 0. G-code words, comments and line numbers are told apart by colour.

@@ -1,6 +1,10 @@
 #include "ui/widgets/internal/edit.h"
 #include "ui/widgets/ui.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace millwright::widgets {
 
 namespace {
@@ -11,6 +15,15 @@ std::optional<std::string> text_row(Ui& ui, std::string_view label, EditBox box)
     box.rect = labelled(ui, box.path, slot.rect(), label, box.tip, enabled);
     const auto committed = edit_box(ui, box);
     return committed && *committed != box.shown ? committed : std::nullopt;
+}
+
+/// The line before `text` in time, or after it; behind the newest an empty one.
+std::string line_of_history(const std::vector<std::string>& lines, std::string_view text, double steps) {
+    const auto at = std::find(lines.begin(), lines.end(), text);
+    if (steps > 0.0) {
+        return at == lines.begin() ? std::string(text) : *(at - 1);
+    }
+    return at == lines.end() || at + 1 == lines.end() ? std::string() : *(at + 1);
 }
 
 } // namespace
@@ -27,6 +40,23 @@ std::optional<std::string> Ui::text_field(std::string_view id,
     box.font = look_.fonts.text;
     box.permission = permission;
     box.refusal = [](std::string_view) { return std::string(); };
+    return text_row(*this, label, box);
+}
+
+std::optional<std::string> Ui::command_line(std::string_view id,
+                                            std::string_view label,
+                                            std::span<const std::string> history,
+                                            std::string_view tip,
+                                            const Permission& permission) {
+    EditBox box;
+    box.path = path(id);
+    box.tip = tip;
+    box.font = look_.fonts.mono;
+    box.permission = permission;
+    box.enter_only = true;
+    box.refusal = [](std::string_view) { return std::string(); };
+    box.stepped = [lines = std::vector<std::string>(history.begin(), history.end())](
+                      std::string_view text, double steps) { return line_of_history(lines, text, steps); };
     return text_row(*this, label, box);
 }
 

@@ -84,7 +84,7 @@ void where(Ui& ui, const TimelineView& view) {
     const ImFont* font = ui.look().fonts.text;
     const std::string block = fmt::format("{} / {}", view.block, view.blocks);
     const std::string widest = fmt::format("{} / {}", view.blocks, view.blocks);
-    constexpr std::string_view caption = "Block  ";
+    const std::string caption = std::string(view.what) + "  ";
     const float width = text_width(font, caption) + text_width(font, widest) + ui.px(18.0F);
     fixed_words(ui, caption, block, width);
     ui.beside();

@@ -21,7 +21,8 @@ struct TimelineSeries {
 struct TimelineView {
     double fraction = 0.0; ///< of the path length, 0 to 1
     bool is_playing = false;
-    double speed = 1.0; ///< times real time; one of the speeds offered, else shown as it is
+    double speed = 1.0;              ///< times real time; one of the speeds offered, else shown as it is
+    std::string_view what = "Block"; ///< that is counted
     std::ptrdiff_t block = 0;
     std::ptrdiff_t blocks = 0;
     double time_s = 0.0;

@@ -16,29 +16,81 @@ namespace {
 constexpr double tip_after = 0.45; // s that the mouse rests before its tip appears
 constexpr float tip_width_px = 320.0F;
 
-/// A box over everything else that takes no input, its upper left corner near `at`, kept inside the window.
-void draw_box(const Ui& ui, Point at, Colour border, Colour colour, std::string_view text) {
+struct Note {
+    Rect widget; ///< that it belongs to
+    std::string_view text;
+    Colour border = 0;
+    Colour colour = 0;
+};
+
+float shared_area(const Rect& a, const Rect& b) {
+    const float w = std::min(a.right(), b.right()) - std::max(a.x, b.x);
+    const float h = std::min(a.bottom(), b.bottom()) - std::max(a.y, b.y);
+    return w > 0.0F && h > 0.0F ? w * h : 0.0F;
+}
+
+bool holds(const Rect& outer, const Rect& inner) {
+    return outer.x <= inner.x && outer.y <= inner.y && outer.right() >= inner.right() &&
+           outer.bottom() >= inner.bottom();
+}
+
+/// How much a box there would be in the way: each widget under it counts, and much more one to be kept clear.
+float obstruction(const Ui& ui, const Ui::State& state, const Rect& box, const Rect& own) {
+    constexpr float never = 1000.0F;
+    float sum = 0.0F;
+    for (const auto& [path, seen] : ui.places().all()) {
+        if (seen.visible && seen.enabled && !holds(seen.rect, own) && shared_area(box, seen.rect) > 0.0F) {
+            sum += 1.0F;
+        }
+    }
+    for (const std::string& path : state.kept_clear) {
+        const auto place = ui.place(path);
+        sum += place && shared_area(box, *place) > 0.0F ? never : 0.0F;
+    }
+    return sum;
+}
+
+/// Below the widget; if that hides others, above or beside it, wherever it hides least.
+Rect box_place(const Ui& ui, const Ui::State& state, const Rect& own, float w, float h) {
+    const float gap = ui.px(4.0F);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const std::array<Point, 4> corners{{{own.x, own.bottom() + gap},
+                                        {own.x, own.y - gap - h},
+                                        {own.x - gap - w, own.y},
+                                        {own.right() + gap, own.y}}};
+    Rect best;
+    float least = -1.0F;
+    for (const Point& corner : corners) {
+        const Rect box{std::clamp(corner.x, 0.0F, std::max(0.0F, display.x - w)),
+                       std::clamp(corner.y, 0.0F, std::max(0.0F, display.y - h)),
+                       w,
+                       h};
+        const bool over_own = shared_area(box, own) > 0.0F;
+        const float hidden = obstruction(ui, state, box, own) + (over_own ? 100.0F : 0.0F);
+        if (least < 0.0F || hidden < least) {
+            least = hidden;
+            best = box;
+        }
+    }
+    return best;
+}
+
+/// A box over everything else that takes no input; where it was drawn.
+Rect draw_box(const Ui& ui, const Ui::State& state, const Note& note) {
     const ImFont* font = ui.look().fonts.text;
     const float wrap = ui.px(tip_width_px);
-    const ImVec2 size =
-        font->CalcTextSizeA(font->FontSize, 1e9F, wrap, text.data(), text.data() + text.size());
+    const char* begin = note.text.data();
+    const char* end = begin + note.text.size();
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9F, wrap, begin, end);
     const float pad = ui.px(8.0F);
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const Rect box{std::clamp(at.x, 0.0F, std::max(0.0F, display.x - size.x - 2.0F * pad)),
-                   std::clamp(at.y, 0.0F, std::max(0.0F, display.y - size.y - 2.0F * pad)),
-                   size.x + 2.0F * pad,
-                   size.y + 2.0F * pad};
+    const Rect box = box_place(ui, state, note.widget, size.x + 2.0F * pad, size.y + 2.0F * pad);
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     const float round = ui.px(gaps::rounding);
     list.AddRectFilled(upper_left(box), lower_right(box), ui.colours().raised, round);
-    list.AddRect(upper_left(box), lower_right(box), border, round);
-    list.AddText(font,
-                 font->FontSize,
-                 {std::round(box.x + pad), std::round(box.y + pad)},
-                 colour,
-                 text.data(),
-                 text.data() + text.size(),
-                 wrap);
+    list.AddRect(upper_left(box), lower_right(box), note.border, round);
+    const ImVec2 at{std::round(box.x + pad), std::round(box.y + pad)};
+    list.AddText(font, font->FontSize, at, note.colour, begin, end, wrap);
+    return box;
 }
 
 } // namespace
@@ -60,6 +112,8 @@ void Ui::begin_frame() {
     state_->places.clear();
     state_->under_mouse_before = std::exchange(state_->under_mouse, {});
     state_->hints.clear();
+    state_->kept_clear.clear();
+    state_->typing_at_begin = text_field_active();
     state_->cut_texts.clear();
     state_->cells.clear();
     state_->widths.clear();
@@ -73,18 +127,13 @@ void Ui::end_frame() {
     if (tip.frame == ImGui::GetFrameCount() && (tip.at_once || !ImGui::IsAnyMouseDown())) {
         const double rested = tip.at_once ? tip_after : ImGui::GetTime() - tip.since;
         if (rested >= tip_after) {
-            draw_box(
-                *this, {tip.rect.x, tip.rect.bottom() + px(4.0F)}, colours().line, colours().text, tip.text);
+            record("tip", draw_box(*this, *state_, {tip.rect, tip.text, colours().line, colours().text}));
         } else {
             change_in(tip_after - rested);
         }
     }
     for (const State::Hint& hint : state_->hints) {
-        draw_box(*this,
-                 {hint.rect.x, hint.rect.bottom() + px(3.0F)},
-                 colours().danger,
-                 colours().danger,
-                 hint.reason);
+        (void)draw_box(*this, *state_, {hint.rect, hint.reason, colours().danger, colours().danger});
     }
 }
 
@@ -102,6 +151,14 @@ void Ui::change_in(double seconds) {
 
 bool Ui::is_typing() const {
     return ImGui::GetIO().WantTextInput;
+}
+
+bool Ui::was_typing() const {
+    return state_->typing_at_begin || text_field_active();
+}
+
+void Ui::keep_clear(std::string_view path) {
+    state_->kept_clear.emplace_back(path);
 }
 
 bool Ui::escape_pressed() const {

@@ -66,6 +66,12 @@ struct ButtonLook {
     std::string_view tip = {};
 };
 
+/// A button that does something for as long as it is held.
+struct HeldButton {
+    bool held = false;    ///< the mouse is down on it and still over it, or the space bar
+    bool pressed = false; ///< went down in this frame
+};
+
 /// "" if the text may be committed, else the sentence that says what is wrong with it.
 using TextCheck = std::function<std::string(std::string_view)>;
 
@@ -98,6 +104,8 @@ public:
     /// For what is not drawn by this class, such as handles in the 3D view. Throws Defect on a path used
     /// twice.
     void record(std::string_view id, const Rect& rect, bool enabled = true, std::string reason = {});
+    /// Neither tips nor reasons of refusals lie over that widget in this frame.
+    void keep_clear(std::string_view path);
     [[nodiscard]] std::optional<Rect> place(std::string_view path) const;
     [[nodiscard]] const Places& places() const;
     /// What did not fit its place in this frame and ends in an ellipsis: for the tests of the layout.
@@ -106,6 +114,9 @@ public:
     // ---- the keyboard
     /// A text field has it: letters are not shortcuts now.
     [[nodiscard]] bool is_typing() const;
+    /// A text field had the keyboard when the frame began, or has it now: a key that went down in this frame
+    /// was meant for it.
+    [[nodiscard]] bool was_typing() const;
     [[nodiscard]] bool escape_pressed() const;
     [[nodiscard]] bool enter_pressed() const;
     /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
@@ -154,6 +165,10 @@ public:
                 std::string_view label,
                 const Permission& permission = {},
                 const ButtonLook& look = {});
+    HeldButton hold_button(std::string_view id,
+                           std::string_view label,
+                           const Permission& permission = {},
+                           const ButtonLook& look = {});
     /// A square button; `chosen` draws it pressed. The tip is its only label, so it must not be empty.
     bool icon_button(std::string_view id,
                      std::string_view icon,
@@ -213,6 +228,13 @@ public:
                                           std::string_view value,
                                           std::string_view tip = {},
                                           const Permission& permission = {});
+    /// A line to be sent: Enter answers it and empties the field, leaving the field sends nothing. The arrow
+    /// keys bring back the lines of `history`, oldest first.
+    std::optional<std::string> command_line(std::string_view id,
+                                            std::string_view label,
+                                            std::span<const std::string> history,
+                                            std::string_view tip = {},
+                                            const Permission& permission = {});
     /// In the mono font; refused text stays in the field with its reason below until it is right or Esc.
     std::optional<std::string> expression(std::string_view id,
                                           std::string_view label,

@@ -1,5 +1,7 @@
-// Comments that every RS-274 reader takes for comments.
+// Comments that every reader takes for comments.
 #pragma once
+
+#include "core/gcode/posts/post_format.h"
 
 #include <string>
 #include <string_view>
@@ -7,8 +9,9 @@
 
 namespace millwright::gcode::internal {
 
-/// `text` as one or more lines `(...)`: printable ASCII only, brackets for parentheses, at most 100 columns,
-/// and never one of LinuxCNC's comments that do something (MSG, DEBUG, LOG ...).
-[[nodiscard]] std::vector<std::string> comment_lines(std::string_view text);
+/// `text` as one or more lines, open and close around it: printable ASCII only, brackets for parentheses,
+/// nothing that is forbidden, no line longer than allowed, and never one of LinuxCNC's comments that do
+/// something (MSG, DEBUG, LOG ...).
+[[nodiscard]] std::vector<std::string> comment_lines(std::string_view text, const CommentFormat& format = {});
 
 } // namespace millwright::gcode::internal

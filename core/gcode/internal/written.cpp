@@ -43,30 +43,30 @@ bool inside(const MachineAxis& axis, double position) {
                 "move the part on the table, or lower the clearances of the program");
 }
 
-double rounded(const MachineAxis& axis, double position, int decimals) {
-    const double scale = std::pow(10.0, decimals);
-    const double steps = std::round(for_people(axis, position) * scale);
-    const double nearest = from_people(axis, steps / scale);
+double rounded(const MachineAxis& axis, double position, const WrittenDigits& digits) {
+    const bool rotary = axis.kind == AxisKind::rotary;
+    const double unit = rotary ? 1.0 : digits.length_unit;
+    const double scale = std::pow(10.0, rotary ? digits.angle_decimals : digits.length_decimals);
+    const double steps = std::round(for_people(axis, position) / unit * scale);
+    const auto at = [&](double count) { return from_people(axis, count / scale * unit); };
+    const double nearest = at(steps);
     if (nearest > axis.max) {
-        return from_people(axis, (steps - 1.0) / scale);
+        return at(steps - 1.0);
     }
-    return nearest < axis.min ? from_people(axis, (steps + 1.0) / scale) : nearest;
+    return nearest < axis.min ? at(steps + 1.0) : nearest;
 }
 
 } // namespace
 
-AxisPositions written(const MachineModel& machine,
-                      const AxisPositions& positions,
-                      const ProgramSettings& settings,
-                      int block) {
+AxisPositions
+written(const MachineModel& machine, const AxisPositions& positions, const WrittenDigits& digits, int block) {
     AxisPositions result = positions;
     for (int n = 0; n < machine.axis_count(); ++n) {
         const MachineAxis& axis = machine.axis(n);
         if (!inside(axis, positions[n])) {
             outside(axis, positions[n], block);
         }
-        const bool rotary = axis.kind == AxisKind::rotary;
-        result[n] = rounded(axis, positions[n], rotary ? settings.angle_decimals : settings.length_decimals);
+        result[n] = rounded(axis, positions[n], digits);
     }
     return result;
 }

@@ -7,12 +7,23 @@
 
 namespace millwright::gcode::internal {
 
+/// The digits that are written.
+struct WrittenDigits {
+    int length_decimals = 4;
+    int angle_decimals = 4;   ///< of degrees
+    double length_unit = 1.0; ///< mm
+};
+
 /// Rounded to the nearest written value, towards the inside where that would just leave a limit. Throws Error
 /// naming `block`, axis, value and range where `positions` itself lies outside.
 [[nodiscard]] kinematics::AxisPositions written(const kinematics::MachineModel& machine,
                                                 const kinematics::AxisPositions& positions,
-                                                const ProgramSettings& settings,
+                                                const WrittenDigits& digits,
                                                 int block);
+
+[[nodiscard]] inline WrittenDigits digits_of(const ProgramSettings& settings) {
+    return {settings.length_decimals, settings.angle_decimals, 1.0};
+}
 
 /// True if every axis is inside its limits (touching counts as inside).
 [[nodiscard]] bool inside_limits(const kinematics::MachineModel& machine,

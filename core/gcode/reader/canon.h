@@ -84,6 +84,7 @@ enum class CommandKind : std::uint8_t {
     orient_spindle,         ///< value: degrees; index: direction, 0 shortest way, 1 clockwise, 2 counter
     wait_spindle_orient,    ///< value: s
     use_tool_length_offset, ///< axes
+    control_tip,            ///< index: 1 from here on X Y Z are the tool's tip on the part, 0 no more
     select_tool,            ///< index: tool number
     start_change,
     change_tool,          ///< index: row in the tool table

@@ -33,7 +33,7 @@ struct Word {
 };
 
 // In the order of CommandKind.
-constexpr std::array<Word, 58> words{{
+constexpr std::array<Word, 59> words{{
     {CommandKind::use_length_units, "USE_LENGTH_UNITS", Form::own},
     {CommandKind::set_g5x_offset, "SET_G5X_OFFSET", Form::indexed_axes},
     {CommandKind::set_g92_offset, "SET_G92_OFFSET", Form::axes},
@@ -55,6 +55,7 @@ constexpr std::array<Word, 58> words{{
     {CommandKind::orient_spindle, "ORIENT_SPINDLE", Form::own},
     {CommandKind::wait_spindle_orient, "SPINDLE.0.WAIT_ORIENT_COMPLETE", Form::value},
     {CommandKind::use_tool_length_offset, "USE_TOOL_LENGTH_OFFSET", Form::own},
+    {CommandKind::control_tip, "CONTROL_TIP", Form::index}, // rs274 has none
     {CommandKind::select_tool, "SELECT_TOOL", Form::index},
     {CommandKind::start_change, "START_CHANGE", Form::plain},
     {CommandKind::change_tool, "CHANGE_TOOL", Form::index},

@@ -9,7 +9,8 @@ namespace millwright::gcode {
 
 enum class Dialect : std::uint8_t {
     linuxcnc, ///< RS-274/NGC as LinuxCNC 2.9 reads it
-    grbl      ///< the subset of Grbl 1.1, with its own refusals
+    grbl,     ///< the subset of Grbl 1.1, with its own refusals
+    fanuc     ///< LinuxCNC's rules with G43.4 and dwells in ms: for what is written for Fanuc's controls
 };
 
 /// "linuxcnc" or "grbl".

@@ -278,7 +278,7 @@ Interpreter::Interpreter(std::string_view text,
                          ReaderSettings settings,
                          CanonSink& sink)
     : parts_(std::make_unique<Parts>(std::make_unique<LineSource>(text, std::move(name)),
-                                     settings.subroutine_folders,
+                                     std::vector(settings.subroutine_folders), // before they move away
                                      std::move(settings),
                                      sink)) {}
 

@@ -1,13 +1,14 @@
 #include "core/gcode/reader/machine_program.h"
 
-#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
+#include "core/gcode/reader/internal/programmed_feed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -16,48 +17,27 @@
 
 namespace millwright::gcode {
 
+using internal::linear_distance;
+using internal::same_place;
+
 namespace {
 
-constexpr double seconds_a_minute = 60.0;
-constexpr double same_place = 1e-9; // mm or degrees: rounding of offsets
-
-double distance(const AxisValues& a, const AxisValues& b, std::initializer_list<Axis> axes) {
-    double sum = 0.0;
-    for (const Axis axis : axes) {
-        sum += square(b[axis] - a[axis]);
+/// The axes of the machine that have a word in `line`. What stands in comments, brackets and names is none.
+AxisSet axes_with_words(std::string_view line, const kinematics::MachineModel& machine) {
+    AxisSet set;
+    int depth = 0;
+    for (const char c : line) {
+        if (c == ';') {
+            break;
+        }
+        depth += c == '(' || c == '[' || c == '<' ? 1 : c == ')' || c == ']' || c == '>' ? -1 : 0;
+        const int axis = machine.axis_index(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
+        if (depth == 0 && axis >= 0) {
+            set.insert(axis);
+        }
     }
-    return std::sqrt(sum);
+    return set;
 }
-
-double linear_distance(const AxisValues& a, const AxisValues& b) {
-    return distance(a, b, {Axis::x, Axis::y, Axis::z});
-}
-
-/// The feeds in force, as programmed.
-struct Feed {
-    double rate = 0.0;         ///< mm a minute
-    double angular_rate = 0.0; ///< degrees a minute
-    double a_revolution = 0.0; ///< mm; > 0: the spindle leads
-    double rpm = 0.0;
-
-    /// s; nothing without a feed.
-    [[nodiscard]] std::optional<double> duration(const AxisValues& from, const AxisValues& to) const {
-        double way = linear_distance(from, to);
-        if (way <= same_place) {
-            way = distance(from, to, {Axis::u, Axis::v, Axis::w});
-        }
-        const bool is_angular = way <= same_place;
-        if (is_angular) {
-            way = distance(from, to, {Axis::a, Axis::b, Axis::c});
-        }
-        if (way <= same_place) {
-            return 0.0;
-        }
-        const double led = a_revolution > 0.0 ? a_revolution * rpm : rate;
-        const double speed = is_angular ? angular_rate : led;
-        return speed > 0.0 ? std::optional(way / speed * seconds_a_minute) : std::nullopt;
-    }
-};
 
 } // namespace
 
@@ -82,7 +62,8 @@ public:
         }
     }
 
-    void move(const Move& move) {
+    void move(const Move& move, const SourceLine& now) {
+        worded_ = now.place == move.source ? axes_with_words(now.text, machine_) : AxisSet();
         const AxisValues start = frame_.from_machine(at_);
         switch (move.kind) {
         case MoveKind::traverse:
@@ -101,6 +82,7 @@ public:
     }
 
     void curve(const Curve& curve) {
+        worded_ = {};
         const AxisValues start = frame_.from_machine(at_);
         internal::curve_chords(start, curve, tolerance(), [&](const AxisValues& end) {
             go(BlockKind::feed, end, curve.source);
@@ -109,7 +91,7 @@ public:
 
     void command(const Command& command) {
         frame_.command(command);
-        set_feed(command);
+        feed_.command(command, frame_.unit());
         switch (command.kind) {
         case CommandKind::set_motion_control_mode:
             path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
@@ -118,13 +100,13 @@ public:
             add(BlockKind::dwell, command.source).duration = command.value;
             break;
         case CommandKind::set_spindle_speed:
-            feed_.rpm = command.value;
+            rpm_ = command.value;
             break;
         case CommandKind::start_spindle_clockwise:
-            add(BlockKind::spindle_on, command.source).spindle_rpm = feed_.rpm;
+            add(BlockKind::spindle_on, command.source).spindle_rpm = rpm_;
             break;
         case CommandKind::start_spindle_counterclockwise:
-            add(BlockKind::spindle_on, command.source).spindle_rpm = -feed_.rpm;
+            add(BlockKind::spindle_on, command.source).spindle_rpm = -rpm_;
             break;
         case CommandKind::stop_spindle_turning:
             add(BlockKind::spindle_off, command.source);
@@ -135,7 +117,7 @@ public:
             break;
         case CommandKind::mist_off:
         case CommandKind::flood_off:
-            add(BlockKind::coolant_off, command.source);
+            switch_coolant_off(command.source);
             break;
         case CommandKind::change_tool:
         case CommandKind::change_tool_number:
@@ -149,13 +131,14 @@ public:
             break;
         case CommandKind::program_end:
         case CommandKind::finish:
-            add(BlockKind::end, command.source);
+            end(command.source);
             break;
         default:
             break;
         }
     }
 
+    [[nodiscard]] int block_count() const { return result_.program.block_count(); }
     [[nodiscard]] MachineProgram take() { return std::move(result_); }
 
 private:
@@ -164,10 +147,12 @@ private:
     MachineProgramSettings settings_;
     MachineProgram result_;
     CanonFrame frame_;
-    Feed feed_;
+    internal::ProgrammedFeed feed_;
     std::optional<PathControl> path_; ///< none: not said yet
-    AxisValues at_;                   ///< on the machine, mm and degrees
-    std::set<char> missing_;          ///< axes that were complained about
+    double rpm_ = 0.0;
+    AxisValues at_;          ///< on the machine, mm and degrees
+    AxisSet worded_;         ///< axes that the move's line names
+    std::set<char> missing_; ///< axes that were complained about
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -180,17 +165,6 @@ private:
     /// In the unit that is in force.
     [[nodiscard]] double tolerance() const { return settings_.chord_tolerance / frame_.unit(); }
 
-    void set_feed(const Command& command) {
-        if (command.kind == CommandKind::set_feed_rate) {
-            feed_.rate = command.value * frame_.unit();
-            feed_.angular_rate = command.value;
-        } else if (command.kind == CommandKind::start_speed_feed_synch) {
-            feed_.a_revolution = command.value * frame_.unit();
-        } else if (command.kind == CommandKind::stop_speed_feed_synch) {
-            feed_.a_revolution = 0.0;
-        }
-    }
-
     Block& add(BlockKind kind, SourcePlace source) {
         Program& program = result_.program;
         kinematics::AxisPositions here =
@@ -200,6 +174,29 @@ private:
         block.target = std::move(here);
         block.source_line = source.file == 0 ? source.line : 0;
         return block;
+    }
+
+    /// Once a line: M9 ends mist and flood.
+    void switch_coolant_off(SourcePlace source) {
+        const auto& blocks = result_.program.blocks;
+        const bool done = !blocks.empty() && blocks.back().kind == BlockKind::coolant_off &&
+                          blocks.back().source_line == source.line;
+        if (!done) {
+            add(BlockKind::coolant_off, source);
+        }
+    }
+
+    /// What the end switches off needs no blocks.
+    void end(SourcePlace source) {
+        auto& blocks = result_.program.blocks;
+        const auto switched_off = [&](const Block& block) {
+            const bool off = block.kind == BlockKind::spindle_off || block.kind == BlockKind::coolant_off;
+            return off && source.line > 0 && block.source_line == source.line;
+        };
+        while (!blocks.empty() && switched_off(blocks.back())) {
+            blocks.pop_back();
+        }
+        add(BlockKind::end, source);
     }
 
     void fault(SourcePlace source, std::string message) {
@@ -223,6 +220,18 @@ private:
         return can;
     }
 
+    /// Axes with a word in the line, and those that move; a move that names none names all.
+    [[nodiscard]] AxisSet named_by(const AxisValues& end) const {
+        AxisSet named = worded_;
+        for (int n = 0; n < machine_.axis_count(); ++n) {
+            const std::size_t letter = index_of(machine_.axis(n).letter);
+            if (std::abs(end[letter] - at_[letter]) > same_place) {
+                named.insert(n);
+            }
+        }
+        return named == AxisSet() ? AxisSet::all(machine_.axis_count()) : named;
+    }
+
     /// To `target` in the frame of the program.
     void go(BlockKind kind, const AxisValues& target, SourcePlace source) {
         const AxisValues end = frame_.to_machine(target);
@@ -241,7 +250,7 @@ private:
             duration = *found;
         }
         Block& block = add(kind, source);
-        block.named = AxisSet::all(machine_.axis_count());
+        block.named = named_by(end);
         block.duration = duration;
         block.path = path_;
         for (int n = 0; n < machine_.axis_count(); ++n) {
@@ -263,8 +272,8 @@ MachineProgramBuilder::MachineProgramBuilder(const kinematics::MachineModel& mac
 
 MachineProgramBuilder::~MachineProgramBuilder() = default;
 
-void MachineProgramBuilder::move(const Move& move, const SourceLine&) {
-    parts_->move(move);
+void MachineProgramBuilder::move(const Move& move, const SourceLine& now) {
+    parts_->move(move, now);
 }
 
 void MachineProgramBuilder::curve(const Curve& curve, const SourceLine&) {
@@ -273,6 +282,10 @@ void MachineProgramBuilder::curve(const Curve& curve, const SourceLine&) {
 
 void MachineProgramBuilder::command(const Command& command, const SourceLine&) {
     parts_->command(command);
+}
+
+int MachineProgramBuilder::block_count() const {
+    return parts_->block_count();
 }
 
 MachineProgram MachineProgramBuilder::take() {

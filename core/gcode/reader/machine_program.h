@@ -43,6 +43,8 @@ public:
     void curve(const Curve& curve, const SourceLine& now) override;
     void command(const Command& command, const SourceLine& now) override;
 
+    /// How many blocks have come so far.
+    [[nodiscard]] int block_count() const;
     /// What has come so far; nothing comes after it.
     [[nodiscard]] MachineProgram take();
 

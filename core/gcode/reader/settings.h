@@ -21,6 +21,8 @@ struct ReaderSettings {
     std::vector<std::pair<int, double>> parameters; ///< numbered ones that are not 0 at the start
     /// Folders where subroutines are looked for after the program's own.
     std::vector<std::filesystem::path> subroutine_folders;
+    /// M codes above 199 that the machine's configuration defines; each comes as user_command.
+    std::vector<int> remapped_m;
     int most_errors = 1; ///< reading stops behind so many
     /// Lines that may be executed again (loops, subroutines) before the program is taken for an endless one.
     std::int64_t most_repeated_lines = 10'000'000;

@@ -1,9 +1,12 @@
 // LinuxCNC's interpreter reads what we write and must go to the very positions that our program says.
 #include "core/base/files.h"
 #include "core/base/units.h"
+#include "core/gcode/posts/prepare.h"
+#include "core/gcode/posts/release.h"
 #include "core/gcode/writer.h"
 #include "tests/support/oracle.h"
 #include "tests/support/programs.h"
+#include "tests/support/random_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <random>
 #include <sstream>
 
 namespace millwright::gcode {
@@ -57,6 +61,35 @@ std::vector<CanonicalMove> moves_in(const std::string& output) {
     return moves;
 }
 
+/// Where the arcs of rs274's output end: X Y Z. It prints them in the axes of their plane.
+std::vector<Vec3> arc_ends_in(const std::string& output) {
+    std::vector<Vec3> ends;
+    std::istringstream lines(output);
+    int shift = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("SELECT_PLANE(") != std::string::npos) {
+            shift = line.find("YZ") != std::string::npos ? 1 : line.find("XZ") != std::string::npos ? 2 : 0;
+        }
+        const auto arc = line.find("ARC_FEED(");
+        if (arc == std::string::npos) {
+            continue;
+        }
+        double first = 0.0;
+        double second = 0.0;
+        double third = 0.0;
+        EXPECT_EQ(
+            std::sscanf(line.c_str() + arc, "ARC_FEED(%lf, %lf, %*f, %*f, %*d, %lf", &first, &second, &third),
+            3)
+            << line;
+        Vec3 end;
+        end[shift] = first;
+        end[(shift + 1) % 3] = second;
+        end[(shift + 2) % 3] = third;
+        ends.push_back(end);
+    }
+    return ends;
+}
+
 /// What LinuxCNC takes for the length of a move in inverse time: of its linear axes, else of its rotary ones.
 double inverse_time_length(const Program& program, int block) {
     const kinematics::AxisPositions step =
@@ -75,11 +108,16 @@ protected:
     Rs274() : OracleTest("rs274", "linuxcnc-uspace") {}
     ~Rs274() override { std::filesystem::remove(file_); }
 
-    std::vector<CanonicalMove> interpret(const Program& program, const ProgramSettings& settings) {
-        write_file(file_, write_gcode(program, settings).text);
+    /// What rs274 prints for a text.
+    std::string canon(const std::string& text) {
+        write_file(file_, text);
         const ProgramRun answer = run({"-g", file_.string()});
         EXPECT_EQ(answer.exit_code, 0) << answer.output;
-        return moves_in(answer.output);
+        return answer.output;
+    }
+
+    std::vector<CanonicalMove> interpret(const Program& program, const ProgramSettings& settings) {
+        return moves_in(canon(write_gcode(program, settings).text));
     }
 
     void expect_same_moves(const Program& program, const ProgramSettings& settings) {
@@ -119,6 +157,39 @@ TEST_F(Rs274, GoesWhereOurProgramsSayOnEveryShippedMachine) {
             SCOPED_TRACE(std::string(machine) + " " + surface);
             expect_same_moves(test::post_over(surface, test::machine(machine), 10, 10).program, {});
         }
+    }
+}
+
+TEST_F(Rs274, GoesWhereRandomProgramsSay) {
+    std::mt19937 random(274);
+    for (int n = 0; n < 20; ++n) {
+        const auto machine = test::machine(n % 2 == 0 ? "ac-table" : "router-xyz");
+        const PreparedProgram ready = prepare(test::random_moves(machine, 40, random), machine, PostFormat{});
+        expect_same_moves(ready.program, {});
+    }
+}
+
+TEST_F(Rs274, TurnsFittedArcsAsTheMovesThatTheyStandFor) {
+    const auto machine = test::machine("router-xyz");
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int n = 0; n < 30; ++n) {
+        const double radius = 5.0 + 30.0 * unit(random);
+        const double sweep = (n % 2 == 0 ? 1.0 : -1.0) * (1.0 + 4.0 * unit(random));
+        const double rise = n % 3 == 0 ? 5.0 * unit(random) : 0.0;
+        Program program = test::empty_program(machine);
+        for (int k = 0; k <= 80; ++k) {
+            Vec3 p(radius * std::cos(k / 80.0 * sweep), radius * std::sin(k / 80.0 * sweep), k / 80.0 * rise);
+            p = Vec3(p[n % 3], p[(n + 1) % 3], p[(n + 2) % 3]); // every plane in turn
+            test::add_move(program, p, k == 0 ? 0.0 : 0.1);
+        }
+        test::add_block(program, BlockKind::end);
+        const ReleasedText text = release(program, machine, PostFormat{}, {.arc_tolerance = 0.02});
+        ASSERT_GE(text.arcs, 1) << n;
+        const auto ends = arc_ends_in(canon(text.listing.text));
+        ASSERT_EQ(std::ssize(ends), text.arcs) << n;
+        const Vec3 last = program.blocks[80].target;
+        EXPECT_LT((ends.back() - last).cwiseAbs().maxCoeff(), 1.01e-4) << n;
     }
 }
 

@@ -84,7 +84,11 @@ void Person::hover(widgets::Point at) {
 }
 
 void Person::click(std::string_view path) {
-    hover(place(path).centre());
+    click_at(place(path).centre());
+}
+
+void Person::click_at(widgets::Point at) {
+    hover(at);
     input_.buttons[0] = true;
     frames(2);
     input_.buttons[0] = false;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace millwright::test {
 
@@ -35,10 +37,15 @@ public:
     [[nodiscard]] bool sees(std::string_view path);
 
     void click(std::string_view path);
+    void click_at(widgets::Point at);
     void drag(widgets::Point from, widgets::Point to, int steps = 5);
     void hover(widgets::Point at);
     void press_key(render::Key key, bool ctrl = false, bool shift = false);
     void type(std::string_view text);
+    /// From now on; no frame is drawn.
+    void hold_button(bool down) { input_.buttons[0] = down; }
+    void hold_keys(std::vector<render::Key> keys) { input_.keys = std::move(keys); }
+    void set_focused(bool focused) { input_.focused = focused; }
     /// Clicks a field, replaces its text and commits with Enter.
     void fill_in(std::string_view path, std::string_view text);
 

@@ -75,12 +75,12 @@ TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
     Person person;
     person.open(dome);
     person.press_key(render::Key::f5);
-    EXPECT_TRUE(person.sees("lower/listing"));
+    EXPECT_TRUE(person.sees("lower/motion"));
     person.press_key(render::Key::f2);
     EXPECT_TRUE(person.sees("lower/error"));
     person.click("lower/tabs/compare");
     person.press_key(render::Key::f5);
-    EXPECT_TRUE(person.sees("lower/listing"));
+    EXPECT_TRUE(person.sees("lower/motion"));
     person.press_key(render::Key::f2);
     EXPECT_TRUE(person.sees("lower/compare"));
 }
@@ -96,6 +96,45 @@ TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
     EXPECT_EQ(person.project().grid.nu, 20);
     person.press_key(render::Key::y, true);
     EXPECT_EQ(person.project().grid.nu, 10);
+}
+
+TEST(Workbench, RedoesByItsOtherKeyToo) {
+    Person person;
+    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    person.press_key(render::Key::z, true);
+    EXPECT_NE(person.project().grid.nv, 12);
+    person.press_key(render::Key::z, true, true);
+    EXPECT_EQ(person.project().grid.nv, 12);
+}
+
+TEST(Workbench, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
+    Person person;
+    person.open(dome);
+    person.click("menu/workspaces/grid");
+    person.click("inspector/grid/nu");
+    person.type("15");
+    person.hold_keys({render::Key::enter});
+    person.frames(1);
+    person.hold_keys({render::Key::space}); // ImGui still says that text is wanted
+    person.frames(1);
+    person.hold_keys({});
+    person.frames(2);
+    EXPECT_EQ(person.project().grid.nu, 15);
+    EXPECT_TRUE(person.workshop().session().playback.playing);
+}
+
+TEST(Workbench, KeepsKeysFromShortcutsInTheVeryFrameInWhichAFieldGetsThem) {
+    Person person;
+    person.open(dome);
+    person.click("menu/workspaces/grid");
+    person.hover(person.place("inspector/grid/nu").centre());
+    person.hold_button(true);
+    person.hold_keys({render::Key::space}); // with the click that opens the field
+    person.frames(1);
+    person.hold_button(false);
+    person.hold_keys({});
+    person.frames(2);
+    EXPECT_FALSE(person.workshop().session().playback.playing);
 }
 
 TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {

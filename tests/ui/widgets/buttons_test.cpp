@@ -51,6 +51,87 @@ TEST(Button, AnOuterRefusalReachesEverythingInside) {
     EXPECT_EQ(stage.reason("grid/show"), "A job is running.");
 }
 
+TEST(HeldButton, IsHeldWhileTheMouseIsDownOnIt) {
+    HeldButton now;
+    int pressed = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("jog", whole_window());
+        now = ui.hold_button("plus", "X+");
+        pressed += now.pressed ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.move(stage.place("jog/plus").centre());
+    stage.frames(2);
+    EXPECT_FALSE(now.held);
+    stage.press();
+    stage.frames(5);
+    EXPECT_TRUE(now.held);
+    EXPECT_EQ(pressed, 1);
+    stage.move({390.0F, 390.0F});
+    stage.frames(2);
+    EXPECT_FALSE(now.held); // the mouse has left it
+    stage.release();
+}
+
+TEST(HeldButton, RefusedIsNeverHeld) {
+    HeldButton now;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("jog", whole_window());
+        now = ui.hold_button("plus", "X+", Permission::refused("There is an alarm."));
+    });
+    stage.frames(2);
+    stage.move(stage.place("jog/plus").centre());
+    stage.frames(2);
+    stage.press();
+    stage.frames(3);
+    EXPECT_FALSE(now.held);
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+    return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+TEST(Tip, LiesOverNoOtherButtonWhereThereIsRoom) {
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("watch", {400.0F, 40.0F, 300.0F, 300.0F});
+        ui.button("method",
+                  "Elliptic",
+                  {},
+                  {.width = -1.0F, .tip = "The variational method of the thesis, step by step."});
+        ui.button("play", "Play", {}, {.width = -1.0F});
+        ui.button("step", "Step", {}, {.width = -1.0F});
+    });
+    stage.frames(2);
+    stage.move(stage.place("watch/method").centre());
+    stage.frames(2);
+    stage.wait(1.0);
+    stage.frames();
+    const Rect tip = stage.place("tip");
+    EXPECT_FALSE(overlap(tip, stage.place("watch/play")));
+    EXPECT_FALSE(overlap(tip, stage.place("watch/step")));
+    EXPECT_FALSE(overlap(tip, stage.place("watch/method")));
+}
+
+TEST(Tip, NeverCoversWhatIsToBeKeptClear) {
+    for (const float y : {0.0F, 100.0F, 400.0F}) {
+        Stage stage([&](Ui& ui) {
+            const auto pane = ui.pane("job", {300.0F, y, 300.0F, 200.0F});
+            ui.button("run",
+                      "Run",
+                      Permission::refused("There is an alarm: home or unlock first."),
+                      {.width = -1.0F});
+            ui.button("emergency", "Emergency stop", {}, {.rank = Rank::danger, .width = -1.0F});
+            ui.keep_clear("job/emergency");
+        });
+        stage.frames(2);
+        stage.move(stage.place("job/run").centre());
+        stage.frames(2);
+        stage.wait(1.0);
+        stage.frames();
+        EXPECT_FALSE(overlap(stage.place("tip"), stage.place("job/emergency"))) << y;
+    }
+}
+
 TEST(Button, APathUsedTwiceInAFrameIsADefect) {
     Stage stage([](Ui& ui) {
         const auto pane = ui.pane("grid", whole_window());

@@ -17,6 +17,7 @@ struct Canvas {
     glm::mat4 s_T_w{1.0F};  ///< workpiece to scene
     render::Bounds content; ///< of everything that is shown, in scene coordinates
     Highlight highlight;
+    render::Edges edges = render::Edges::smooth;
 };
 
 /// The same picture with everything `length` nearer to the eye: what lies that far under a surface is then
@@ -42,6 +43,8 @@ public:
 
     /// Points that a view of everything has to hold, in scene coordinates.
     [[nodiscard]] virtual std::vector<glm::dvec3> outline(const Scene&) const { return {}; }
+    /// The last update() left something for the next.
+    [[nodiscard]] virtual bool unfinished() const { return false; }
     [[nodiscard]] virtual std::vector<Label> labels(const Scene&, const Canvas&) const { return {}; }
 };
 

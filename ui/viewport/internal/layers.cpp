@@ -15,6 +15,7 @@ std::vector<std::unique_ptr<Layer>> make_layers() {
                             make_singular_layer,
                             make_control_net_layer,
                             make_simulation_layer,
+                            make_program_layer,
                             make_floor_layer}) {
         layers.push_back(make());
     }

@@ -17,18 +17,6 @@ namespace {
 
 constexpr double tool_share = 0.035; // radius of the tool to that of the part
 
-/// A tool of radius 1 with a tapered end, since the tool is taken for a point, and a holder.
-Solid tool_solid() {
-    constexpr std::array<glm::vec2, 7> profile = {{{0.0F, 0.0F},
-                                                   {1.0F, 3.2F},
-                                                   {1.0F, 11.0F},
-                                                   {2.4F, 12.2F},
-                                                   {2.4F, 17.0F},
-                                                   {1.7F, 17.8F},
-                                                   {0.0F, 17.8F}}};
-    return turned_solid(profile);
-}
-
 Frame pose_frame(const geometry::ToolPose& pose) {
     Frame frame = Frame::Identity();
     frame.linear() = frame_along(pose.axis);

@@ -57,6 +57,17 @@ void add_band(Solid& solid, const glm::vec2& from, const glm::vec2& to) {
 
 } // namespace
 
+Solid tool_solid() {
+    constexpr std::array<glm::vec2, 7> profile = {{{0.0F, 0.0F},
+                                                   {1.0F, 3.2F},
+                                                   {1.0F, 11.0F},
+                                                   {2.4F, 12.2F},
+                                                   {2.4F, 17.0F},
+                                                   {1.7F, 17.8F},
+                                                   {0.0F, 17.8F}}};
+    return turned_solid(profile);
+}
+
 void add_quad(Solid& solid, const std::array<glm::vec3, 4>& corners) {
     const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     const auto base = static_cast<std::uint32_t>(solid.vertices.size());

@@ -25,6 +25,10 @@ struct Solid {
 
 [[nodiscard]] Solid cylinder_solid(float diameter, float height);
 
+/// A tool of radius 1 along z, its tip at the origin, with a holder. Tapered, since the tool is taken for a
+/// point.
+[[nodiscard]] Solid tool_solid();
+
 /// A flat polygon of four corners, counter-clockwise seen from outside.
 void add_quad(Solid& solid, const std::array<glm::vec3, 4>& corners);
 

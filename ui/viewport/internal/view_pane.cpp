@@ -95,6 +95,10 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
                                                   .keys = held_keys(pointer),
                                                   .take_back = esc});
     draw_picture(frame, pane.view, pointer);
+    if (frame.view.unfinished()) {
+        drawn_.reset();
+        frame.ui.change_in(0.0);
+    }
     draw_over(frame, pane);
     if (hand_.wants_fit()) {
         fit();
@@ -166,7 +170,7 @@ void ViewPane::draw_picture(const Frame3D& frame, const render::View& view, cons
 
 void ViewPane::paint(const Frame3D& frame, const render::View& view, render::Edges edges) {
     target_.begin(view.size, edges);
-    frame.view.draw(view, frame.colors, drawn_->highlight);
+    frame.view.draw(view, frame.colors, drawn_->highlight, edges);
     target_.end();
     edges_ = edges;
 }

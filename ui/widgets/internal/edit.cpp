@@ -91,7 +91,7 @@ void refuse(Ui& ui, const std::string& path, std::string reason) {
 std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed) {
     Ui::State::Edit& edit = ui.state().edit;
     const std::string text = typed.text;
-    const bool reverted = key_pressed(ImGuiKey_Escape);
+    const bool reverted = key_pressed(ImGuiKey_Escape) || (box.enter_only && !typed.entered);
     const bool changed = text != edit.initial;
     const std::string reason = reverted || !changed ? std::string() : box.refusal(text);
     if (!reason.empty()) {

@@ -24,6 +24,8 @@ struct EditBox {
     std::function<std::string(std::string_view)> refusal;
     /// Refused text stays in the box also when the keyboard goes elsewhere.
     bool keeps_refused = false;
+    /// Only Enter commits; a text that is left otherwise is dropped.
+    bool enter_only = false;
     /// At the left inside the box, such as X.
     std::string_view mark = {};
     /// Left free inside the box before the unit, for a button of the caller's.

@@ -30,4 +30,9 @@ void keep_wheel() {
     ImGui::SetItemUsingMouseWheel();
 }
 
+bool text_field_active() {
+    const ImGuiContext& g = *ImGui::GetCurrentContext();
+    return g.ActiveId != 0 && g.ActiveId == g.InputTextState.ID;
+}
+
 } // namespace millwright::widgets

@@ -16,6 +16,9 @@ public:
 /// Once a frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
 void show_keyboard_on_tab();
 
+/// A text field has the keyboard now. (WantTextInput says what was so a frame ago.)
+[[nodiscard]] bool text_field_active();
+
 /// The wheel over the last item is the item's own: the pane behind does not scroll.
 void keep_wheel();
 

@@ -54,8 +54,10 @@ struct Ui::State {
     std::vector<float> widths;
     std::vector<float> label_shares;
     std::vector<Permission> permissions;
-    int open_menu_frame = -2;        ///< last frame in which a menu of the bar was open
-    std::optional<double> change_at; ///< ImGui time
+    bool typing_at_begin = false;        ///< of the frame
+    std::vector<std::string> kept_clear; ///< of this frame
+    int open_menu_frame = -2;            ///< last frame in which a menu of the bar was open
+    std::optional<double> change_at;     ///< ImGui time
 };
 
 } // namespace millwright::widgets

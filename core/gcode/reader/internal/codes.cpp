@@ -9,7 +9,7 @@ namespace millwright::gcode::internal {
 namespace {
 
 constexpr int last_g = 999;
-constexpr int last_m = 199;
+constexpr int last_m = 999;
 
 using GTable = std::array<signed char, last_g + 1>;
 using MTable = std::array<signed char, last_m + 1>;
@@ -33,7 +33,7 @@ constexpr GTable g_table() {
     enter(table, GGroup::feed_mode, {930, 940, 950});
     enter(table, GGroup::units, {200, 210});
     enter(table, GGroup::cutter_compensation, {400, 410, 411, 420, 421});
-    enter(table, GGroup::tool_length, {430, 431, 432, 490});
+    enter(table, GGroup::tool_length, {430, 431, 432, 434, 490});
     enter(table, GGroup::retract, {980, 990});
     enter(table, GGroup::coordinate_system, {540, 550, 560, 570, 580, 590, 591, 592, 593});
     enter(table, GGroup::path_control, {610, 611, 640});

@@ -11,6 +11,9 @@
 #include "core/gcode/reader/internal/refusal.h"
 #include "core/gcode/reader/internal/word_rules.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 
 namespace millwright::gcode::internal {
@@ -212,7 +215,8 @@ constexpr std::array<Step, 11> steps{{
 void execute_g_codes(Run& run, Block& block) {
     constexpr int dwell = 40;
     if (block.code(GGroup::non_modal) == dwell) {
-        run.out.post(CommandKind::dwell, 0, block['P']);
+        const double unit = run.settings.dialect == Dialect::fanuc ? 1e-3 : 1.0;
+        run.out.post(CommandKind::dwell, 0, block['P'] * unit);
     }
     for (const Step& step : steps) {
         const int code = block.code(step.group);
@@ -222,6 +226,20 @@ void execute_g_codes(Run& run, Block& block) {
         if (step.group == GGroup::lathe_diameter) {
             apply_diameter_mode(run.state, block);
         }
+    }
+}
+
+/// Codes that only some dialects or machines know.
+void refuse_codes_of_others(const Run& run, const Block& block) {
+    constexpr int g43_4 = 434;
+    if (block.code(GGroup::tool_length) == g43_4 && run.settings.dialect != Dialect::fanuc) {
+        refuse(block.column_of(GGroup::tool_length), fmt::format("{} is not known", g_name(g43_4)));
+    }
+    constexpr int last_user_code = 199;
+    const int user = block.code(MGroup::user);
+    const auto& remapped = run.settings.remapped_m;
+    if (user > last_user_code && std::find(remapped.begin(), remapped.end(), user) == remapped.end()) {
+        refuse(block.column_of(MGroup::user), fmt::format("M{} is not known", user));
     }
 }
 
@@ -254,6 +272,7 @@ void execute_line(Run& run, ParsedLine& line) {
     if (run.settings.dialect == Dialect::grbl) {
         apply_grbl_rules(block);
     }
+    refuse_codes_of_others(run, block);
     apply_word_rules(block, run.state);
     if (!line.assignments.empty()) {
         set_parameters(run, line.assignments);

@@ -111,6 +111,13 @@ void set_tool_length(Run& run, const Block& block, int code) {
         refuse(block.column_of(GGroup::tool_length),
                "the tool offset cannot change while cutter compensation is on");
     }
+    constexpr int g43_4 = 434;
+    if (run.settings.dialect == Dialect::fanuc) {
+        run.out.send(CommandKind::control_tip, code == g43_4 ? 1 : 0);
+    }
+    if (code == g43_4) {
+        return; // the tool's length is the control's affair
+    }
     const auto offset_of_h = [&] {
         const int number = static_cast<int>(block['H']);
         const int row = run.row_of_tool(number);

@@ -220,7 +220,7 @@ constexpr std::array<WordUse, 10> word_uses{{
      "G76, M66, M67 or M68"},
     {'H',
      [](const Block& b) {
-         return b.motion == 760 || one_of(b.code(GGroup::tool_length), {430, 432});
+         return b.motion == 760 || one_of(b.code(GGroup::tool_length), {430, 432, 434});
      },
      "G43, G43.2 or G76"},
     {'I',

@@ -1,0 +1,89 @@
+#include "app/posting.h"
+
+#include "core/gcode/posts/post_file.h"
+#include "core/project/assets.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace millwright::app {
+
+CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
+    constexpr double coarsest = 1.0;
+    command.add_option("--arcs", choice.arc_tolerance, "Fit arcs that stay so near to the moves, mm")
+        ->check(CLI::Range(0.0, coarsest));
+    command.add_flag("--line-numbers", choice.line_numbers, "Number the lines");
+    return *command.add_option("--post", choice.post, "Shipped post or post file")->type_name("NAME|FILE");
+}
+
+namespace {
+
+/// mm by which corners may be rounded: as the first move that says it has it, else the usual.
+double path_tolerance_of(const gcode::Program& program) {
+    const double usual = gcode::TextSettings{}.path_tolerance;
+    for (const gcode::Block& block : program.blocks) {
+        if (block.moves() && block.path) {
+            const bool blends = block.path->mode == gcode::PathMode::continuous;
+            const double tolerance = block.path->tolerance > 0.0 ? block.path->tolerance : usual;
+            return blends ? tolerance : 0.0;
+        }
+    }
+    return usual;
+}
+
+bool path_mode_changes(const gcode::Program& program) {
+    const gcode::Block* first = nullptr;
+    for (const gcode::Block& block : program.blocks) {
+        if (block.moves() && first == nullptr) {
+            first = &block;
+        }
+        if (block.moves() && !(block.path == first->path)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+PostedText posted(const gcode::Program& program,
+                  const kinematics::MachineModel& machine,
+                  const PostChoice& choice,
+                  const std::string& name) {
+    const std::filesystem::path file =
+        project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
+    PostedText result{gcode::read_post(file), {}, path_mode_changes(program)};
+    result.text = gcode::release(program,
+                                 machine,
+                                 result.format,
+                                 {.text = {.name = gcode::text_name(name),
+                                           .line_numbers = choice.line_numbers,
+                                           .path_tolerance = path_tolerance_of(program)},
+                                  .arc_tolerance = choice.arc_tolerance,
+                                  .file = name + "." + result.format.extension});
+    return result;
+}
+
+void print_notes(const PostedText& posted) {
+    if (posted.format.positions == gcode::PositionsOf::tip) {
+        fmt::print(
+            stderr,
+            "{}: the tip goes straight from block to block, at most {:.4f} mm from where straight axes "
+            "would take it\n",
+            posted.format.name,
+            posted.text.tip_deviation);
+    }
+    if (posted.path_mode_changes) {
+        fmt::print(stderr, "the path mode (G61, G64) changes along the program; the first one is written\n");
+    }
+    if (posted.text.arcs > 0) {
+        fmt::print(stderr, "{} arcs\n", posted.text.arcs);
+    }
+}
+
+} // namespace millwright::app

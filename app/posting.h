@@ -1,0 +1,40 @@
+// Programs for any control, on the command line.
+#pragma once
+
+#include "core/gcode/posts/release.h"
+
+#include <string>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace millwright::app {
+
+/// What the options --post, --arcs and --line-numbers say.
+struct PostChoice {
+    std::string post = "linuxcnc"; ///< shipped post or post file
+    double arc_tolerance = 0.0;    ///< mm; 0: no arcs
+    bool line_numbers = false;
+};
+
+struct PostedText {
+    gcode::PostFormat format;
+    gcode::ReleasedText text;
+    bool path_mode_changes = false; ///< of which the text has the first only
+};
+
+/// Adds them to `command`; returns --post.
+CLI::Option& add_post_options(CLI::App& command, PostChoice& choice);
+
+/// Written and read back. `name` stands in the text where the control wants one. Throws Error.
+[[nodiscard]] PostedText posted(const gcode::Program& program,
+                                const kinematics::MachineModel& machine,
+                                const PostChoice& choice,
+                                const std::string& name);
+
+/// What a person should know about it, on standard error.
+void print_notes(const PostedText& posted);
+
+} // namespace millwright::app

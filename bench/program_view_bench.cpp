@@ -1,0 +1,160 @@
+// What it is like to open a long G-code program in the workbench: how long until its path can be turned, the
+// longest frame while it loads, and the memory that a move takes. In memory, so no display is needed; where
+// no graphics card is, Mesa's llvmpipe draws on the processor.
+#include "core/base/files.h"
+#include "ui/panels/desktop.h"
+
+#include <benchmark/benchmark.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr render::PixelSize window{1280, 800};
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Processor time of this thread, s: what a frame costs however many others use the machine.
+double thread_time() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Finishing passes over a wavy surface, as a CAM program writes them; gone when the benchmark is over.
+class ProgramFile {
+public:
+    explicit ProgramFile(int lines)
+        : file_(fs::temp_directory_path() / fmt::format("program_view_bench_{}.ngc", ::getpid())) {
+        constexpr int moves_a_pass = 1000;
+        std::string text = "G21 G90 G94 G54\nM3 S12000\nG0 Z30\nG1 F1500\n";
+        for (int n = 0; n < lines; ++n) {
+            const int pass = n / moves_a_pass;
+            const int along = pass % 2 == 0 ? n % moves_a_pass : moves_a_pass - 1 - n % moves_a_pass;
+            const double x = 0.2 * along;
+            const double y = 0.2 * (pass % moves_a_pass) + 0.0002 * (pass / moves_a_pass);
+            fmt::format_to(std::back_inserter(text),
+                           "X{:.4f} Y{:.4f} Z{:.4f}\n",
+                           x,
+                           y,
+                           10.0 + 6.0 * std::sin(0.06 * x) * std::cos(0.05 * y));
+        }
+        write_file(file_, text + "M2\n");
+    }
+    ProgramFile(const ProgramFile&) = delete;
+    ProgramFile& operator=(const ProgramFile&) = delete;
+    ~ProgramFile() { fs::remove(file_); }
+
+    [[nodiscard]] const fs::path& path() const { return file_; }
+
+private:
+    fs::path file_;
+};
+
+/// A person who opens a file and keeps on turning the view.
+class Visitor {
+public:
+    Visitor()
+        : context_(window),
+          workshop_({.assets = "assets", .log_folder = {}, .settings = {}, .recovery = {}, .wake = [] {}}),
+          desktop_(context_, workshop_) {
+        workshop_.wait_idle();
+        for (int n = 0; n < 3; ++n) {
+            turn();
+        }
+        longest_ = longest_cpu_ = 0.0;
+    }
+
+    void open(const fs::path& file) { workshop_.open(file); }
+
+    /// One frame with the camera a little further.
+    void turn() {
+        const Clock::time_point start = Clock::now();
+        const double cpu = thread_time();
+        viewport::Viewport& view = desktop_.window().view().viewport();
+        view.set_camera(view.camera().orbited(0.01, 0.0));
+        (void)workshop_.advance(1.0 / 60.0);
+        desktop_.frame(render::InputState{});
+        context_.present();
+        glFinish();
+        longest_ = std::max(longest_, seconds_since(start));
+        longest_cpu_ = std::max(longest_cpu_, thread_time() - cpu);
+    }
+
+    [[nodiscard]] std::shared_ptr<const project::OpenedProgram> opened() { return workshop_.look().opened; }
+    [[nodiscard]] double longest() const { return longest_; }
+    [[nodiscard]] double longest_cpu() const { return longest_cpu_; }
+
+private:
+    render::OffscreenContext context_;
+    actions::Workshop workshop_;
+    Desktop desktop_;
+    double longest_ = 0.0, longest_cpu_ = 0.0; ///< s
+};
+
+/// Of text index, path in memory and on the graphics processor, and what is in force when.
+double bytes_a_move(const project::OpenedProgram& opened) {
+    const auto moves = static_cast<double>(opened.path.point_count() - 1);
+    const auto on_graphics = static_cast<double>(opened.path.point_count() * sizeof(render::PathVertex));
+    return (static_cast<double>(opened.path.bytes() + opened.execution->bytes()) + on_graphics) / moves;
+}
+
+void open_program(benchmark::State& state) {
+    const ProgramFile file(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        Visitor visitor;
+        const Clock::time_point start = Clock::now();
+        visitor.open(file.path());
+        double first = 0.0;
+        double read = 0.0;
+        int frames = 0;
+        while (!visitor.opened()->finished) {
+            visitor.turn();
+            ++frames;
+            if (!(first > 0.0) && !visitor.opened()->path.empty()) {
+                visitor.turn(); // what was there when the frame began is in it for certain
+                first = seconds_since(start);
+            }
+        }
+        read = seconds_since(start);
+        state.counters["first_s"] = first;
+        state.counters["whole_s"] = read;
+        state.counters["frames"] = frames;
+        state.counters["longest_ms"] = 1e3 * visitor.longest();
+        state.counters["longest_cpu_ms"] = 1e3 * visitor.longest_cpu();
+        state.counters["bytes_a_move"] = bytes_a_move(*visitor.opened());
+        const Clock::time_point turning = Clock::now();
+        constexpr int turns = 20;
+        for (int n = 0; n < turns; ++n) {
+            visitor.turn();
+        }
+        state.counters["turn_ms"] = 1e3 * seconds_since(turning) / turns;
+    }
+}
+
+BENCHMARK(open_program)
+    ->ArgName("lines")
+    ->Arg(100'000)
+    ->Arg(1'000'000)
+    ->Arg(10'000'000)
+    ->Iterations(1)
+    ->UseRealTime()
+    ->Unit(benchmark::kSecond);
+
+} // namespace
+} // namespace millwright::panels

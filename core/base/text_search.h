@@ -1,0 +1,47 @@
+// Finding a piece of text in a long one; capital and small letters of ASCII count as the same.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright {
+
+class TextPattern {
+public:
+    /// Throws Defect if it is empty.
+    explicit TextPattern(std::string_view text);
+
+    [[nodiscard]] std::size_t size() const { return text_.size(); }
+    /// The first place at `from` or later.
+    [[nodiscard]] std::optional<std::size_t> next(std::string_view text, std::size_t from) const;
+    /// The last place before `before`.
+    [[nodiscard]] std::optional<std::size_t> previous(std::string_view text, std::size_t before) const;
+
+private:
+    std::string text_; ///< in small letters
+    std::array<std::size_t, 256> skip_{};
+};
+
+/// Counts in small steps, so that nobody has to wait for it. Places that overlap count once.
+class TextCount {
+public:
+    /// `text` must live as long.
+    TextCount(std::string_view text, TextPattern pattern);
+
+    /// Looks at about so many bytes more.
+    void advance(std::size_t bytes);
+    [[nodiscard]] bool done() const { return at_ >= text_.size(); }
+    [[nodiscard]] std::int64_t count() const { return count_; }
+
+private:
+    std::string_view text_;
+    TextPattern pattern_;
+    std::size_t at_ = 0;
+    std::int64_t count_ = 0;
+};
+
+} // namespace millwright

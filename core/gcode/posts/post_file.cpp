@@ -1,0 +1,414 @@
+#include "core/gcode/posts/post_file.h"
+
+#include "core/base/error.h"
+#include "core/base/json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace millwright::gcode {
+
+namespace {
+
+constexpr std::size_t longest_text = 200;
+constexpr int most_lines = 50;
+constexpr int most_decimals = 6;
+
+/// Printable ASCII, so that a file is the same in every code page.
+std::string text_of(const JsonValue& value) {
+    std::string text = value.text();
+    const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+    if (!std::all_of(text.begin(), text.end(), printable)) {
+        value.fail("a text of a program is of printable ASCII characters");
+    }
+    if (text.size() > longest_text) {
+        value.fail(fmt::format("a text has at most {} characters", longest_text));
+    }
+    return text;
+}
+
+template <class Choice> using Names = std::initializer_list<std::pair<std::string_view, Choice>>;
+
+template <class Choice> Choice choice(const JsonValue& value, Names<Choice> names) {
+    const std::string text = value.text();
+    std::vector<std::string_view> known;
+    for (const auto& [name, meant] : names) {
+        if (name == text) {
+            return meant;
+        }
+        known.push_back(name);
+    }
+    value.fail(fmt::format("'{}' is none of: {}", text, fmt::join(known, ", ")));
+}
+
+/// Throws unless each {word} of `text` is in `allowed` and every brace belongs to one.
+void check_placeholders(const JsonValue& value,
+                        const std::string& text,
+                        std::initializer_list<std::string_view> allowed) {
+    for (std::size_t at = text.find_first_of("{}"); at != std::string::npos;
+         at = text.find_first_of("{}", at)) {
+        const std::size_t end = text[at] == '{' ? text.find('}', at) : std::string::npos;
+        if (end == std::string::npos) {
+            value.fail(fmt::format("the braces of '{}' do not match", text));
+        }
+        const std::string word = text.substr(at + 1, end - at - 1);
+        if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
+            const std::string known = allowed.size() == 0
+                                          ? std::string("nothing is filled in here")
+                                          : fmt::format("known here: {}", fmt::join(allowed, ", "));
+            value.fail(fmt::format("unknown placeholder {{{}}}", word), known);
+        }
+        at = end + 1;
+    }
+}
+
+std::string pattern(const JsonValue& value, std::initializer_list<std::string_view> allowed) {
+    std::string text = text_of(value);
+    check_placeholders(value, text, allowed);
+    return text;
+}
+
+Lines lines(const JsonValue& value, std::initializer_list<std::string_view> allowed = {}) {
+    Lines result;
+    for (const JsonValue& item : value.items()) {
+        result.push_back(pattern(item, allowed));
+        if (result.back().empty()) {
+            item.fail("a line that is empty says nothing");
+        }
+    }
+    if (std::ssize(result) > most_lines) {
+        value.fail(fmt::format("at most {} lines", most_lines));
+    }
+    return result;
+}
+
+/// Lines that are useless without `placeholder`.
+Lines lines_with(const JsonValue& value, std::string_view placeholder) {
+    Lines result = lines(value, {placeholder});
+    const auto holds = [&](const std::string& line) {
+        return line.find(fmt::format("{{{}}}", placeholder)) != std::string::npos;
+    };
+    if (!result.empty() && std::none_of(result.begin(), result.end(), holds)) {
+        value.fail(fmt::format("{{{}}} is missing", placeholder));
+    }
+    return result;
+}
+
+LineFormat line_format(const JsonValue& value) {
+    value.expect_only({"separator", "longest"});
+    LineFormat result;
+    result.separator = text_of(value.at("separator"));
+    if (!result.separator.empty() && result.separator != " ") {
+        value.at("separator").fail("words are separated by one blank, or by nothing");
+    }
+    result.longest = value.at("longest").integer(20, 10'000);
+    return result;
+}
+
+LineNumbers line_numbers(const JsonValue& value) {
+    value.expect_only({"lines", "prefix", "first", "step"});
+    LineNumbers result;
+    result.lines = choice<NumberedLines>(value.at("lines"),
+                                         {{"on-request", NumberedLines::on_request},
+                                          {"always", NumberedLines::always},
+                                          {"every-line", NumberedLines::every_line}});
+    result.prefix = text_of(value.at("prefix"));
+    result.first = value.at("first").integer(0, 100'000);
+    result.step = value.at("step").integer(1, 1'000);
+    return result;
+}
+
+CommentFormat comment_format(const JsonValue& value) {
+    value.expect_only({"open", "close", "longest", "upper_case", "forbidden"});
+    CommentFormat result;
+    result.open = text_of(value.at("open"));
+    result.close = text_of(value.at("close"));
+    if (result.open.empty()) {
+        value.at("open").fail("a comment that begins with nothing is none");
+    }
+    result.longest = value.at("longest").integer(20, 10'000);
+    if (const auto upper = value.find("upper_case")) {
+        result.upper_case = upper->flag();
+    }
+    if (const auto forbidden = value.find("forbidden")) {
+        result.forbidden = text_of(*forbidden);
+    }
+    if (result.forbidden.find('.') != std::string::npos) {
+        value.at("forbidden").fail("the dot takes the place of what is forbidden");
+    }
+    return result;
+}
+
+NumberFormat number_format(const JsonValue& value) {
+    value.expect_only({"decimals", "plus", "leading_zero", "trailing_zeros", "point"});
+    NumberFormat result;
+    result.decimals = value.at("decimals").integer(0, most_decimals);
+    const auto flag = [&](std::string_view key, bool& target) {
+        if (const auto found = value.find(key)) {
+            target = found->flag();
+        }
+    };
+    flag("plus", result.plus);
+    flag("leading_zero", result.leading_zero);
+    flag("trailing_zeros", result.trailing_zeros);
+    flag("point", result.point);
+    if (!result.point && result.trailing_zeros && result.decimals > 0) {
+        value.fail("numbers with decimals and trailing zeros have a point");
+    }
+    return result;
+}
+
+NumberFormats number_formats(const JsonValue& value) {
+    value.expect_only({"length", "angle", "feed", "speed", "time", "tolerance"});
+    NumberFormats result;
+    result.length = number_format(value.at("length"));
+    result.angle = number_format(value.at("angle"));
+    result.feed = number_format(value.at("feed"));
+    result.speed = number_format(value.at("speed"));
+    result.time = number_format(value.at("time"));
+    result.tolerance = number_format(value.at("tolerance"));
+    return result;
+}
+
+BlockLines block_lines(const JsonValue& value) {
+    value.expect_only({"top",
+                       "head",
+                       "path_blended",
+                       "path_exact",
+                       "spindle_clockwise",
+                       "spindle_counterclockwise",
+                       "spindle_off",
+                       "coolant_on",
+                       "coolant_off",
+                       "dwell",
+                       "pause",
+                       "end",
+                       "bottom"});
+    BlockLines result;
+    result.top = lines(value.at("top"), {"name"});
+    result.head = lines(value.at("head"), {"path"});
+    result.path_blended = pattern(value.at("path_blended"), {"tolerance"});
+    result.path_exact = pattern(value.at("path_exact"), {});
+    result.spindle_clockwise = lines_with(value.at("spindle_clockwise"), "speed");
+    result.spindle_counterclockwise = lines_with(value.at("spindle_counterclockwise"), "speed");
+    result.spindle_off = lines(value.at("spindle_off"));
+    result.coolant_on = lines(value.at("coolant_on"));
+    result.coolant_off = lines(value.at("coolant_off"));
+    result.dwell = lines_with(value.at("dwell"), "time");
+    result.pause = lines(value.at("pause"));
+    result.end = lines(value.at("end"));
+    result.bottom = lines(value.at("bottom"), {"name"});
+    if (result.end.empty()) {
+        value.at("end").fail("a program says where it ends");
+    }
+    return result;
+}
+
+MoveFormat move_format(const JsonValue& value) {
+    value.expect_only({"code", "behind"});
+    MoveFormat result;
+    result.code = text_of(value.at("code"));
+    if (const auto behind = value.find("behind")) {
+        result.behind = text_of(*behind);
+    }
+    if (result.code.empty()) {
+        value.at("code").fail("a move begins with its code");
+    }
+    return result;
+}
+
+MoveFormats move_formats(const JsonValue& value) {
+    value.expect_only({"rapid", "feed", "modal_codes", "modal_axes"});
+    MoveFormats result;
+    result.rapid = move_format(value.at("rapid"));
+    result.feed = move_format(value.at("feed"));
+    result.modal_codes = value.at("modal_codes").flag();
+    result.modal_axes = value.at("modal_axes").flag();
+    if (result.rapid == result.feed) {
+        value.at("feed").fail("rapids and feeds have to differ");
+    }
+    return result;
+}
+
+FeedFormat feed_format(const JsonValue& value) {
+    value.expect_only({"mode", "word", "modal", "rapid_code", "feed_code", "first_code"});
+    FeedFormat result;
+    result.mode = choice<FeedWriting>(
+        value.at("mode"),
+        {{"inverse-time", FeedWriting::inverse_time}, {"per-minute", FeedWriting::per_minute}});
+    result.word = text_of(value.at("word"));
+    result.modal = value.at("modal").flag();
+    result.rapid_code = text_of(value.at("rapid_code"));
+    result.feed_code = text_of(value.at("feed_code"));
+    result.first_code = text_of(value.at("first_code"));
+    if (result.word.empty()) {
+        value.at("word").fail("a feed needs its word");
+    }
+    if (result.modal && result.mode == FeedWriting::inverse_time) {
+        value.at("modal").fail("in inverse time a feed belongs to its line and cannot be left out");
+    }
+    return result;
+}
+
+TipFormat tip_format(const JsonValue& value) {
+    value.expect_only({"on", "off", "machine_rapid", "rapid_tolerance", "read_m_on", "read_m_off"});
+    TipFormat result;
+    result.on = lines(value.at("on"));
+    result.off = lines(value.at("off"));
+    result.machine_rapid = move_format(value.at("machine_rapid"));
+    constexpr double nearest = 0.001;
+    constexpr double farthest = 10.0;
+    result.rapid_tolerance = value.at("rapid_tolerance").number(nearest, farthest);
+    if (const auto on = value.find("read_m_on")) {
+        result.read_m_on = on->integer(100, 999);
+        result.read_m_off = value.at("read_m_off").integer(100, 999);
+    }
+    if (result.on.empty() || result.off.empty()) {
+        value.fail("tip control is switched on and off by at least a line each");
+    }
+    return result;
+}
+
+ArcFormat arc_format(const JsonValue& value) {
+    value.expect_only({"clockwise", "counterclockwise", "centre", "planes", "helical"});
+    ArcFormat result;
+    result.clockwise = text_of(value.at("clockwise"));
+    result.counterclockwise = text_of(value.at("counterclockwise"));
+    result.centre = choice<ArcCentre>(value.at("centre"),
+                                      {{"relative", ArcCentre::relative},
+                                       {"absolute", ArcCentre::absolute},
+                                       {"radius", ArcCentre::radius}});
+    result.xy = result.zx = result.yz = false;
+    for (const JsonValue& plane : value.at("planes").items()) {
+        bool ArcFormat::*allowed = choice<bool ArcFormat::*>(
+            plane, {{"XY", &ArcFormat::xy}, {"ZX", &ArcFormat::zx}, {"YZ", &ArcFormat::yz}});
+        result.*allowed = true;
+    }
+    result.helical = value.at("helical").flag();
+    if (result.clockwise.empty() || result.clockwise == result.counterclockwise) {
+        value.fail("arcs of both directions have a code each");
+    }
+    return result;
+}
+
+std::string axes(const JsonValue& value) {
+    const std::string text = value.text();
+    std::string seen;
+    for (const char c : text) {
+        if (std::string_view("XYZABCUVW").find(c) == std::string_view::npos ||
+            seen.find(c) != std::string::npos) {
+            value.fail(fmt::format("'{}' is not a list of different letters of XYZABCUVW", text));
+        }
+        seen += c;
+    }
+    if (text.empty()) {
+        value.fail("a control has axes");
+    }
+    return text;
+}
+
+/// What the parts have to do with each other.
+void check_parts(const JsonValue& root, const PostFormat& post) {
+    if ((post.positions == PositionsOf::tip) != post.tip.has_value()) {
+        root.at("positions").fail("positions of the tip need \"tip\", those of axes have none");
+    }
+    if (post.tip && post.arcs) {
+        root.at("arcs").fail("arcs are fitted to axis positions only");
+    }
+    const bool remapped = post.tip && post.tip->read_m_on != 0;
+    if (post.tip && post.reader == TextReader::linuxcnc && !remapped) {
+        root.at("tip").fail("LinuxCNC switches by M codes of its configuration: read_m_on and read_m_off");
+    }
+    if (remapped && post.reader != TextReader::linuxcnc) {
+        root.at("tip").at("read_m_on").fail("only LinuxCNC's text is read by M codes");
+    }
+    if (post.reader == TextReader::klartext && post.arcs) {
+        root.at("arcs").fail("arcs of klartext are not written");
+    }
+    if (post.reader == TextReader::grbl && post.tip) {
+        root.at("tip").fail("Grbl knows no tip control");
+    }
+    const bool names_path = std::any_of(post.blocks.head.begin(), post.blocks.head.end(), [](const auto& l) {
+        return l.find("{path}") != std::string::npos;
+    });
+    if (names_path && (post.blocks.path_blended.empty() || post.blocks.path_exact.empty())) {
+        root.at("blocks").at("head").fail("{path} needs path_blended and path_exact");
+    }
+}
+
+PostFormat post_of(const JsonValue& root) {
+    root.expect_only({"format",
+                      "version",
+                      "name",
+                      "source",
+                      "extension",
+                      "reader",
+                      "positions",
+                      "axes",
+                      "unit",
+                      "time_unit",
+                      "lines",
+                      "line_numbers",
+                      "comment",
+                      "numbers",
+                      "blocks",
+                      "moves",
+                      "feed",
+                      "tip",
+                      "arcs"});
+    if (root.at("format").text() != "millwright-post") {
+        root.at("format").fail("not a post file");
+    }
+    (void)root.at("version").integer(1, 1);
+    PostFormat post;
+    post.name = text_of(root.at("name"));
+    post.source = root.at("source").text();
+    post.extension = text_of(root.at("extension"));
+    if (post.extension.empty() || post.extension.find_first_of("./ ") != std::string::npos) {
+        root.at("extension").fail("an extension is a word without a dot");
+    }
+    post.reader = choice<TextReader>(root.at("reader"),
+                                     {{"linuxcnc", TextReader::linuxcnc},
+                                      {"grbl", TextReader::grbl},
+                                      {"fanuc", TextReader::fanuc},
+                                      {"klartext", TextReader::klartext}});
+    post.positions =
+        choice<PositionsOf>(root.at("positions"), {{"axes", PositionsOf::axes}, {"tip", PositionsOf::tip}});
+    post.axes = axes(root.at("axes"));
+    post.inches = choice<bool>(root.at("unit"), {{"mm", false}, {"inch", true}});
+    post.milliseconds = choice<bool>(root.at("time_unit"), {{"s", false}, {"ms", true}});
+    post.lines = line_format(root.at("lines"));
+    post.line_numbers = line_numbers(root.at("line_numbers"));
+    post.comment = comment_format(root.at("comment"));
+    post.numbers = number_formats(root.at("numbers"));
+    post.blocks = block_lines(root.at("blocks"));
+    post.moves = move_formats(root.at("moves"));
+    post.feed = feed_format(root.at("feed"));
+    post.arcs.reset();
+    if (const auto tip = root.find("tip")) {
+        post.tip = tip_format(*tip);
+    }
+    if (const auto arcs = root.find("arcs")) {
+        post.arcs = arc_format(*arcs);
+    }
+    check_parts(root, post);
+    return post;
+}
+
+} // namespace
+
+PostFormat read_post(const std::filesystem::path& file) {
+    return post_of(JsonValue::read(file));
+}
+
+PostFormat parse_post(std::string_view text, const std::filesystem::path& file) {
+    return post_of(JsonValue::parse(text, file));
+}
+
+} // namespace millwright::gcode

@@ -1,0 +1,17 @@
+// Post files: JSON, described field by field in docs/reference/post-file.md.
+#pragma once
+
+#include "core/gcode/posts/post_format.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace millwright::gcode {
+
+/// Throws Error with file, line and field for anything wrong in it.
+[[nodiscard]] PostFormat read_post(const std::filesystem::path& file);
+
+/// The same of a text, which is called `file` in diagnostics.
+[[nodiscard]] PostFormat parse_post(std::string_view text, const std::filesystem::path& file);
+
+} // namespace millwright::gcode

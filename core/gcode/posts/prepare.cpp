@@ -1,0 +1,294 @@
+#include "core/gcode/posts/prepare.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/gcode/internal/written.h"
+#include "core/kinematics/forward.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::gcode {
+
+namespace {
+
+using kinematics::AxisKind;
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+
+void refuse_missing_axes(const Program& program, const PostFormat& format) {
+    std::vector<char> missing;
+    std::vector<char> known(format.axes.begin(), format.axes.end());
+    for (const ProgramAxis& axis : program.axes) {
+        if (format.axes.find(axis.letter) == std::string::npos) {
+            missing.push_back(axis.letter);
+        }
+    }
+    if (!missing.empty()) {
+        throw Error(fmt::format("{} moves {} only, and the program for '{}' also moves {}",
+                                format.name,
+                                fmt::join(known, " "),
+                                program.machine,
+                                fmt::join(missing, " ")),
+                    {},
+                    "choose a post for a control with these axes");
+    }
+}
+
+/// The rotary axes at the place where the workpiece stands as on the drawing.
+AxisPositions at_rotary_zero(const MachineModel& machine, AxisPositions positions) {
+    for (const int n : machine.rotary_axes()) {
+        positions[n] = -machine.axis(n).zero_offset;
+    }
+    return positions;
+}
+
+class Preparer {
+public:
+    Preparer(const Program& program, const MachineModel& machine, const PostFormat& format)
+        : machine_(machine), format_(format),
+          all_(AxisSet::all(machine.axis_count())), digits_{format.numbers.length.decimals,
+                                                            format.numbers.angle.decimals,
+                                                            format.length_unit()} {
+        result_.program.machine = program.machine;
+        result_.program.axes = program.axes;
+        result_.program.start = program.start;
+        meant_ = program.start;
+    }
+
+    /// `without_tip`: in machine positions.
+    void add(Block block, bool without_tip) {
+        if (!block.moves()) {
+            block.target = here();
+            append(std::move(block), false);
+            return;
+        }
+        const AxisPositions meant_from = std::exchange(meant_, block.target);
+        block.target = rounded(block.target);
+        if (block.kind == BlockKind::feed) {
+            if (goes_nowhere(block)) {
+                return; // too short to be written
+            }
+            if (format_.feed.mode == FeedWriting::per_minute) {
+                keep_speed(block, meant_from);
+            } else {
+                keep_to_digits(block);
+            }
+        }
+        moved_ = true;
+        if (format_.positions == PositionsOf::axes || without_tip) {
+            tip_ = false;
+            append(std::move(block), false);
+        } else {
+            block.named = all_; // whatever turns, the tip's three coordinates change
+            add_for_tip(std::move(block));
+        }
+    }
+
+    PreparedProgram take() { return std::move(result_); }
+
+private:
+    const MachineModel& machine_;
+    const PostFormat& format_;
+    AxisSet all_;
+    internal::WrittenDigits digits_;
+    PreparedProgram result_;
+    AxisPositions meant_; ///< where the last move ended before it was rounded
+    bool tip_ = false;
+    bool moved_ = false;
+
+    /// Rounded ends make a move a little longer or shorter: its speed stays, so that a feed stays the feed.
+    void keep_speed(Block& block, const AxisPositions& meant_from) const {
+        const FeedWay meant = feed_way(result_.program.axes, meant_from, meant_);
+        const FeedWay now = feed_way(result_.program.axes, here(), block.target);
+        const bool along = format_.positions == PositionsOf::axes && !meant.angular && !now.angular;
+        if (along && meant.length > 0.0 && now.length > 0.0) {
+            block.duration *= now.length / meant.length;
+        }
+    }
+
+    /// Inverse time is rounded down to what is written, or up to the smallest that can be.
+    void keep_to_digits(Block& block) const {
+        constexpr double seconds_a_minute = 60.0;
+        constexpr double same = 1e-6; // of a digit: it was rounded before
+        const double digits = seconds_a_minute / block.duration / format_.numbers.feed.digit();
+        const double steps = std::max(1.0, std::floor(digits + same));
+        if (std::abs(digits - steps) > same) {
+            block.duration = seconds_a_minute / (steps * format_.numbers.feed.digit());
+        }
+    }
+
+    [[nodiscard]] bool goes_nowhere(const Block& block) const {
+        const bool there = (block.target - here()).cwiseAbs().maxCoeff() <= 0.0;
+        if (there && !moved_) {
+            throw Error(
+                fmt::format("block {}: a feed to where the axes are taken to be at the start has no length, "
+                            "and no feed can be written for it",
+                            result_.program.block_count() + 1),
+                {},
+                "begin the program with a rapid");
+        }
+        return there;
+    }
+
+    [[nodiscard]] const AxisPositions& here() const {
+        return position_before(result_.program, result_.program.block_count());
+    }
+
+    [[nodiscard]] AxisPositions rounded(const AxisPositions& positions) const {
+        return internal::written(machine_, positions, digits_, result_.program.block_count());
+    }
+
+    /// What the words say with the tip in place of X Y Z, as it will be read.
+    [[nodiscard]] AxisPositions words(const AxisPositions& positions) const {
+        const Vec3 tip = kinematics::forward(machine_, positions).tip;
+        AxisPositions shown = positions;
+        for (int n = 0; n < machine_.axis_count(); ++n) {
+            const std::size_t along = std::string_view("XYZ").find(machine_.axis(n).letter);
+            if (machine_.axis(n).kind == AxisKind::linear) {
+                const double unit = format_.length_unit();
+                shown[n] =
+                    format_.numbers.length.rounded(tip[static_cast<Eigen::Index>(along)] / unit) * unit;
+            }
+        }
+        return shown;
+    }
+
+    void append(Block block, bool tip) {
+        const AxisPositions from = here();
+        const AxisPositions& to = block.target;
+        result_.wording.blocks.push_back(tip ? BlockWords{words(from), words(to), true}
+                                             : BlockWords{from, to, false});
+        result_.program.blocks.push_back(std::move(block));
+    }
+
+    void add_for_tip(Block block) {
+        if (!std::exchange(tip_, true)) {
+            switch_tip_on(block);
+        }
+        if (block.kind == BlockKind::rapid) {
+            cut_rapid(std::move(block));
+            return;
+        }
+        result_.tip_deviation = std::max(result_.tip_deviation, deviation(here(), block.target));
+        append(std::move(block), true);
+    }
+
+    /// Before `block`: the rotary axes to zero, and before a feed a word about where the tip is.
+    void switch_tip_on(const Block& block) {
+        Block entry;
+        entry.kind = BlockKind::rapid;
+        entry.role = block.role;
+        entry.source_line = block.source_line;
+        entry.path = block.path;
+        entry.target = rounded(at_rotary_zero(machine_, here()));
+        for (const int n : machine_.rotary_axes()) {
+            entry.named.insert(n);
+        }
+        if (!machine_.rotary_axes().empty()) {
+            append(entry, false);
+        }
+        if (block.kind == BlockKind::feed) {
+            entry.named = all_;
+            append(std::move(entry), true);
+        }
+    }
+
+    /// By how much the tip's way leaves the straight line between its ends while the axes go straight.
+    [[nodiscard]] double deviation(const AxisPositions& a, const AxisPositions& b) const {
+        constexpr int samples = 15;
+        const Vec3 begin = kinematics::forward(machine_, a).tip;
+        const Vec3 way = kinematics::forward(machine_, b).tip - begin;
+        double largest = 0.0;
+        for (int k = 1; k <= samples; ++k) {
+            const double t = static_cast<double>(k) / (samples + 1);
+            const Vec3 off = kinematics::forward(machine_, a + t * (b - a)).tip - begin;
+            const double square = way.squaredNorm();
+            const double along = square > 0.0 ? std::clamp(off.dot(way) / square, 0.0, 1.0) : 0.0;
+            largest = std::max(largest, (off - along * way).norm());
+        }
+        return largest;
+    }
+
+    void cut_rapid(Block block) {
+        constexpr int most_pieces = 4096;
+        const AxisPositions from = here();
+        const AxisPositions way = block.target - from;
+        int pieces = 1;
+        const auto at = [&](int k) -> AxisPositions { return from + static_cast<double>(k) / pieces * way; };
+        const auto near_enough = [&] {
+            for (int k = 0; k < pieces; ++k) {
+                if (deviation(at(k), at(k + 1)) > format_.tip->rapid_tolerance) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        while (!near_enough() && pieces < most_pieces) {
+            pieces *= 2;
+        }
+        for (int k = 1; k < pieces; ++k) {
+            Block piece = block;
+            piece.path_point = -1;
+            piece.target = rounded(at(k));
+            append(std::move(piece), true);
+        }
+        append(std::move(block), true);
+    }
+};
+
+void check_letters_of_tip(const MachineModel& machine) {
+    for (const int n : machine.linear_axes()) {
+        if (std::string_view("XYZ").find(machine.axis(n).letter) == std::string_view::npos) {
+            throw Error(
+                fmt::format("positions of the tip are written for axes X Y Z, and machine '{}' has {}",
+                            machine.name(),
+                            machine.axis(n).letter));
+        }
+    }
+}
+
+} // namespace
+
+/// Which blocks are written without tip control: rapids of linear axes alone at both ends.
+class Ends {
+public:
+    Ends(const Program& program, const MachineModel& machine) {
+        const auto alone = [&](const Block& block) {
+            const auto& turning = machine.rotary_axes();
+            return block.kind == BlockKind::rapid && std::none_of(turning.begin(), turning.end(), [&](int n) {
+                       return block.named.contains(n);
+                   });
+        };
+        const auto stays = [&](const Block& block) { return !block.moves() || alone(block); };
+        const auto& blocks = program.blocks;
+        first_ = static_cast<int>(std::find_if_not(blocks.begin(), blocks.end(), stays) - blocks.begin());
+        last_ = static_cast<int>(blocks.rend() - std::find_if_not(blocks.rbegin(), blocks.rend(), stays)) - 1;
+    }
+
+    [[nodiscard]] bool contain(int block) const { return block < first_ || block > last_; }
+
+private:
+    int first_ = 0; ///< the first and last block under tip control
+    int last_ = 0;
+};
+
+PreparedProgram prepare(const Program& program, const MachineModel& machine, const PostFormat& format) {
+    expects(static_cast<int>(program.axes.size()) == machine.axis_count(), "a program is for its machine");
+    refuse_missing_axes(program, format);
+    if (format.positions == PositionsOf::tip) {
+        check_letters_of_tip(machine);
+    }
+    const Ends ends(program, machine);
+    Preparer preparer(program, machine, format);
+    for (int n = 0; n < program.block_count(); ++n) {
+        preparer.add(program.blocks[static_cast<std::size_t>(n)], ends.contain(n));
+    }
+    return preparer.take();
+}
+
+} // namespace millwright::gcode

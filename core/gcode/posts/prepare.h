@@ -1,0 +1,35 @@
+// A program made ready for a control: rounded to its digits, with positions of the tip where it keeps the
+// tip.
+#pragma once
+
+#include "core/gcode/posts/post_format.h"
+#include "core/gcode/posts/wording.h"
+#include "core/gcode/program.h"
+#include "core/kinematics/machine_model.h"
+
+namespace millwright::gcode {
+
+struct PreparedProgram {
+    Program program; ///< what the text says: simulate, plan and check this one
+    Wording wording;
+    /// By how much the tip, which goes straight under tip control, leaves the way that straight axes would
+    /// take, over all feeds; mm. 0 where the text has axis positions.
+    double tip_deviation = 0.0;
+};
+
+/// Axis positions stay blocks as they are. With positions of the tip
+/// - rapids of linear axes alone that come before everything else, or behind the last feed without any turn
+///   after them, are written in machine positions, tip control being off;
+/// - before tip control goes on, the rotary axes turn to their physical zero: controls take the workpiece's
+///   frame from where the table stands at that moment;
+/// - other rapids are cut until the straight way of the tip stays near to the axes' own, which was found
+/// clear;
+/// - feeds stay single blocks: the tip goes straight where the axes alone would swing it.
+/// Durations of feeds become those that inverse time can say; with feeds a minute they keep their speed in
+/// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out.
+/// Throws Error naming the axes that the control lacks, or the block whose
+/// rounded position the machine cannot reach. Throws Defect unless `program` is for `machine`.
+[[nodiscard]] PreparedProgram
+prepare(const Program& program, const kinematics::MachineModel& machine, const PostFormat& format);
+
+} // namespace millwright::gcode

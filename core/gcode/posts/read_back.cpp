@@ -1,0 +1,373 @@
+#include "core/gcode/posts/read_back.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/units.h"
+#include "core/gcode/posts/arc_deviation.h"
+#include "core/gcode/reader/klartext.h"
+#include "core/gcode/reader/written_steps.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace millwright::gcode {
+
+namespace {
+
+using kinematics::AxisKind;
+using kinematics::AxisPositions;
+
+constexpr double rounding = 1e-7; // mm or degrees: of the arithmetic between text and position
+
+std::size_t axis_of(char letter) {
+    return static_cast<std::size_t>(std::find(axis_letters.begin(), axis_letters.end(), letter) -
+                                    axis_letters.begin());
+}
+
+/// Far from everything, so that a position that leaves it out is found.
+AxisValues strange_work_offset() {
+    AxisValues offset;
+    offset[Axis::x] = 1009.0;
+    offset[Axis::y] = -2003.0;
+    offset[Axis::z] = 3001.0;
+    offset[Axis::a] = 7.0;
+    offset[Axis::b] = -11.0;
+    offset[Axis::c] = 13.0;
+    return offset;
+}
+
+std::string_view name_of(StepKind kind) {
+    switch (kind) {
+    case StepKind::rapid:
+        return "a rapid";
+    case StepKind::feed:
+        return "a feed";
+    case StepKind::arc:
+        return "an arc";
+    case StepKind::spindle_on:
+        return "spindle on";
+    case StepKind::spindle_off:
+        return "spindle off";
+    case StepKind::coolant_on:
+        return "coolant on";
+    case StepKind::coolant_off:
+        return "coolant off";
+    case StepKind::dwell:
+        return "a dwell";
+    case StepKind::pause:
+        return "a pause";
+    case StepKind::end:
+        return "the end";
+    }
+    return "nothing";
+}
+
+StepKind step_of(BlockKind kind) {
+    switch (kind) {
+    case BlockKind::spindle_on:
+        return StepKind::spindle_on;
+    case BlockKind::spindle_off:
+        return StepKind::spindle_off;
+    case BlockKind::coolant_on:
+        return StepKind::coolant_on;
+    case BlockKind::coolant_off:
+        return StepKind::coolant_off;
+    case BlockKind::dwell:
+        return StepKind::dwell;
+    case BlockKind::pause:
+        return StepKind::pause;
+    case BlockKind::rapid:
+        return StepKind::rapid;
+    case BlockKind::feed:
+        return StepKind::feed;
+    case BlockKind::end:
+    case BlockKind::comment:
+        break;
+    }
+    return StepKind::end;
+}
+
+class Comparison {
+public:
+    Comparison(const Program& program,
+               const Wording& wording,
+               const PostFormat& format,
+               double arc_tolerance,
+               const std::filesystem::path& file)
+        : program_(program), wording_(wording), format_(format), arc_tolerance_(arc_tolerance), file_(file) {
+        if (format.positions == PositionsOf::tip) {
+            work_offset_ = strange_work_offset();
+        }
+        at_ = strange_start();
+    }
+
+    void compare(const Listing& listing) {
+        steps_ = read(listing);
+        auto arc = wording_.arcs.begin();
+        for (block_ = 0; block_ < program_.block_count(); ++block_) {
+            const Block& block = program_.blocks[static_cast<std::size_t>(block_)];
+            if (arc != wording_.arcs.end() && arc->first == block_) {
+                compare_arc(*arc);
+                block_ = arc++->last;
+            } else if (block.kind != BlockKind::comment) {
+                compare_block(block);
+            }
+        }
+        if (next_ < steps_.size()) {
+            --block_;
+            differ(fmt::format("{} stands behind the last block", name_of(steps_[next_].kind)));
+        }
+    }
+
+private:
+    const Program& program_;
+    const Wording& wording_;
+    const PostFormat& format_;
+    double arc_tolerance_;
+    const std::filesystem::path& file_;
+    AxisValues work_offset_;
+    std::vector<WrittenStep> steps_;
+    std::size_t next_ = 0;
+    AxisValues at_; ///< the last position that was read
+    AxisSet known_; ///< axes of which the text has said where they are
+    int block_ = 0;
+
+    [[noreturn]] void differ(const std::string& what) const {
+        const int line = next_ < steps_.size() ? steps_[next_].line : steps_.empty() ? 0 : steps_.back().line;
+        throw Error({{file_, line, 0, -1},
+                     fmt::format("block {}: {}", block_ + 1, what),
+                     "read back, the text is not the program; it is not released"});
+    }
+
+    [[nodiscard]] AxisValues values_of(const AxisPositions& positions) const {
+        AxisValues values;
+        for (std::size_t n = 0; n < program_.axes.size(); ++n) {
+            const ProgramAxis& axis = program_.axes[n];
+            const double position = positions[static_cast<Eigen::Index>(n)];
+            values[axis_of(axis.letter)] = axis.kind == AxisKind::rotary ? to_degrees(position) : position;
+        }
+        return values;
+    }
+
+    /// Where the axes stand before is not known, so each has to be named before it counts. A feed that is the
+    /// first to name one has its length from where the program takes it to be.
+    [[nodiscard]] AxisValues strange_start() const {
+        AxisValues start = values_of(program_.start);
+        AxisSet named;
+        for (const Block& block : program_.blocks) {
+            for (std::size_t n = 0; n < program_.axes.size() && block.moves(); ++n) {
+                const auto axis = static_cast<int>(n);
+                const bool first = block.named.contains(axis) && !named.contains(axis);
+                if (first && block.kind == BlockKind::rapid) {
+                    constexpr double far_away = -17.0; // mm or degrees
+                    start[axis_of(program_.axes[n].letter)] += far_away;
+                }
+                if (first) {
+                    named.insert(axis);
+                }
+            }
+        }
+        return start;
+    }
+
+    [[nodiscard]] std::vector<WrittenStep> read(const Listing& listing) const {
+        WrittenTextRules rules;
+        rules.start = at_;
+        rules.work_offset = work_offset_;
+        if (format_.tip) {
+            rules.tip_on = format_.tip->read_m_on;
+            rules.tip_off = format_.tip->read_m_off;
+        }
+        if (format_.reader == TextReader::klartext) {
+            return read_written_klartext(listing.text, file_, rules);
+        }
+        rules.dialect = format_.reader == TextReader::grbl    ? Dialect::grbl
+                        : format_.reader == TextReader::fanuc ? Dialect::fanuc
+                                                              : Dialect::linuxcnc;
+        return read_written_rs274(listing.text, file_, rules);
+    }
+
+    const WrittenStep& next(StepKind wanted) {
+        if (next_ == steps_.size()) {
+            differ(fmt::format("the text ends before {}", name_of(wanted)));
+        }
+        const WrittenStep& step = steps_[next_];
+        if (step.kind != wanted) {
+            differ(fmt::format("{} instead of {}", name_of(step.kind), name_of(wanted)));
+        }
+        return step;
+    }
+
+    void compare_value(std::string_view name, double read, double meant, double within) const {
+        if (!(std::abs(read - meant) <= within)) {
+            differ(fmt::format("{} is {:.6f} in the text and {:.6f} in the program", name, read, meant));
+        }
+    }
+
+    void compare_block(const Block& block) {
+        const WrittenStep& step = next(step_of(block.kind));
+        const NumberFormats& numbers = format_.numbers;
+        switch (block.kind) {
+        case BlockKind::spindle_on:
+            compare_value("the spindle's speed", step.value, block.spindle_rpm, half_of(numbers.speed));
+            break;
+        case BlockKind::dwell: {
+            const double unit = format_.milliseconds ? 1e-3 : 1.0;
+            compare_value("the dwell", step.value, block.duration, half_of(numbers.time) * unit);
+            break;
+        }
+        case BlockKind::rapid:
+        case BlockKind::feed:
+            compare_move(block, step);
+            break;
+        case BlockKind::end:
+            if (step.tip) {
+                differ("tip control is still on");
+            }
+            break;
+        default:
+            break;
+        }
+        ++next_;
+    }
+
+    [[nodiscard]] static double half_of(const NumberFormat& number) {
+        return number.digit() / 2.0 + rounding;
+    }
+
+    void compare_move(const Block& block, const WrittenStep& step) {
+        const BlockWords& words = wording_.blocks[static_cast<std::size_t>(block_)];
+        if (step.tip != words.tip) {
+            differ(step.tip ? "tip control is on" : "tip control is off");
+        }
+        compare_positions(words, block.named, step.target);
+        if (block.kind == BlockKind::feed) {
+            const FeedWay way = feed_way(program_.axes, words.from, words.to);
+            const double length = way.angular ? to_degrees(way.length) : way.length / format_.length_unit();
+            compare_feed({length, step.value}, {length, block.duration});
+        }
+        at_ = step.target;
+    }
+
+    /// Axes that the block names are where it says, and so are those of axis positions that were named
+    /// before. The others have not moved.
+    void compare_positions(const BlockWords& words, const AxisSet& named, const AxisValues& read) {
+        for (std::size_t n = 0; n < program_.axes.size(); ++n) {
+            const ProgramAxis& axis = program_.axes[n];
+            const auto index = static_cast<int>(n);
+            const std::size_t letter = axis_of(axis.letter);
+            const bool rotary = axis.kind == AxisKind::rotary;
+            const double position = rotary ? to_degrees(words.to[index]) : words.to[index];
+            if (named.contains(index) && format_.positions == PositionsOf::axes) {
+                known_.insert(index);
+            }
+            const bool counts = named.contains(index) || known_.contains(index);
+            const double meant = counts ? position + (words.tip ? work_offset_[letter] : 0.0) : at_[letter];
+            const double within = rotary ? half_of(format_.numbers.angle)
+                                         : half_of(format_.numbers.length) * format_.length_unit();
+            compare_value(std::string(1, axis.letter), read[letter], meant, within);
+        }
+        for (std::size_t letter = 0; letter < axis_count; ++letter) {
+            if (!has_axis(axis_letters[letter]) && !exactly_equal(read[letter], at_[letter])) {
+                differ(fmt::format("{} moves, an axis that the program has not", axis_letters[letter]));
+            }
+        }
+    }
+
+    [[nodiscard]] bool has_axis(char letter) const {
+        return std::any_of(program_.axes.begin(), program_.axes.end(), [letter](const ProgramAxis& axis) {
+            return axis.letter == letter;
+        });
+    }
+
+    /// What a feed word stands for: a way (mm or inch, or degrees) in a time (s).
+    struct TimedWay {
+        double length = 0.0;
+        double duration = 0.0;
+
+        [[nodiscard]] double feed(bool inverse) const {
+            constexpr double seconds_a_minute = 60.0;
+            return (inverse ? 1.0 : length) / duration * seconds_a_minute;
+        }
+    };
+
+    /// Inverse time is never rounded up, unless to the smallest feed there is.
+    void compare_feed(const TimedWay& read, const TimedWay& meant) const {
+        const bool inverse = format_.feed.mode == FeedWriting::inverse_time;
+        const double feed_read = read.feed(inverse);
+        const double feed_meant = meant.feed(inverse);
+        const double digit = format_.numbers.feed.digit();
+        const double noise = 1e-5 * digit + 1e-9 * feed_meant; // of the quotients
+        const double nearest = inverse ? std::max(digit, feed_meant - digit / 2.0) : feed_meant;
+        if (!(std::abs(feed_read - nearest) <= digit / 2.0 + noise)) {
+            differ(fmt::format(
+                "the feed is {:.6f} in the text and {:.6f} in the program", feed_read, feed_meant));
+        }
+    }
+
+    // ---- arcs
+
+    void compare_arc(const FittedArc& arc) {
+        const WrittenStep& step = next(StepKind::arc);
+        const BlockWords& begin = wording_.blocks[static_cast<std::size_t>(arc.first)];
+        const BlockWords& end = wording_.blocks[static_cast<std::size_t>(arc.last)];
+        compare_positions(end, AxisSet::all(static_cast<int>(program_.axes.size())), step.target);
+        if (step.plane != arc.plane || (step.sweep > 0.0) != (arc.sweep > 0.0)) {
+            differ("the arc turns another way than meant");
+        }
+        if (format_.arcs->centre != ArcCentre::radius) {
+            const double within = half_of(format_.numbers.length) * format_.length_unit();
+            compare_value("the centre's first coordinate", step.centre_1, arc.centre.x(), within);
+            compare_value("the centre's second coordinate", step.centre_2, arc.centre.y(), within);
+        }
+        const FittedArc read{
+            arc.first, arc.last, step.plane, Vec2(step.centre_1, step.centre_2), radius_of(step), step.sweep};
+        const double deviation = arc_deviation(program_, wording_, read);
+        const double within = arc_tolerance_ + half_of(format_.numbers.length) * format_.length_unit();
+        if (!(deviation <= within)) {
+            differ(fmt::format("the arc is {:.6f} mm from its moves, more than {:.6f}", deviation, within));
+        }
+        compare_duration_of(arc, read, begin, end, step);
+        at_ = step.target;
+        ++next_;
+    }
+
+    [[nodiscard]] double radius_of(const WrittenStep& step) const {
+        const std::string_view letters = step.plane == Plane::xy   ? "XY"
+                                         : step.plane == Plane::xz ? "ZX"
+                                                                   : "YZ";
+        return std::hypot(at_[axis_of(letters[0])] - step.centre_1, at_[axis_of(letters[1])] - step.centre_2);
+    }
+
+    void compare_duration_of(const FittedArc& arc,
+                             const FittedArc& read,
+                             const BlockWords& begin,
+                             const BlockWords& end,
+                             const WrittenStep& step) const {
+        double duration = 0.0;
+        for (int n = arc.first; n <= arc.last; ++n) {
+            duration += program_.blocks[static_cast<std::size_t>(n)].duration;
+        }
+        const int third = plane_axes(program_.axes, arc.plane).third;
+        const double rise = third < 0 ? 0.0 : end.to[third] - begin.from[third];
+        const auto length = [&](const FittedArc& way) {
+            return std::hypot(way.radius * way.sweep, rise) / format_.length_unit();
+        };
+        compare_feed({length(read), step.value}, {length(arc), duration});
+    }
+};
+
+} // namespace
+
+void check_read_back(const Listing& listing,
+                     const Program& program,
+                     const Wording& wording,
+                     const PostFormat& format,
+                     double arc_tolerance,
+                     const std::filesystem::path& file) {
+    Comparison(program, wording, format, arc_tolerance, file).compare(listing);
+}
+
+} // namespace millwright::gcode

@@ -1,0 +1,32 @@
+// From a program to a text that may leave the house: made ready for a control, written, read back.
+#pragma once
+
+#include "core/gcode/posts/post_format.h"
+#include "core/gcode/posts/prepare.h"
+#include "core/gcode/writer.h"
+#include "core/kinematics/machine_model.h"
+
+#include <filesystem>
+
+namespace millwright::gcode {
+
+struct ReleaseSettings {
+    TextSettings text = {};
+    double arc_tolerance = 0.0;                 ///< mm; 0: no arcs
+    std::filesystem::path file = "the program"; ///< called so in diagnostics
+};
+
+struct ReleasedText {
+    Program program; ///< what the text says, block by block
+    Listing listing;
+    double tip_deviation = 0.0; ///< PreparedProgram::tip_deviation
+    int arcs = 0;
+};
+
+/// Throws Error if the control cannot do what the program asks, or if the text does not read back as it.
+[[nodiscard]] ReleasedText release(const Program& program,
+                                   const kinematics::MachineModel& machine,
+                                   const PostFormat& format,
+                                   const ReleaseSettings& settings = {});
+
+} // namespace millwright::gcode

@@ -1,0 +1,68 @@
+#include "core/gcode/posts/wording.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace millwright::gcode {
+
+namespace {
+
+constexpr double same_place = 1e-9; // mm or rad: rounding of positions
+
+double distance(const std::vector<ProgramAxis>& axes,
+                const kinematics::AxisPositions& from,
+                const kinematics::AxisPositions& to,
+                std::string_view letters) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        if (letters.find(axes[n].letter) != std::string_view::npos) {
+            const auto k = static_cast<Eigen::Index>(n);
+            sum += square(to[k] - from[k]);
+        }
+    }
+    return std::sqrt(sum);
+}
+
+int index_of(const std::vector<ProgramAxis>& axes, char letter) {
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        if (axes[n].letter == letter) {
+            return static_cast<int>(n);
+        }
+    }
+    return -1;
+}
+
+} // namespace
+
+Wording axis_wording(const Program& program) {
+    Wording wording;
+    wording.blocks.reserve(program.blocks.size());
+    for (int n = 0; n < program.block_count(); ++n) {
+        wording.blocks.push_back(
+            {position_before(program, n), program.blocks[static_cast<std::size_t>(n)].target, false});
+    }
+    return wording;
+}
+
+FeedWay feed_way(const std::vector<ProgramAxis>& axes,
+                 const kinematics::AxisPositions& from,
+                 const kinematics::AxisPositions& to) {
+    for (const std::string_view letters : {"XYZ", "UVW"}) {
+        const double length = distance(axes, from, to, letters);
+        if (length > same_place) {
+            return {length, false};
+        }
+    }
+    return {distance(axes, from, to, "ABC"), true};
+}
+
+PlaneAxes plane_axes(const std::vector<ProgramAxis>& axes, Plane plane) {
+    expects(plane == Plane::xy || plane == Plane::xz || plane == Plane::yz, "an arc is of X, Y and Z");
+    const std::string_view letters = plane == Plane::xy ? "XYZ" : plane == Plane::xz ? "ZXY" : "YZX";
+    return {index_of(axes, letters[0]), index_of(axes, letters[1]), index_of(axes, letters[2])};
+}
+
+} // namespace millwright::gcode

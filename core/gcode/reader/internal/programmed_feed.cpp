@@ -1,0 +1,68 @@
+#include "core/gcode/reader/internal/programmed_feed.h"
+
+#include "core/base/numbers.h"
+
+#include <cmath>
+#include <initializer_list>
+
+namespace millwright::gcode::internal {
+
+namespace {
+
+constexpr double seconds_a_minute = 60.0;
+
+double distance(const AxisValues& a, const AxisValues& b, std::initializer_list<Axis> axes) {
+    double sum = 0.0;
+    for (const Axis axis : axes) {
+        sum += square(b[axis] - a[axis]);
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace
+
+double linear_distance(const AxisValues& a, const AxisValues& b) {
+    return distance(a, b, {Axis::x, Axis::y, Axis::z});
+}
+
+void ProgrammedFeed::command(const Command& command, double unit) {
+    switch (command.kind) {
+    case CommandKind::set_feed_rate:
+        rate_ = command.value * unit;
+        angular_rate_ = command.value;
+        break;
+    case CommandKind::start_speed_feed_synch:
+        a_revolution_ = command.value * unit;
+        break;
+    case CommandKind::stop_speed_feed_synch:
+        a_revolution_ = 0.0;
+        break;
+    case CommandKind::set_spindle_speed:
+        rpm_ = command.value;
+        break;
+    default:
+        break;
+    }
+}
+
+std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const AxisValues& to) const {
+    double way = linear_distance(from, to);
+    if (way <= same_place) {
+        way = distance(from, to, {Axis::u, Axis::v, Axis::w});
+    }
+    if (way > same_place) {
+        return duration(way);
+    }
+    way = distance(from, to, {Axis::a, Axis::b, Axis::c});
+    if (way <= same_place) {
+        return 0.0;
+    }
+    return angular_rate_ > 0.0 ? std::optional(way / angular_rate_ * seconds_a_minute) : std::nullopt;
+}
+
+std::optional<double> ProgrammedFeed::duration(double length) const {
+    const double rate = a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_;
+    return rate > 0.0 ? std::optional(length / rate * seconds_a_minute) : std::nullopt;
+}
+
+} // namespace millwright::gcode::internal

@@ -1,0 +1,36 @@
+// How long a feed move takes by the rules of RS-274/NGC: the feed counts along X Y Z where one of these
+// moves, else along U V W, else in degrees of A B C.
+#pragma once
+
+#include "core/gcode/reader/axes.h"
+#include "core/gcode/reader/canon.h"
+
+#include <optional>
+
+namespace millwright::gcode::internal {
+
+/// Positions nearer than this are the same: rounding of offsets, mm or degrees.
+inline constexpr double same_place = 1e-9;
+
+/// Of the way of X Y Z.
+[[nodiscard]] double linear_distance(const AxisValues& a, const AxisValues& b);
+
+/// The feeds in force.
+class ProgrammedFeed {
+public:
+    /// Takes in a command that changes them; others leave them as they are. `unit` is the length unit, mm.
+    void command(const Command& command, double unit);
+
+    /// s from `from` to `to` (mm, degrees); nothing without a feed.
+    [[nodiscard]] std::optional<double> duration(const AxisValues& from, const AxisValues& to) const;
+    /// s for `length` mm; nothing without a feed.
+    [[nodiscard]] std::optional<double> duration(double length) const;
+
+private:
+    double rate_ = 0.0;         ///< mm a minute
+    double angular_rate_ = 0.0; ///< degrees a minute
+    double a_revolution_ = 0.0; ///< mm; > 0: the spindle leads
+    double rpm_ = 0.0;
+};
+
+} // namespace millwright::gcode::internal

@@ -1,0 +1,40 @@
+// What a program's text makes a control do, read from the text alone: to be compared with what was meant.
+#pragma once
+
+#include "core/gcode/reader/axes.h"
+#include "core/gcode/reader/canon.h"
+#include "core/gcode/reader/dialect.h"
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace millwright::gcode {
+
+enum class StepKind { rapid, feed, arc, spindle_on, spindle_off, coolant_on, coolant_off, dwell, pause, end };
+
+struct WrittenStep {
+    StepKind kind = StepKind::rapid;
+    int line = 0;       ///< from 1
+    bool tip = false;   ///< moves, end: under tip control
+    AxisValues target;  ///< moves: machine positions, or the tip plus the work offset; mm and degrees
+    double value = 0.0; ///< feed, arc: duration, s; dwell: s; spindle: rpm, < 0 counter-clockwise
+    Plane plane = Plane::xy;
+    double centre_1 = 0.0, centre_2 = 0.0; ///< arc: along the plane's first and second axis, mm
+    double sweep = 0.0;                    ///< arc: rad, > 0 from the first axis to the second
+};
+
+struct WrittenTextRules {
+    Dialect dialect = Dialect::linuxcnc;
+    AxisValues start;       ///< where the axes stand before, machine positions, mm and degrees
+    AxisValues work_offset; ///< mm; what leaves it out (G53, M91) is told apart by it
+    /// M codes that switch tip control on and off; 0: none, or those of the dialect.
+    int tip_on = 0, tip_off = 0;
+};
+
+/// Of RS-274, by the interpreter. Throws Error with line and column for what breaks a rule, or is none of the
+/// steps: splines, probing, offsets.
+[[nodiscard]] std::vector<WrittenStep>
+read_written_rs274(std::string_view text, const std::filesystem::path& file, const WrittenTextRules& rules);
+
+} // namespace millwright::gcode

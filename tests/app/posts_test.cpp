@@ -1,0 +1,122 @@
+// Programs for other controls, by the real program.
+#include "tests/app/emulator.h"
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Posts : testing::Test {
+    ScratchFolder scratch;
+    std::string part = (scratch / "part.ngc").string();
+    std::string out = (scratch / "out").string();
+
+    [[nodiscard]] Ended
+    convert(const std::string& machine, const std::string& post, std::vector<std::string> more = {}) const {
+        std::vector<std::string> words{"gcode", "convert", part, "--machine", machine, "--post", post};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+};
+
+TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
+    write_content(part, "G21 G90 G94\nS8000 M3\nG0 Z50\nG0 X10 A5 C30\nG1 Z0 F600\nG1 X12 A7\nM2\n");
+    const Ended klartext = convert("ac-table", "heidenhain");
+    EXPECT_EQ(klartext.exit_code, 0) << klartext.err;
+    EXPECT_THAT(klartext.out, StartsWith("0 BEGIN PGM PART MM\n"));
+    EXPECT_THAT(klartext.out, HasSubstr("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n"));
+    EXPECT_THAT(klartext.err, HasSubstr("mm from where straight axes would take it"));
+    const Ended file = convert("ac-table", "fanuc-tcp", {"--out", out});
+    EXPECT_EQ(file.exit_code, 0) << file.err;
+    EXPECT_THAT(content_of(out), StartsWith("%\nO1000 (PART)\n"));
+}
+
+TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
+    write_content(part, "G21 G90\nG0 X10 Y0 Z1\nG3 X-10 Y0 I-10 F600\nM2\n");
+    const Ended ended = convert("router-xyz", "grbl", {"--arcs", "0.01", "--line-numbers"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("N40 G3 X-10.000 Y0.000 I-10.000 J0.000 F"));
+    EXPECT_THAT(ended.err, HasSubstr("1 arcs\n"));
+}
+
+TEST_F(Posts, ConvertSaysWhatCannotBe) {
+    write_content(part, "G21 G90\nG0 X10 A5\nM2\n");
+    Ended ended = convert("ac-table", "grbl");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("Grbl 1.1 moves X Y Z only, and the program for 'A-on-C table' also moves A C"));
+    ended = convert("ac-table", "siemens");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr(
+            "unknown post 'siemens' (known: fanuc-tcp, grbl, heidenhain, linuxcnc, linuxcnc-tcp, virtual; or "
+            "a path to a post file)"));
+    ended = convert("ac-table", "heidenhain", {"--arcs", "0.01"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("are written without arcs"));
+    write_content(part, "G21 G90\nG0 Z500\nM2\n");
+    ended = convert("ac-table", "linuxcnc", {"--out", out});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("axis Z would have to go to 500.000, outside -300.000 ... 400.000 mm"));
+    EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(Posts, TakesAPostFileOfOnesOwnAndSaysWhatIsWrongInIt) {
+    write_content(part, "G21 G90\nG0 X10 Y0 Z1\nM2\n");
+    const std::string shipped = content_of("assets/posts/linuxcnc.json");
+    std::string own = shipped;
+    own.replace(own.find("\"end\": [\"M2\"]"), 13, "\"end\": [\"M30\"]");
+    const std::string file = (scratch / "own.json").string();
+    write_content(file, own);
+    EXPECT_THAT(convert("router-xyz", file).out, HasSubstr("\nM30\n"));
+    own.replace(own.find("\"M30\""), 5, "\"M5\"");
+    write_content(file, own); // such a text never says that it ends
+    Ended ended = convert("router-xyz", file);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("part.ngc:4: block 2: spindle off instead of the end"));
+    write_content(file, shipped.substr(0, 400));
+    ended = convert("router-xyz", file);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("own.json:"));
+}
+
+TEST_F(Posts, PlanNamesTheProgramAfterItsControl) {
+    const auto project = small_project(scratch.path(), "dome");
+    const Ended ended = run({"plan", project, "--out", out, "--post", "heidenhain"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(fs::path(out) / "program.h"));
+    EXPECT_FALSE(fs::exists(fs::path(out) / "program.ngc"));
+}
+
+TEST_F(Posts, RunTakesAThreeAxisProjectToAnEmulatedController) {
+    const std::string port = (scratch / "grbl").string();
+    const std::string logs = (scratch / "logs").string();
+    const auto project = small_project(scratch.path(), "router-dome");
+    Emulator emulator(port, {"--speed", "100"});
+    const Ended ended = run({"run", project, "--driver", "grbl", "--port", port, "--log", logs});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("Connected to Grbl 1.1h"));
+    EXPECT_THAT(ended.out, HasSubstr("blocks were executed"));
+    EXPECT_EQ(emulator.stop().exit_code, 0);
+}
+
+TEST_F(Posts, RunRefusesAFiveAxisProgramForGrbl) {
+    const auto project = small_project(scratch.path(), "dome");
+    Ended ended = run({"run", project, "--driver", "grbl", "--port", (scratch / "none").string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));
+    ended = run({"run", project, "--driver", "grbl"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("the grbl driver needs a port (give --port)"));
+}
+
+} // namespace
+} // namespace millwright::test

@@ -1,0 +1,187 @@
+// A small program in the words of every shipped post: tests/golden/posts. MILLWRIGHT_GOLDEN=update writes
+// them anew; a person reads the difference.
+#include "core/gcode/posts/release.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/gcode/posts/post_file.h"
+#include "core/gcode/writer.h"
+#include "tests/support/programs.h"
+#include "tests/support/random_paths.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace millwright::gcode {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* posts[] = {"fanuc-tcp", "grbl", "heidenhain", "linuxcnc", "linuxcnc-tcp", "virtual"};
+
+const char* machine_for(const std::string& post) {
+    return post == "grbl" ? "router-xyz" : "ac-table";
+}
+
+PostFormat post_named(const std::string& name) {
+    return read_post("assets/posts/" + name + ".json");
+}
+
+/// Everything that a program can hold, in a few blocks.
+Program small_program(const kinematics::MachineModel& machine) {
+    Program program = test::empty_program(machine);
+    const bool turns = machine.axis_count() > 3;
+    const auto at = [&](double x, double y, double z, double a = 0.0, double c = 0.0) {
+        kinematics::AxisPositions q = kinematics::AxisPositions::Zero(machine.axis_count());
+        q.head<3>() = Vec3(x, y, z);
+        if (turns) {
+            q[3] = from_degrees(a);
+            q[4] = from_degrees(c);
+        }
+        return q;
+    };
+    test::add_block(program, BlockKind::comment);
+    program.blocks.back().text = "a part (really!)";
+    test::add_block(program, BlockKind::spindle_on);
+    program.blocks.back().spindle_rpm = 8000.0;
+    test::add_block(program, BlockKind::coolant_on);
+    test::add_move(program, at(0, 0, 55));
+    program.blocks.back().named = AxisSet::only(2);
+    test::add_move(program, at(20, -10, 55, 10, 90));
+    test::add_move(program, at(20, -10, 15, 10, 90));
+    test::add_move(program, at(20, -10, 5, 10, 90), 2.0);
+    test::add_move(program, at(30, 12.34567, 5, 12, 85), 1.5);
+    test::add_move(program, at(31, 12.34567, 4.5, 14, 60), 0.75);
+    test::add_block(program, BlockKind::dwell);
+    program.blocks.back().duration = 0.5;
+    test::add_block(program, BlockKind::pause);
+    program.blocks.back().text = "look at it";
+    test::add_move(program, at(40, 10, 5, 14, 60), 3.0);
+    test::add_move(program, at(40, 10, 55, 14, 60));
+    program.blocks.back().named = AxisSet::only(2);
+    test::add_block(program, BlockKind::coolant_off);
+    test::add_block(program, BlockKind::spindle_off);
+    test::add_block(program, BlockKind::end);
+    return program;
+}
+
+TEST(Release, WritesTheSmallProgramAsBefore) {
+    const char* wish = std::getenv("MILLWRIGHT_GOLDEN");
+    for (const std::string post : posts) {
+        const auto machine = test::machine(machine_for(post));
+        const PostFormat format = post_named(post);
+        const ReleasedText text =
+            release(small_program(machine), machine, format, {.text = {.name = "PART"}});
+        const std::string golden = "tests/golden/posts/" + post + ".txt";
+        if (wish != nullptr && std::string(wish) == "update") {
+            write_file(golden, text.listing.text);
+        }
+        EXPECT_EQ(text.listing.text, read_file(golden)) << post;
+    }
+}
+
+TEST(Release, WritesWhatTheWriterWritesForLinuxCnc) {
+    const auto machine = test::machine("rotary-tilt-listing");
+    const Program program = test::post_over("two-bell", machine, 12, 12).program;
+    EXPECT_EQ(release(program, machine, post_named("linuxcnc")).listing.text, write_gcode(program, {}).text);
+}
+
+TEST(Release, ReadsEveryRandomProgramBack) {
+    std::mt19937 random(2026);
+    for (const std::string post : posts) {
+        const auto machine = test::machine(machine_for(post));
+        const PostFormat format = post_named(post);
+        for (int n = 0; n < 40; ++n) {
+            const Program program = test::random_moves(machine, 25, random);
+            EXPECT_NO_THROW((void)release(program, machine, format, {.text = {.line_numbers = n % 2 == 0}}))
+                << post;
+        }
+    }
+}
+
+TEST(Release, WritesInchesForWhoAsksForThem) {
+    const auto machine = test::machine("router-xyz");
+    PostFormat format;
+    format.inches = true;
+    format.blocks.head = {"G20 G90 G17 G40 G49 G80", "G54 G94 {path}"};
+    Program program = test::empty_program(machine);
+    test::add_move(program, kinematics::AxisPositions(Vec3(25.4, 50.8, 2.54)));
+    test::add_move(program, kinematics::AxisPositions(Vec3(25.4, 0.0, 2.54)), 2.0);
+    test::add_block(program, BlockKind::end);
+    EXPECT_THAT(release(program, machine, format).listing.text,
+                HasSubstr("G0 X1.0000 Y2.0000 Z0.1000\nG93 G1 Y0.0000 F30.0000\n"));
+    format.blocks.head = {"G21 G90 G17 G40 G49 G80", "G54 G94 {path}"}; // says mm and writes inches
+    EXPECT_THROW((void)release(program, machine, format), Error);
+}
+
+TEST(Release, WritesArcsInEveryManner) {
+    const auto machine = test::machine("router-xyz");
+    Program program = test::empty_program(machine);
+    const auto point = [](int k) {
+        const double turn = 0.05 * k;
+        return kinematics::AxisPositions(
+            Vec3(10.0 + 20.0 * std::cos(turn), 5.0 + 20.0 * std::sin(turn), 0.02 * k));
+    };
+    test::add_move(program, point(0));
+    for (int k = 1; k <= 100; ++k) {
+        test::add_move(program, point(k), 0.1);
+    }
+    test::add_block(program, BlockKind::end);
+    for (const char* name : {"linuxcnc", "grbl"}) {
+        for (const ArcCentre centre : {ArcCentre::relative, ArcCentre::absolute, ArcCentre::radius}) {
+            PostFormat format = post_named(name);
+            format.arcs->centre = centre;
+            format.blocks.head.push_back(centre == ArcCentre::absolute ? "G90.1" : "G91.1");
+            if (centre == ArcCentre::absolute && format.reader == TextReader::grbl) {
+                continue; // Grbl knows no absolute centres
+            }
+            const ReleasedText text = release(program, machine, format, {.arc_tolerance = 0.02});
+            EXPECT_GE(text.arcs, 1) << name;
+            EXPECT_LE(text.listing.line_count(), 12) << name;
+        }
+    }
+}
+
+/// The message that a program is refused with.
+std::string refusal(const Program& program, const std::string& machine, const PostFormat& format) {
+    try {
+        (void)release(program, test::machine(machine), format);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "released";
+}
+
+TEST(Release, RefusesWhatAControlCannotDo) {
+    const auto machine = test::machine("router-xyz");
+    PostFormat format;
+    format.blocks.coolant_on.clear();
+    EXPECT_EQ(refusal(small_program(machine), "router-xyz", format),
+              "block 3: coolant on cannot be written for LinuxCNC");
+    format = PostFormat{};
+    format.lines.longest = 24;
+    EXPECT_EQ(refusal(small_program(machine), "router-xyz", format),
+              "block 8: its line would have 26 characters, and LinuxCNC takes 24");
+    format = post_named("grbl");
+    Program program = test::empty_program(machine);
+    test::add_move(program, kinematics::AxisPositions(Vec3(1.0, 0.0, 0.0)), 1e5);
+    EXPECT_EQ(refusal(program, "router-xyz", format),
+              "block 1: its feed, mm a minute, is too small to be written");
+}
+
+TEST(Release, RefusesALineThatTheControlDoesNotKnow) {
+    PostFormat format = post_named("grbl");
+    format.blocks.head = {"G21 G90 G64 P0.01"};
+    EXPECT_THAT(refusal(small_program(test::machine("router-xyz")), "router-xyz", format),
+                HasSubstr("Grbl does not know G64"));
+    format = post_named("heidenhain");
+    format.blocks.head = {"CYCL DEF 7.0 DATUM SHIFT"};
+    EXPECT_THAT(refusal(small_program(test::machine("ac-table")), "ac-table", format),
+                HasSubstr("only 9 and 32"));
+}
+
+} // namespace
+} // namespace millwright::gcode

@@ -1,0 +1,56 @@
+// An emulated Grbl in real time at a pseudo-terminal, for a person to connect to.
+#pragma once
+
+#include "core/machine/emulators/grbl/grbl_server.h"
+#include "core/machine/links/pseudo_terminal.h"
+
+#include <memory>
+#include <string>
+
+namespace millwright::test {
+
+class GrblBench {
+public:
+    /// Accelerates by 500 mm/s^2 along each axis, goes 3000 mm/min at most.
+    GrblBench() {
+        auto terminal = std::make_unique<machine::PseudoTerminal>();
+        terminal->open();
+        port_ = terminal->path().string();
+        std::vector<std::unique_ptr<machine::Link>> links;
+        links.push_back(std::move(terminal));
+        server_ = std::make_unique<machine::GrblServer>(std::move(links), clock_);
+        server_->with_controller([](machine::GrblEmulator& grbl) {
+            grbl.receive("$120=500\n$121=500\n$122=500\n$110=3000\n$111=3000\n$112=3000\n$20=0\n");
+        });
+    }
+
+    static constexpr double acceleration = 500.0; // mm/s^2
+
+    [[nodiscard]] const std::string& port() const { return port_; }
+    [[nodiscard]] bool moving() {
+        return server_->with_controller([](machine::GrblEmulator& grbl) { return grbl.moving(); });
+    }
+    /// s of the controller.
+    [[nodiscard]] double time() {
+        return server_->with_controller([](machine::GrblEmulator& grbl) { return grbl.time(); });
+    }
+    [[nodiscard]] double last_motion() {
+        return server_->with_controller([](machine::GrblEmulator& grbl) { return grbl.truth().last_motion; });
+    }
+    [[nodiscard]] std::array<double, 3> position() {
+        return server_->with_controller([](machine::GrblEmulator& grbl) { return grbl.position(); });
+    }
+    void raise_alarm() {
+        server_->with_controller([](machine::GrblEmulator& grbl) { grbl.raise_alarm(); });
+    }
+    /// The cable is pulled.
+    void vanish() { server_.reset(); }
+    [[nodiscard]] bool there() const { return server_ != nullptr; }
+
+private:
+    machine::SteadyClock clock_;
+    std::string port_;
+    std::unique_ptr<machine::GrblServer> server_;
+};
+
+} // namespace millwright::test

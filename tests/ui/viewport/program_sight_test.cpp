@@ -1,0 +1,142 @@
+// Long paths on the screen: what is drawn of them, and what the mouse finds, against brute force.
+#include "ui/viewport/program_sight.h"
+
+#include "ui/render/camera.h"
+#include "ui/render/path_drawer.h"
+#include "ui/viewport/program_picking.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace millwright::viewport {
+namespace {
+
+constexpr render::PixelSize size{800, 600};
+
+gcode::PreviewPath random_path(int points, double step) {
+    gcode::PreviewPath path;
+    gcode::PathChunker chunker;
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> way(-step, step);
+    Vec3 at = Vec3::Zero();
+    for (int n = 0; n < points; ++n) {
+        at = (at + Vec3(way(random), way(random), way(random))).cwiseMax(-100.0).cwiseMin(100.0);
+        chunker.add({at, static_cast<gcode::Step>(n), gcode::PathKind::feed}, 1.0);
+        if (auto full = chunker.take_full()) {
+            path.chunks.push_back(std::move(full));
+        }
+    }
+    if (auto rest = chunker.take_rest()) {
+        path.chunks.push_back(std::move(rest));
+    }
+    return path;
+}
+
+render::View view_of(const gcode::PreviewPath& path, double closer = 1.0) {
+    const Box3 box = path.bounds();
+    const render::Bounds bounds{{box.min().x(), box.min().y(), box.min().z()},
+                                {box.max().x(), box.max().y(), box.max().z()}};
+    return render::Camera()
+        .fitted(bounds, render::aspect(size))
+        .zoomed(closer, {400.0, 300.0}, size)
+        .view(size, bounds);
+}
+
+std::size_t drawn(const std::vector<std::vector<std::uint16_t>>& indices) {
+    std::size_t count = 0;
+    for (const auto& chunk : indices) {
+        count += chunk.size() - static_cast<std::size_t>(std::ranges::count(chunk, render::path_restart));
+    }
+    return count;
+}
+
+TEST(PiecesInSight, KeepWithinTheLimitAndUseIt) {
+    const gcode::PreviewPath path = random_path(150'000, 3.0);
+    const render::View view = view_of(path);
+    const std::size_t points = drawn(pieces_in_sight(path.chunks, view, 20'000));
+    EXPECT_LE(points, 20'000U);
+    EXPECT_GE(points, 18'000U);
+}
+
+TEST(PiecesInSight, OfAShortPathAreEveryPointWhereItIsNear) {
+    const gcode::PreviewPath path = random_path(5000, 20.0);
+    const std::size_t points = drawn(pieces_in_sight(path.chunks, view_of(path), 100'000));
+    EXPECT_GE(points, 4900U); // points on a straight line through their neighbours may be left out
+}
+
+TEST(PiecesInSight, LeaveOutWhatIsOutsideOfThePicture) {
+    const gcode::PreviewPath path = random_path(60'000, 3.0);
+    const std::size_t whole = drawn(pieces_in_sight(path.chunks, view_of(path), 1'000'000));
+    const std::size_t part = drawn(pieces_in_sight(path.chunks, view_of(path, 0.05), 1'000'000));
+    EXPECT_LT(part, whole / 2);
+}
+
+std::optional<gcode::PathPlace> brute_force(const gcode::PreviewPath& path,
+                                            const render::View& view,
+                                            const glm::dvec2& pixel,
+                                            double within) {
+    std::optional<gcode::PathPlace> best;
+    double nearest = within;
+    for (std::int64_t n = 1; n < path.point_count(); ++n) {
+        const Vec3 from = path.point(n - 1).position(), to = path.point(n).position();
+        const auto a = render::project(view, {from.x(), from.y(), from.z()});
+        const auto b = render::project(view, {to.x(), to.y(), to.z()});
+        if (!a || !b) {
+            continue;
+        }
+        for (int k = 0; k <= 200; ++k) {
+            const glm::dvec2 at = glm::mix(a->pixel, b->pixel, k / 200.0);
+            if (glm::distance(at, pixel) < nearest) {
+                nearest = glm::distance(at, pixel);
+                best = gcode::PathPlace{n, 0.0};
+            }
+        }
+    }
+    return best;
+}
+
+TEST(PickPath, FindsWhatBruteForceFinds) {
+    const gcode::PreviewPath path = random_path(400, 30.0);
+    const render::View view = view_of(path);
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> x(100.0, 700.0), y(100.0, 500.0);
+    int found = 0;
+    for (int round = 0; round < 200; ++round) {
+        const glm::dvec2 pixel(x(random), y(random));
+        const auto place = pick_path(path, view, pixel, 4.0);
+        const auto expected = brute_force(path, view, pixel, 4.0);
+        if (!place || !expected) {
+            continue; // within the steps of the brute force of the border
+        }
+        ++found;
+        // Of several as near on the screen any is right: compare how near it is.
+        const Vec3 p = path.position(*place);
+        const auto seen = render::project(view, {p.x(), p.y(), p.z()});
+        ASSERT_TRUE(seen);
+        EXPECT_LT(glm::distance(seen->pixel, pixel), 4.0 + 1e-3);
+    }
+    EXPECT_GT(found, 100);
+}
+
+TEST(PickPath, GivesUpWhenTooMuchWouldHaveToBeLookedAt) {
+    const gcode::PreviewPath path = random_path(20'000, 50.0);
+    const render::View view = view_of(path);
+    EXPECT_TRUE(pick_path(path, view, {400.0, 300.0}, 10.0));
+    EXPECT_FALSE(pick_path(path, view, {400.0, 300.0}, 10.0, 1000));
+}
+
+TEST(PathVertex, KeepsPlacesWithinA65535thOfTheBox) {
+    const glm::vec3 min(-10.0F, 0.0F, 5.0F), max(30.0F, 2.0F, 5.0F);
+    const std::array<float, 3> point{12.3F, 1.7F, 5.0F};
+    const render::PathVertex vertex = render::path_vertex(point.data(), 2, min, max);
+    EXPECT_NEAR(min.x + (max.x - min.x) * vertex.place[0] / 65535.0F, 12.3F, 40.0F / 65535.0F);
+    EXPECT_NEAR(min.y + (max.y - min.y) * vertex.place[1] / 65535.0F, 1.7F, 2.0F / 65535.0F);
+    EXPECT_EQ(vertex.place[2], 0);
+    EXPECT_EQ(vertex.kind, 2);
+}
+
+} // namespace
+} // namespace millwright::viewport

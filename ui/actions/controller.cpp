@@ -1,0 +1,253 @@
+#include "ui/actions/controller.h"
+
+#include "core/machine/drivers/grbl/grbl_driver.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+using machine::DriverState;
+using machine::DriverStatus;
+
+constexpr auto between_looks = std::chrono::milliseconds(50);
+
+bool same(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b) {
+    return a.size() == b.size() && a == b;
+}
+
+/// Whether both look the same to a person.
+bool looks_same(const DriverStatus& a, const DriverStatus& b) {
+    return a.state == b.state && a.activity == b.activity && same(a.position, b.position) &&
+           same(a.work_offset, b.work_offset) && a.modes == b.modes && a.block == b.block &&
+           a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
+           a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood && a.message == b.message &&
+           a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
+           (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
+}
+
+std::vector<gcode::ProgramAxis> axes_of(const machine::Capabilities& can,
+                                        const kinematics::MachineModel* model) {
+    if (!can.axes.empty() || model == nullptr) {
+        return can.axes;
+    }
+    std::vector<gcode::ProgramAxis> axes;
+    for (const kinematics::MachineAxis& axis : model->axes()) {
+        axes.push_back({axis.letter, axis.kind});
+    }
+    return axes;
+}
+
+kinematics::AxisPositions resting_place(const kinematics::MachineModel& model) {
+    kinematics::AxisPositions place = kinematics::AxisPositions::Zero(model.axis_count());
+    for (int n = 0; n < model.axis_count(); ++n) {
+        place[n] = std::clamp(0.0, model.axis(n).min, model.axis(n).max);
+    }
+    return place;
+}
+
+} // namespace
+
+Controller::Controller(std::function<void()> wake)
+    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+Controller::~Controller() {
+    thread_.request_stop();
+    changed_.notify_all();
+    thread_.join();
+    if (driver_) {
+        driver_->close();
+    }
+}
+
+void Controller::enqueue(Task task) {
+    {
+        const std::scoped_lock lock(mutex_);
+        tasks_.push_back(std::move(task));
+    }
+    changed_.notify_all();
+}
+
+void Controller::connect(const ControllerChoice& choice,
+                         std::shared_ptr<const kinematics::MachineModel> model) {
+    {
+        const std::scoped_lock lock(mutex_);
+        view_.link = LinkState::connecting;
+        view_.choice = choice;
+        view_.failure.reset();
+    }
+    enqueue([this, choice, model = std::move(model)] {
+        drop();
+        try_connect(choice, model);
+    });
+}
+
+void Controller::disconnect() {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (view_.link == LinkState::none) {
+            return;
+        }
+        view_.link = LinkState::closing;
+    }
+    enqueue([this] {
+        drop();
+        const std::scoped_lock lock(mutex_);
+        view_ = {LinkState::none, view_.choice, std::nullopt, {}, {}, {}, {}, {}};
+    });
+}
+
+void Controller::reset() {
+    enqueue([this] {
+        const auto driver = this->driver();
+        if (!driver) {
+            return;
+        }
+        std::optional<Diagnostic> failure;
+        try {
+            driver->reset();
+        } catch (const Error& error) {
+            failure = error.diagnostic();
+        }
+        const std::scoped_lock lock(mutex_);
+        view_.failure = failure;
+    });
+}
+
+std::shared_ptr<machine::Driver>
+Controller::make(const ControllerChoice& choice,
+                 const std::shared_ptr<const kinematics::MachineModel>& model) const {
+    if (choice.kind == DriverKind::grbl) {
+        if (choice.address.empty()) {
+            throw Error("there is no port to connect to", {}, "choose one, or type tcp:HOST:PORT");
+        }
+        return std::make_shared<machine::GrblDriver>(machine::make_link(choice.address), clock_);
+    }
+    if (!model) {
+        throw Error("there is no machine yet that could be simulated");
+    }
+    return std::make_shared<machine::VirtualMachine>(
+        resting_place(*model), machine::VirtualSpeed{}, clock_, model);
+}
+
+void Controller::try_connect(const ControllerChoice& choice,
+                             const std::shared_ptr<const kinematics::MachineModel>& model) {
+    std::shared_ptr<machine::Driver> made;
+    std::optional<Diagnostic> failure;
+    try {
+        made = make(choice, model);
+        made->connect();
+    } catch (const Error& error) {
+        failure = error.diagnostic();
+    }
+    const std::scoped_lock lock(mutex_);
+    view_ = {failure ? LinkState::none : LinkState::connected, choice, failure, {}, {}, {}, {}, {}};
+    if (!failure) {
+        driver_ = std::move(made);
+        view_.status = driver_->status();
+        view_.can = driver_->capabilities();
+        view_.axes = axes_of(view_.can, model.get());
+    }
+}
+
+void Controller::drop() {
+    std::shared_ptr<machine::Driver> old;
+    {
+        const std::scoped_lock lock(mutex_);
+        old = std::exchange(driver_, nullptr);
+    }
+    if (old) {
+        old->close();
+    }
+}
+
+void Controller::work(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        Task task;
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait_for(lock, stop, between_looks, [this] { return !tasks_.empty(); });
+            if (stop.stop_requested()) {
+                return;
+            }
+            if (!tasks_.empty()) {
+                task = std::move(tasks_.front());
+                tasks_.pop_front();
+                busy_ = true;
+            }
+        }
+        if (task) {
+            task();
+            {
+                const std::scoped_lock lock(mutex_);
+                busy_ = false;
+            }
+            changed_.notify_all();
+            wake_();
+        }
+        watch();
+    }
+}
+
+/// Wakes the window when something that it shows is other than before.
+void Controller::watch() {
+    const auto driver = this->driver();
+    if (!driver) {
+        return;
+    }
+    DriverStatus status = driver->status();
+    auto settings = driver->settings();
+    auto offsets = driver->stored_offsets();
+    bool changed = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        changed = !looks_same(status, view_.status) || settings.size() != view_.settings.size();
+        view_.status = std::move(status);
+        view_.settings = std::move(settings);
+        view_.offsets = std::move(offsets);
+    }
+    if (changed) {
+        wake_();
+    }
+}
+
+ControllerView Controller::view() const {
+    const std::scoped_lock lock(mutex_);
+    return view_;
+}
+
+std::shared_ptr<machine::Driver> Controller::driver() const {
+    const std::scoped_lock lock(mutex_);
+    return driver_;
+}
+
+std::shared_ptr<machine::Console> Controller::console() const {
+    auto owner = driver();
+    machine::Console* console = owner ? owner->console() : nullptr;
+    return console == nullptr ? nullptr : std::shared_ptr<machine::Console>(std::move(owner), console);
+}
+
+void Controller::tell(const std::function<void(machine::Driver&)>& what) {
+    const auto driver = this->driver();
+    if (!driver) {
+        throw Error("no machine is connected");
+    }
+    what(*driver);
+}
+
+void Controller::emergency_stop() {
+    if (const auto driver = this->driver()) {
+        driver->emergency_stop();
+    }
+}
+
+void Controller::wait_idle() const {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return tasks_.empty() && !busy_; });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,101 @@
+// The machine that is connected, between jobs and while one runs: made and dropped in the background, watched
+// all the time, told what a person does by hand.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/machine/clock.h"
+#include "core/machine/console.h"
+#include "core/machine/driver.h"
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace millwright::actions {
+
+enum class DriverKind { virtual_machine, grbl };
+
+/// What to connect to, as a person chose it.
+struct ControllerChoice {
+    DriverKind kind = DriverKind::virtual_machine;
+    std::string address; ///< serial port or tcp:HOST:PORT; the virtual machine needs none
+
+    friend bool operator==(const ControllerChoice&, const ControllerChoice&) = default;
+};
+
+enum class LinkState { none, connecting, connected, closing };
+
+/// What is known of it, for one frame.
+struct ControllerView {
+    LinkState link = LinkState::none;
+    ControllerChoice choice;           ///< of the link that is there or was tried last
+    std::optional<Diagnostic> failure; ///< why the last attempt came to nothing
+    machine::DriverStatus status;
+    machine::Capabilities can;
+    std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
+    std::vector<machine::ControllerSetting> settings;
+    std::vector<machine::StoredOffset> offsets;
+
+    [[nodiscard]] bool connected() const { return link == LinkState::connected; }
+};
+
+class Controller {
+public:
+    /// `wake`: from any thread, when something that is seen has changed.
+    explicit Controller(std::function<void()> wake);
+    Controller(const Controller&) = delete;
+    Controller& operator=(const Controller&) = delete;
+    /// Stops whatever moves and drops the link.
+    ~Controller();
+
+    /// In the background, in place of what is connected. `model`: of the virtual machine. Nothing moves.
+    void connect(const ControllerChoice& choice, std::shared_ptr<const kinematics::MachineModel> model);
+    /// In the background: stops what moves first.
+    void disconnect();
+    /// After an alarm or a lost link, in the background.
+    void reset();
+
+    [[nodiscard]] ControllerView view() const;
+    /// Null unless connected. For jobs; stays alive as long as somebody has it.
+    [[nodiscard]] std::shared_ptr<machine::Driver> driver() const;
+    /// Null where there is none. Lives as long as the driver.
+    [[nodiscard]] std::shared_ptr<machine::Console> console() const;
+
+    /// Does something with the driver at once. Throws Error if none is connected, or what the driver says.
+    void tell(const std::function<void(machine::Driver&)>& what);
+    /// The same without any complaint where nothing is connected.
+    void emergency_stop();
+
+    /// Blocks until nothing of the above is under way (tests).
+    void wait_idle() const;
+
+private:
+    using Task = std::function<void()>;
+
+    void enqueue(Task task);
+    void work(const std::stop_token& stop);
+    void watch();
+    void try_connect(const ControllerChoice& choice,
+                     const std::shared_ptr<const kinematics::MachineModel>& model);
+    void drop();
+    [[nodiscard]] std::shared_ptr<machine::Driver>
+    make(const ControllerChoice& choice, const std::shared_ptr<const kinematics::MachineModel>& model) const;
+
+    std::function<void()> wake_;
+    mutable machine::SteadyClock clock_; ///< outlives every driver
+    mutable std::mutex mutex_;           ///< guards what follows
+    mutable std::condition_variable_any changed_;
+    std::deque<Task> tasks_;
+    bool busy_ = false;
+    std::shared_ptr<machine::Driver> driver_;
+    ControllerView view_;
+    std::jthread thread_; // last: it ends before what it uses
+};
+
+} // namespace millwright::actions

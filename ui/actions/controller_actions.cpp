@@ -1,0 +1,147 @@
+// Connecting a machine and what it can do as a whole. Its axes are moved by the panel (jog_hand.h).
+#include "ui/actions/controller.h"
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using machine::DriverState;
+using widgets::Permission;
+
+Permission can_connect(const Workbench& now) {
+    if (now.job.running) {
+        return Permission::refused("A job is running.");
+    }
+    switch (now.controller.link) {
+    case LinkState::connecting:
+        return Permission::refused("It is being connected.");
+    case LinkState::connected:
+        return Permission::refused("A machine is connected.");
+    case LinkState::closing:
+        return Permission::refused("It is being disconnected.");
+    case LinkState::none:
+        break;
+    }
+    return {};
+}
+
+Permission is_connected(const Workbench& now) {
+    return now.controller.connected() ? Permission{} : Permission::refused("No machine is connected.");
+}
+
+Permission can_disconnect(const Workbench& now) {
+    return now.job.running ? Permission::refused("A job is running.") : is_connected(now);
+}
+
+Permission in_alarm(const Workbench& now) {
+    if (const Permission connected = is_connected(now); !connected.allowed) {
+        return connected;
+    }
+    return now.controller.status.state == DriverState::alarm ? Permission{}
+                                                             : Permission::refused("There is no alarm.");
+}
+
+Permission can_home(const Workbench& now) {
+    if (const Permission connected = is_connected(now); !connected.allowed) {
+        return connected;
+    }
+    if (!now.controller.can.home) {
+        return Permission::refused("This machine cannot home.");
+    }
+    const DriverState state = now.controller.status.state;
+    const bool at_rest =
+        state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
+    return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");
+}
+
+Permission can_single(const Workbench& now) {
+    if (const Permission connected = is_connected(now); !connected.allowed) {
+        return connected;
+    }
+    return now.controller.can.single_block
+               ? Permission{}
+               : Permission::refused("This machine cannot stop after each block.");
+}
+
+Permission can_arm(const Workbench& now) {
+    if (const Permission connected = is_connected(now); !connected.allowed) {
+        return connected;
+    }
+    return now.controller.can.jog ? Permission{} : Permission::refused("This machine cannot jog.");
+}
+
+} // namespace
+
+void add_controller_actions(Actions& actions) {
+    add(actions,
+        {"machine.connect",
+         "Machine",
+         "Connect",
+         "Makes the link to the chosen machine. Nothing moves.",
+         "",
+         icons::plug},
+        can_connect,
+        [](Hands& hands) { hands.workshop.connect(); });
+    add(actions,
+        {"machine.disconnect",
+         "Machine",
+         "Disconnect",
+         "Stops what moves and drops the link.",
+         "",
+         icons::cancel},
+        can_disconnect,
+        [](Hands& hands) { hands.workshop.controller().disconnect(); });
+    add(actions,
+        {"machine.reset",
+         "Machine",
+         "Unlock",
+         "After an alarm or a lost link: a person has looked at the machine, it may move again. Nothing "
+         "moves now.",
+         "",
+         icons::unlock},
+        in_alarm,
+        [](Hands& hands) { hands.workshop.controller().reset(); });
+    add(actions,
+        {"machine.home",
+         "Machine",
+         "Home",
+         "Finds the machine's zero by its switches. It moves.",
+         "",
+         icons::home},
+        can_home,
+        [](Hands& hands) {
+            hands.workshop.controller().tell([](machine::Driver& driver) { driver.home(); });
+        });
+    add(
+        actions,
+        {"machine.single_block",
+         "Machine",
+         "Single block",
+         "The machine rests after each block until it is resumed.",
+         "",
+         icons::step_forward},
+        can_single,
+        [](Hands& hands) {
+            const bool on = !hands.session.hand.single_block;
+            hands.workshop.controller().tell([on](machine::Driver& driver) { driver.set_single_block(on); });
+            hands.session.hand.single_block = on;
+        },
+        [](const Workbench& now) { return now.session.hand.single_block; });
+    add(
+        actions,
+        {"machine.arm_keys",
+         "Machine",
+         "Jog by keys",
+         "Arrow keys move X and Y, page keys Z, as long as they are held.",
+         "Ctrl+J",
+         icons::keyboard},
+        can_arm,
+        [](Hands& hands) { hands.session.hand.keys_armed = !hands.session.hand.keys_armed; },
+        [](const Workbench& now) { return now.session.hand.keys_armed; });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,62 @@
+#include "ui/actions/jog_hand.h"
+
+#include "core/base/error.h"
+
+namespace millwright::actions {
+
+namespace {
+
+constexpr double ahead = 1.0; // s: of motion that a renewed jog asks for, far beyond its dead man
+
+} // namespace
+
+void JogHand::renew(const JogWish& wish) {
+    machine::Jog jog;
+    jog.way = wish.direction * (wish.speed * ahead);
+    jog.speed = wish.speed;
+    jog.dead_man = dead_man;
+    moving_ = true; // also if the driver refuses: it is told to stop then
+    controller_.tell([&](machine::Driver& driver) { driver.jog(jog); });
+}
+
+void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
+    if (!wish) {
+        must_let_go_ = false;
+    }
+    if (!allowed) {
+        must_let_go_ = must_let_go_ || wish.has_value();
+        const auto driver = controller_.driver();
+        if (driver && driver->status().activity == machine::Activity::jog) {
+            moving_ = true; // a step that was asked for earlier ends here, too
+        }
+    }
+    if (!wish || !allowed || must_let_go_) {
+        return let_go();
+    }
+    try {
+        renew(*wish);
+    } catch (const Error&) {
+        const auto driver = controller_.driver();
+        if (driver && driver->status().activity == machine::Activity::jog) {
+            return; // it still brakes, as its dead man wanted: the next frame asks again
+        }
+        must_let_go_ = true; // said once, not in every frame
+        let_go();
+        throw;
+    }
+}
+
+void JogHand::let_go() {
+    if (!moving_) {
+        return;
+    }
+    moving_ = false;
+    if (const auto driver = controller_.driver()) {
+        try {
+            driver->stop_jog();
+        } catch (const Error&) { // what cannot jog does not move
+        }
+    }
+}
+
+} // namespace millwright::actions

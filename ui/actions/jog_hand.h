@@ -1,0 +1,45 @@
+// Moving by hand, held to run: the machine moves as long as a person wants it in every frame, and stops when
+// one frame goes by without that. A window that hangs wants nothing, and the driver's dead man stops it.
+#pragma once
+
+#include "core/machine/driver.h"
+#include "ui/actions/controller.h"
+
+#include <optional>
+
+namespace millwright::actions {
+
+/// Of one frame: where to, as a sign an axis, and how fast.
+struct JogWish {
+    kinematics::AxisPositions direction; ///< -1, 0 or 1
+    double speed = 0.0;                  ///< mm/s, of rotary axes rad/s
+
+    friend bool operator==(const JogWish& a, const JogWish& b) {
+        return a.direction.size() == b.direction.size() && a.direction == b.direction &&
+               !(a.speed < b.speed) && !(a.speed > b.speed);
+    }
+};
+
+class JogHand {
+public:
+    /// After this time without a sign of life the driver stops a jog, s.
+    static constexpr double dead_man = 0.1;
+
+    explicit JogHand(Controller& controller) : controller_(controller) {}
+
+    /// What a person wants in this frame; nothing stops. Not `allowed` (the window has lost the focus, a
+    /// question is asked) stops whatever jog there is, and it takes letting go before another one begins.
+    void follow(const std::optional<JogWish>& wish, bool allowed);
+    /// The same as a frame in which nothing is wanted, at once.
+    void let_go();
+    [[nodiscard]] bool moving() const { return moving_; }
+
+private:
+    void renew(const JogWish& wish);
+
+    Controller& controller_;
+    bool moving_ = false;
+    bool must_let_go_ = false;
+};
+
+} // namespace millwright::actions

@@ -1,0 +1,32 @@
+// Which machine is connected, how that stands in words, and what to do about an alarm or a lost link.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::panels {
+
+class ConnectionPanel final : public Panel {
+public:
+    explicit ConnectionPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void look_for_ports();
+
+    const actions::Catalogue& catalogue_;
+    struct Port {
+        std::string path, label;
+    };
+    std::vector<Port> ports_;
+    bool looked_ = false;
+};
+
+/// "Grbl at /dev/ttyUSB0, idle", "virtual machine, running a job"; "no machine connected".
+[[nodiscard]] std::string controller_text(const Workbench& now);
+
+} // namespace millwright::panels

@@ -1,0 +1,158 @@
+#include "ui/panels/console_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/text_search.h"
+#include "ui/widgets/listing.h"
+
+#include <algorithm>
+
+namespace millwright::panels {
+
+namespace {
+
+using machine::ConsoleKind;
+using machine::ConsoleLine;
+using machine::DriverState;
+using widgets::Permission;
+
+constexpr std::size_t most_kept = 20'000;
+constexpr std::size_t most_commands = 100;
+
+bool is_report(const ConsoleLine& line) {
+    return line.kind == ConsoleKind::query || line.kind == ConsoleKind::report;
+}
+
+widgets::Colour colour_of(const widgets::Palette& colours, const ConsoleLine& line) {
+    switch (line.kind) {
+    case ConsoleKind::fault:
+        return colours.danger;
+    case ConsoleKind::message:
+        return colours.warning;
+    case ConsoleKind::line:
+    case ConsoleKind::realtime:
+        return colours.accent;
+    case ConsoleKind::query:
+    case ConsoleKind::report:
+    case ConsoleKind::answer:
+        break;
+    }
+    return 0;
+}
+
+/// s since `start`; what was sent behind >, what came behind <.
+std::string text_of(const ConsoleLine& line, double start) {
+    return fixed(line.time - start, 2) + (line.sent ? "  > " : "  < ") + line.text;
+}
+
+Permission can_send(const Workbench& now) {
+    if (!now.controller.connected()) {
+        return Permission::refused("No machine is connected.");
+    }
+    if (!now.controller.can.command) {
+        return Permission::refused("This machine takes no single lines.");
+    }
+    const DriverState state = now.controller.status.state;
+    return !now.job.running && (state == DriverState::idle || state == DriverState::stopped)
+               ? Permission{}
+               : Permission::refused(state == DriverState::alarm ? "There is an alarm: home or unlock first."
+                                                                 : "The machine is moving.");
+}
+
+} // namespace
+
+void ConsolePanel::follow(const Workbench& now) {
+    const auto console = now.console;
+    if (console != source_.lock()) {
+        source_ = console;
+        lines_.clear();
+        next_ = 0;
+        start_known_ = false;
+    }
+    if (!console) {
+        return;
+    }
+    console->keep_reports(now.session.hand.show_reports);
+    next_ = console->read(next_, lines_);
+    if (!start_known_ && !lines_.empty()) {
+        start_ = lines_.front().time;
+        start_known_ = true;
+    }
+    if (lines_.size() > most_kept) {
+        lines_.erase(lines_.begin(), lines_.end() - static_cast<std::ptrdiff_t>(most_kept / 2));
+    }
+    shown_.clear();
+    for (std::size_t n = 0; n < lines_.size(); ++n) {
+        const bool found = wanted_.empty() || TextPattern(wanted_).next(lines_[n].text, 0);
+        if (found && (now.session.hand.show_reports || !is_report(lines_[n]))) {
+            shown_.push_back(n);
+        }
+    }
+}
+
+void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    follow(now);
+    draw_command(ui, now, ask);
+    if (!now.console) {
+        ui.note("Connect a machine to see what it is told and what it answers.");
+        return;
+    }
+    widgets::ListingView view;
+    view.lines = std::ssize(shown_);
+    view.line = [this](std::ptrdiff_t row) {
+        return text_of(lines_[shown_[static_cast<std::size_t>(row)]], start_);
+    };
+    view.mark = [&](std::ptrdiff_t row) {
+        return colour_of(ui.colours(), lines_[shown_[static_cast<std::size_t>(row)]]);
+    };
+    view.numbers = false;
+    view.coloured = false;
+    view.found = wanted_;
+    view.wanted = view.lines - 1;
+    (void)widgets::listing(ui, "console", view);
+}
+
+void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const float whole = ui.rest().w;
+    {
+        const auto width = ui.width(0.5F * whole);
+        const auto labels = ui.label_share(0.16F);
+        if (const auto line =
+                ui.command_line("command",
+                                "MDI",
+                                now.session.hand.commands,
+                                "A line for the machine; Enter sends it, arrows bring back earlier ones",
+                                can_send(now))) {
+            ask.tell([line = *line](machine::Driver& driver) { (void)driver.command(line); });
+            ask.show([line = *line](actions::Session& session) {
+                auto& commands = session.hand.commands;
+                std::erase(commands, line);
+                commands.push_back(line);
+                if (commands.size() > most_commands) {
+                    commands.erase(commands.begin());
+                }
+            });
+        }
+    }
+    ui.beside();
+    {
+        const auto width = ui.width(0.25F * whole);
+        const auto labels = ui.label_share(0.3F);
+        if (const auto text =
+                ui.text_field("filter", "Search", wanted_, "Shows only the lines with this in them")) {
+            wanted_ = *text;
+        }
+    }
+    ui.beside();
+    if (const auto on = ui.checkbox(
+            "reports", "Status reports", now.session.hand.show_reports, "They come ten times a second")) {
+        ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
+    }
+    const machine::CommandAnswer& answer = now.controller.status.answer;
+    if (answer.state == machine::CommandAnswer::State::refused) {
+        ui.words("Refused: " + answer.text, widgets::Tone::danger);
+    } else if (answer.state == machine::CommandAnswer::State::pending) {
+        ui.words("Being executed \u2026", widgets::Tone::muted);
+    }
+}
+
+} // namespace millwright::panels

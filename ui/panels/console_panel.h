@@ -1,0 +1,30 @@
+// What went over the link, and lines that a person sends: MDI and console in one.
+#pragma once
+
+#include "core/machine/console.h"
+#include "ui/panels/panel.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::panels {
+
+class ConsolePanel final : public Panel {
+public:
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void follow(const Workbench& now);
+    void draw_command(Ui& ui, const Workbench& now, ActionQueue& ask);
+
+    std::weak_ptr<machine::Console> source_; ///< that `lines_` came from
+    std::vector<machine::ConsoleLine> lines_;
+    std::int64_t next_ = 0;
+    double start_ = 0.0; ///< time of the first line, s
+    bool start_known_ = false;
+    std::string wanted_; ///< shown are the lines with this in them
+    std::vector<std::size_t> shown_;
+};
+
+} // namespace millwright::panels

@@ -1,0 +1,127 @@
+#include "ui/panels/controller_tables.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/machine/hand_lines.h"
+#include "ui/widgets/table.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace millwright::panels {
+
+namespace {
+
+using machine::DriverState;
+using widgets::Permission;
+
+Permission can_change(const Workbench& now) {
+    const DriverState state = now.controller.status.state;
+    return !now.job.running && (state == DriverState::idle || state == DriverState::stopped)
+               ? Permission{}
+               : Permission::refused("The machine is not at rest.");
+}
+
+} // namespace
+
+void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto& axes = now.controller.axes;
+    const auto& offsets = now.controller.offsets;
+    if (!now.controller.connected() || offsets.empty()) {
+        ui.note(now.controller.connected() ? "This machine tells no stored offsets."
+                                           : "No machine is connected.");
+        return;
+    }
+    ui.note("Machine coordinates of each zero, in mm and degrees. A click on a work system selects it.");
+    std::vector<std::string> letters;
+    for (const gcode::ProgramAxis& axis : axes) {
+        letters.emplace_back(1, axis.letter);
+    }
+    std::vector<widgets::Column> columns{{"Offset", "", 1.4F, false}};
+    for (const std::string& letter : letters) {
+        columns.push_back({letter, "", 1.0F, true});
+    }
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(offsets);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const machine::StoredOffset& offset = offsets[static_cast<std::size_t>(row)];
+        if (column == 0) {
+            return offset.name;
+        }
+        const int n = column - 1;
+        if (n >= offset.value.size()) {
+            return std::string("-");
+        }
+        const bool turns = axes[static_cast<std::size_t>(n)].kind == kinematics::AxisKind::rotary;
+        return fixed(turns ? to_degrees(offset.value[n]) : offset.value[n], 3);
+    };
+    view.row_id = [&](std::ptrdiff_t row) { return offsets[static_cast<std::size_t>(row)].name; };
+    view.height = ui.rest().h;
+    const int system = now.controller.status.work_system;
+    const std::string in_force = system > 0 ? machine::work_system_name(system) : std::string();
+    const auto chosen = std::ranges::find(offsets, in_force, &machine::StoredOffset::name);
+    view.chosen = chosen == offsets.end() ? -1 : chosen - offsets.begin();
+    const auto row = widgets::table(ui, "offsets", view);
+    if (row && can_change(now).allowed && offsets[static_cast<std::size_t>(*row)].name.starts_with("G5")) {
+        ask.tell([line = offsets[static_cast<std::size_t>(*row)].name](machine::Driver& driver) {
+            (void)driver.command(line);
+        });
+    }
+}
+
+void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto& settings = now.controller.settings;
+    if (!now.controller.connected() || settings.empty()) {
+        ui.note(now.controller.connected() ? "This machine has no settings of its own."
+                                           : "No machine is connected.");
+        return;
+    }
+    const auto chosen = std::ranges::find(settings, chosen_, &machine::ControllerSetting::name);
+    if (chosen != settings.end()) {
+        const std::string label = chosen->name + "  " + std::string(chosen->title);
+        const widgets::FieldInfo info{"value",
+                                      label,
+                                      chosen->unit,
+                                      chosen->explanation,
+                                      -1e6,
+                                      1e6,
+                                      std::numeric_limits<double>::quiet_NaN(),
+                                      3};
+        const auto width = ui.width(std::min(ui.rest().w, ui.px(560.0F)));
+        const auto labels = ui.label_share(0.65F);
+        if (const auto value = ui.number(chosen->value, info, can_change(now))) {
+            ask.tell([line = chosen->name + "=" + shortest(*value)](machine::Driver& driver) {
+                (void)driver.command(line);
+            });
+        }
+    } else {
+        ui.note("A click on a row lets you change it.");
+    }
+    constexpr std::array<widgets::Column, 5> columns{{{"Name", "", 0.7F, false},
+                                                      {"Setting", "", 2.6F, false},
+                                                      {"Value", "", 1.2F, true},
+                                                      {"Unit", "", 0.9F, false},
+                                                      {"What it does", "", 5.0F, false}}};
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(settings);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const machine::ControllerSetting& setting = settings[static_cast<std::size_t>(row)];
+        const std::array<std::string, 5> cells{setting.name,
+                                               std::string(setting.title),
+                                               shortest(setting.value),
+                                               std::string(setting.unit),
+                                               std::string(setting.explanation)};
+        return cells[static_cast<std::size_t>(column)];
+    };
+    view.row_id = [&](std::ptrdiff_t row) { return settings[static_cast<std::size_t>(row)].name; };
+    view.chosen = chosen == settings.end() ? -1 : chosen - settings.begin();
+    view.height = ui.rest().h;
+    if (const auto row = widgets::table(ui, "settings", view)) {
+        chosen_ = settings[static_cast<std::size_t>(*row)].name;
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,166 @@
+#include "ui/panels/controls_panel.h"
+
+#include "core/base/text.h"
+#include "core/machine/hand_lines.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/internal/hand_fields.h"
+#include "ui/widgets/icons.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace millwright::panels {
+
+namespace {
+
+namespace icons = widgets::icons;
+using actions::ControllerView;
+using widgets::Permission;
+using widgets::Rank;
+
+constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
+constexpr double seconds_a_minute = 60.0;
+
+/// -10 %, the value, +10 %, back to 100 %.
+void override_row(Ui& ui,
+                  const Workbench& now,
+                  ActionQueue& ask,
+                  const std::string& id,
+                  std::string_view label,
+                  int machine::Overrides::*which,
+                  int step,
+                  int least,
+                  int most) {
+    const machine::Overrides& all = now.controller.status.overrides;
+    const Permission can =
+        now.controller.can.overrides ? Permission{} : Permission::refused("This machine has no overrides.");
+    const auto set = [&](int percent) {
+        machine::Overrides wanted = all;
+        wanted.*which = std::clamp(percent, least, most);
+        ask.tell([wanted](machine::Driver& driver) { driver.set_overrides(wanted); });
+    };
+    ui.value(id, label, fmt::format("{}", all.*which), "%");
+    const auto row = ui.row(3);
+    if (ui.button(id + "_less", fmt::format("\u2212{}", step), can, {{}, Rank::normal, -1.0F, {}})) {
+        set(all.*which - step);
+    }
+    if (ui.button(id + "_full", "100 %", can, {{}, Rank::normal, -1.0F, {}})) {
+        set(100);
+    }
+    if (ui.button(id + "_more", fmt::format("+{}", step), can, {{}, Rank::normal, -1.0F, {}})) {
+        set(all.*which + step);
+    }
+}
+
+} // namespace
+
+void ControlsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_finding(ui, now, ask);
+    draw_overrides(ui, now, ask);
+    draw_spindle(ui, now, ask);
+}
+
+void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("finding", "Homing and probing");
+    if (!section) {
+        return;
+    }
+    const ControllerView& machine = now.controller;
+    action_button(ui, now, ask, catalogue_, "machine.home");
+    const actions::HandSettings& hand = now.session.hand;
+    hand_number(ui,
+                ask,
+                {"probe_way",
+                 "Probe down by",
+                 "mm",
+                 "The longest way that it looks for the part",
+                 0.1,
+                 500.0,
+                 no_default,
+                 1},
+                hand.probe_way_mm,
+                &actions::HandSettings::probe_way_mm);
+    hand_number(ui,
+                ask,
+                {"probe_speed", "at", "mm/min", "Slow: it touches at this speed", 1.0, 2000.0, no_default, 0},
+                hand.probe_mm_per_min,
+                &actions::HandSettings::probe_mm_per_min);
+    const auto z = axis_named(machine, 'Z');
+    Permission can =
+        machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
+    if (machine.status.inputs.probe) {
+        can = Permission::refused("The probe touches already.");
+    }
+    if (ui.button("probe",
+                  "Probe Z",
+                  can,
+                  {icons::chevron_down, Rank::normal, -1.0F, "G38.2 downwards. It moves."})) {
+        command(ask,
+                machine::probe_line(machine.axes[*z],
+                                    static_cast<int>(*z),
+                                    -hand.probe_way_mm,
+                                    hand.probe_mm_per_min / seconds_a_minute,
+                                    machine.status));
+    }
+    if (machine.status.probe) {
+        const machine::Probing& last = *machine.status.probe;
+        const bool known = z && last.position.size() > static_cast<Eigen::Index>(*z);
+        ui.value("probed",
+                 "Last probing",
+                 !last.touched ? "touched nothing"
+                 : known       ? "Z " + fixed(last.position[static_cast<Eigen::Index>(*z)], 3)
+                               : "touched",
+                 last.touched && known ? "mm" : "");
+    }
+}
+
+void ControlsPanel::draw_overrides(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("overrides", "Overrides");
+    if (!section) {
+        return;
+    }
+    override_row(ui, now, ask, "feed", "Feed", &machine::Overrides::feed, 10, 10, 200);
+    override_row(ui, now, ask, "rapid", "Rapid", &machine::Overrides::rapid, 25, 25, 100);
+    override_row(ui, now, ask, "spindle", "Spindle", &machine::Overrides::spindle, 10, 10, 200);
+}
+
+void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("spindle", "Spindle and coolant");
+    if (!section) {
+        return;
+    }
+    const machine::DriverStatus& status = now.controller.status;
+    const Permission can = can_command(now.controller);
+    const bool turning = status.spindle != gcode::SpindleTurning::stopped;
+    ui.value(
+        "state", "Spindle", turning ? fmt::format("{:.0f} rpm", status.spindle_rpm) : std::string("stopped"));
+    const double rpm = now.session.hand.spindle_rpm;
+    hand_number(ui,
+                ask,
+                {"rpm", "Speed", "rpm", "For the buttons below", 0.0, 60000.0, no_default, 0},
+                rpm,
+                &actions::HandSettings::spindle_rpm);
+    {
+        const auto row = ui.row(3);
+        if (ui.button("clockwise", "M3", can, {{}, Rank::normal, -1.0F, "Starts the spindle clockwise"})) {
+            command(ask, machine::start_spindle(rpm, true));
+        }
+        if (ui.button(
+                "counterclockwise", "M4", can, {{}, Rank::normal, -1.0F, "Starts it counter-clockwise"})) {
+            command(ask, machine::start_spindle(rpm, false));
+        }
+        if (ui.button("stop", "M5", can, {{}, Rank::normal, -1.0F, "Stops the spindle"})) {
+            command(ask, machine::stop_spindle());
+        }
+    }
+    if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can)) {
+        command(ask, machine::set_coolant(*on, status.flood));
+    }
+    if (const auto on = ui.toggle("flood", "Flood", status.flood, "M8", can)) {
+        command(ask, machine::set_coolant(status.mist, *on));
+    }
+}
+
+} // namespace millwright::panels

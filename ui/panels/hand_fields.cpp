@@ -1,0 +1,48 @@
+#include "ui/panels/internal/hand_fields.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::panels {
+
+using actions::ControllerView;
+using machine::DriverState;
+using widgets::Permission;
+
+Permission at_rest(const ControllerView& machine) {
+    const DriverState state = machine.status.state;
+    if (state == DriverState::alarm) {
+        return Permission::refused("There is an alarm: home or unlock first.");
+    }
+    return state == DriverState::idle || state == DriverState::stopped
+               ? Permission{}
+               : Permission::refused("The machine is moving.");
+}
+
+Permission can_command(const ControllerView& machine) {
+    return machine.can.command ? at_rest(machine)
+                               : Permission::refused("This machine takes no single lines.");
+}
+
+void command(ActionQueue& ask, std::string line) {
+    ask.tell([line = std::move(line)](machine::Driver& driver) { (void)driver.command(line); });
+}
+
+void hand_number(Ui& ui,
+                 ActionQueue& ask,
+                 const widgets::FieldInfo& info,
+                 double now,
+                 double actions::HandSettings::*which) {
+    if (const auto value = ui.number(now, info)) {
+        ask.show([which, value = *value](actions::Session& session) { session.hand.*which = value; });
+    }
+}
+
+std::optional<std::size_t> axis_named(const ControllerView& machine, char letter) {
+    const auto found = std::ranges::find(machine.axes, letter, &gcode::ProgramAxis::letter);
+    return found == machine.axes.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - machine.axes.begin()));
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,245 @@
+#include "ui/panels/hand_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/machine/hand_lines.h"
+#include "ui/panels/internal/hand_fields.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/widgets/readout.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ControllerView;
+using actions::JogWish;
+using kinematics::AxisKind;
+using widgets::Permission;
+using widgets::Rank;
+
+constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
+constexpr double seconds_a_minute = 60.0;
+
+constexpr std::array<double, 5> steps{0.0, 0.01, 0.1, 1.0, 10.0};
+constexpr std::array<widgets::Option, 5> step_options{{{"hold", "Held", {}, "Moves as long as it is held"},
+                                                       {"0_01", "0.01"},
+                                                       {"0_1", "0.1"},
+                                                       {"1", "1"},
+                                                       {"10", "10"}}};
+
+std::string letter_of(const gcode::ProgramAxis& axis) {
+    return std::string(1, axis.letter);
+}
+
+bool is_rotary(const gcode::ProgramAxis& axis) {
+    return axis.kind == AxisKind::rotary;
+}
+
+Permission can_jog(const Workbench& now) {
+    if (now.job.running) {
+        return Permission::refused("A job is running.");
+    }
+    if (!now.controller.can.jog) {
+        return Permission::refused("This machine cannot jog.");
+    }
+    const bool jogging = now.controller.status.activity == machine::Activity::jog;
+    return jogging ? Permission{} : at_rest(now.controller);
+}
+
+/// Collects what is held down in this frame.
+class Wish {
+public:
+    Wish(const Workbench& now, ActionQueue& ask)
+        : machine_(now.controller), hand_(now.session.hand), ask_(ask),
+          direction_(kinematics::AxisPositions::Zero(static_cast<Eigen::Index>(now.controller.axes.size()))) {
+    }
+
+    /// Held in this frame, and whether it went down in it.
+    void want(std::size_t axis, double sign, bool held, bool pressed) {
+        const auto n = static_cast<Eigen::Index>(axis);
+        if (hand_.step > 0.0) {
+            if (pressed) {
+                step(axis, sign);
+            }
+        } else if (held) {
+            direction_[n] = sign;
+            turns_ = turns_ || is_rotary(machine_.axes[axis]);
+        }
+    }
+
+    void tell() const {
+        if ((direction_.array().abs() > 0.0).any()) {
+            ask_.jog(JogWish{direction_, speed(turns_)});
+        }
+    }
+
+private:
+    [[nodiscard]] double speed(bool turns) const {
+        return turns ? from_degrees(hand_.turn_deg_per_min) / seconds_a_minute
+                     : hand_.speed_mm_per_min / seconds_a_minute;
+    }
+
+    void step(std::size_t axis, double sign) const {
+        const bool turns = is_rotary(machine_.axes[axis]);
+        machine::Jog jog;
+        jog.way = kinematics::AxisPositions::Zero(direction_.size());
+        jog.way[static_cast<Eigen::Index>(axis)] = sign * (turns ? from_degrees(hand_.step) : hand_.step);
+        jog.speed = speed(turns);
+        ask_.tell([jog](machine::Driver& driver) { driver.jog(jog); });
+    }
+
+    const ControllerView& machine_;
+    const actions::HandSettings& hand_;
+    ActionQueue& ask_;
+    kinematics::AxisPositions direction_;
+    bool turns_ = false;
+};
+
+void jog_button(Ui& ui, const Workbench& now, Wish& wish, std::size_t axis, double sign) {
+    const std::string letter = letter_of(now.controller.axes[axis]);
+    const std::string id = (sign > 0.0 ? "plus_" : "minus_") + letter;
+    const std::string label = letter + (sign > 0.0 ? "+" : "\u2212");
+    const widgets::HeldButton now_held =
+        ui.hold_button(id, label, can_jog(now), {{}, Rank::normal, -1.0F, {}});
+    wish.want(axis, sign, now_held.held, now_held.pressed);
+}
+
+void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
+    if (!now.session.hand.keys_armed || ui.was_typing() || now.asks() || !can_jog(now).allowed) {
+        return;
+    }
+    struct KeyAxis {
+        render::Key key;
+        char letter;
+        double sign;
+    };
+    constexpr std::array<KeyAxis, 6> keys{{{render::Key::right, 'X', 1.0},
+                                           {render::Key::left, 'X', -1.0},
+                                           {render::Key::up, 'Y', 1.0},
+                                           {render::Key::down, 'Y', -1.0},
+                                           {render::Key::page_up, 'Z', 1.0},
+                                           {render::Key::page_down, 'Z', -1.0}}};
+    for (const KeyAxis& key : keys) {
+        if (const auto axis = axis_named(now.controller, key.letter)) {
+            wish.want(*axis, key.sign, render::key_down(key.key), render::key_pressed(key.key));
+        }
+    }
+}
+
+} // namespace
+
+void HandPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_position(ui, now, ask);
+    draw_jog(ui, now, ask);
+}
+
+void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("position", "Position");
+    const ControllerView& machine = now.controller;
+    const auto count = static_cast<Eigen::Index>(machine.axes.size());
+    if (!section) {
+        return;
+    }
+    if (machine.status.position.size() != count || count == 0) {
+        ui.note("The machine has not told where it is.");
+        return;
+    }
+    const kinematics::AxisPositions work = machine.status.work_position();
+    std::vector<std::string> letters;
+    for (const gcode::ProgramAxis& axis : machine.axes) {
+        letters.push_back(letter_of(axis));
+    }
+    std::vector<widgets::AxisReading> axes;
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        const auto k = static_cast<Eigen::Index>(n);
+        const bool turns = is_rotary(machine.axes[n]);
+        widgets::AxisReading reading;
+        reading.letter = letters[n];
+        reading.value = turns ? to_degrees(work[k]) : work[k];
+        reading.unit = turns ? "\u00b0" : "mm";
+        reading.second = turns ? to_degrees(machine.status.position[k]) : machine.status.position[k];
+        if (machine.status.inputs.limits.find(letters[n]) != std::string::npos) {
+            reading.state = widgets::AxisState::at_limit;
+        }
+        axes.push_back(reading);
+    }
+    const std::string system = machine.status.work_system > 0
+                                   ? machine::work_system_name(machine.status.work_system) + ", machine"
+                                   : std::string("work, machine");
+    widgets::readout(ui, "axes", axes, system);
+    const Permission can = can_command(machine);
+    std::string all;
+    {
+        const auto row = ui.row(static_cast<int>(machine.axes.size()) + 1);
+        for (const gcode::ProgramAxis& axis : machine.axes) {
+            const std::string line = machine::set_work_position(axis, 0.0);
+            all += line + "\n";
+            const std::string letter = letter_of(axis);
+            if (ui.button("zero_" + letter,
+                          letter + " = 0",
+                          can,
+                          {{}, Rank::normal, -1.0F, "Makes this place the zero of the work system"})) {
+                command(ask, line);
+            }
+        }
+        if (ui.button(
+                "zero_all", "All", can, {{}, Rank::normal, -1.0F, "Makes this place the zero of all axes"})) {
+            command(ask, all);
+        }
+    }
+}
+
+void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("jog", "Jog");
+    if (!section) {
+        return;
+    }
+    const actions::HandSettings& hand = now.session.hand;
+    const auto chosen_step = std::ranges::find(steps, hand.step);
+    const auto labels = ui.label_share(0.3F);
+    if (const auto step = ui.segmented("step",
+                                       "Step",
+                                       static_cast<int>(chosen_step - steps.begin()),
+                                       step_options,
+                                       "mm or degrees of one press")) {
+        ask.show([step = steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
+            session.hand.step = step;
+        });
+    }
+    hand_number(ui,
+                ask,
+                {"speed", "Speed", "mm/min", "Of X, Y and Z by hand", 1.0, 20000.0, no_default, 0},
+                hand.speed_mm_per_min,
+                &actions::HandSettings::speed_mm_per_min);
+    const bool turns = std::ranges::any_of(now.controller.axes, is_rotary);
+    if (turns) {
+        hand_number(ui,
+                    ask,
+                    {"turn", "Turning", "\u00b0/min", "Of rotary axes by hand", 1.0, 20000.0, no_default, 0},
+                    hand.turn_deg_per_min,
+                    &actions::HandSettings::turn_deg_per_min);
+    }
+    const actions::Action& arm = catalogue_.find("machine.arm_keys");
+    if (const auto on =
+            ui.toggle("keys", "Jog by keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
+        ask.run("machine.arm_keys");
+    }
+    Wish wish(now, ask);
+    for (std::size_t axis = 0; axis < now.controller.axes.size(); axis += 2) {
+        const auto row = ui.row(4);
+        for (std::size_t n = axis; n < std::min(axis + 2, now.controller.axes.size()); ++n) {
+            jog_button(ui, now, wish, n, -1.0);
+            jog_button(ui, now, wish, n, 1.0);
+        }
+    }
+    key_wishes(ui, now, wish);
+    wish.tell();
+}
+
+} // namespace millwright::panels

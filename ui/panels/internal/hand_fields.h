@@ -1,0 +1,30 @@
+// What the panels that move a machine by hand have in common: when that is allowed, and how it is told.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/widgets/field_info.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+/// Yes while the machine takes orders; else why not.
+[[nodiscard]] widgets::Permission at_rest(const actions::ControllerView& machine);
+/// The same for single lines.
+[[nodiscard]] widgets::Permission can_command(const actions::ControllerView& machine);
+
+/// Sends lines to the connected machine.
+void command(ActionQueue& ask, std::string lines);
+
+/// One value of the settings of the hand, as a field.
+void hand_number(Ui& ui,
+                 ActionQueue& ask,
+                 const widgets::FieldInfo& info,
+                 double now,
+                 double actions::HandSettings::*which);
+
+[[nodiscard]] std::optional<std::size_t> axis_named(const actions::ControllerView& machine, char letter);
+
+} // namespace millwright::panels

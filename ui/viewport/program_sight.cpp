@@ -1,0 +1,139 @@
+#include "ui/viewport/program_sight.h"
+
+#include "ui/render/path_drawer.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <queue>
+
+namespace millwright::viewport {
+
+namespace {
+
+using gcode::PathBlock;
+using gcode::PathChunk;
+
+constexpr double unseen_px = 0.4; // a line that is off by less looks the same
+constexpr int exact = -1;         // in place of a level
+
+struct Candidate {
+    double error_px = 0.0; ///< of the level it has now
+    std::uint32_t chunk = 0;
+    std::uint32_t block = 0;
+    int level = 0;
+
+    friend bool operator<(const Candidate& a, const Candidate& b) { return a.error_px < b.error_px; }
+};
+
+/// The six planes of what a view sees; a point is inside of each where dot(plane, (p, 1)) >= 0.
+std::array<glm::dvec4, 6> planes_of(const render::View& view) {
+    const glm::dmat4 rows = glm::transpose(view.projection * view.view);
+    std::array<glm::dvec4, 6> planes{rows[3] + rows[0],
+                                     rows[3] - rows[0],
+                                     rows[3] + rows[1],
+                                     rows[3] - rows[1],
+                                     rows[3] + rows[2],
+                                     rows[3] - rows[2]};
+    for (glm::dvec4& plane : planes) {
+        plane /= glm::length(glm::dvec3(plane));
+    }
+    return planes;
+}
+
+struct Ball {
+    glm::dvec3 middle{};
+    double radius = 0.0;
+};
+
+Ball ball_around(const PathBlock& block) {
+    const glm::dvec3 min(block.min[0], block.min[1], block.min[2]);
+    const glm::dvec3 max(block.max[0], block.max[1], block.max[2]);
+    return {0.5 * (min + max), 0.5 * glm::length(max - min)};
+}
+
+bool in_sight(const Ball& ball, const std::array<glm::dvec4, 6>& planes) {
+    return std::ranges::all_of(planes, [&](const glm::dvec4& plane) {
+        return glm::dot(plane, glm::dvec4(ball.middle, 1.0)) >= -ball.radius;
+    });
+}
+
+/// Where it is largest: at the point of the ball that is nearest to the eye.
+double error_px(const PathBlock& block, int level, const Ball& ball, const render::View& view) {
+    const glm::dvec3 nearest = ball.middle - ball.radius * render::looking_along(view);
+    const double pixel = std::max(render::pixel_length(view, nearest), 1e-9); // mm; behind the eye: exact
+    return level == exact ? 0.0
+                          : static_cast<double>(block.levels[static_cast<std::size_t>(level)].error) / pixel;
+}
+
+std::size_t points_of(const PathBlock& block, int level) {
+    return level == exact ? block.count : block.levels[static_cast<std::size_t>(level)].count;
+}
+
+void append(std::vector<std::uint16_t>& indices, const PathChunk& chunk, const PathBlock& block, int level) {
+    if (!indices.empty()) {
+        indices.push_back(render::path_restart);
+    }
+    if (level == exact) {
+        for (std::uint32_t n = block.first; n < block.first + block.count; ++n) {
+            indices.push_back(static_cast<std::uint16_t>(n));
+        }
+        return;
+    }
+    const PathBlock::Level& chosen = block.levels[static_cast<std::size_t>(level)];
+    const auto first = chunk.indices.begin() + chosen.first;
+    indices.insert(indices.end(), first, first + chosen.count);
+}
+
+} // namespace
+
+std::vector<std::vector<std::uint16_t>>
+pieces_in_sight(std::span<const std::shared_ptr<const PathChunk>> chunks,
+                const render::View& view,
+                std::size_t most_points) {
+    const auto planes = planes_of(view);
+    constexpr int coarsest = static_cast<int>(PathBlock::coarse_levels) - 1;
+    std::priority_queue<Candidate> open;
+    std::vector<Candidate> settled;
+    std::size_t points = 0;
+    for (std::uint32_t c = 0; c < chunks.size(); ++c) {
+        for (std::uint32_t b = 0; b < chunks[c]->blocks.size(); ++b) {
+            const PathBlock& block = chunks[c]->blocks[b];
+            const Ball ball = ball_around(block);
+            if (in_sight(ball, planes)) {
+                open.push({error_px(block, coarsest, ball, view), c, b, coarsest});
+                points += points_of(block, coarsest);
+            }
+        }
+    }
+    while (!open.empty() && open.top().error_px > unseen_px) {
+        Candidate worst = open.top();
+        const PathBlock& block = chunks[worst.chunk]->blocks[worst.block];
+        const std::size_t finer = points_of(block, worst.level - 1) - points_of(block, worst.level);
+        open.pop();
+        if (points + finer > most_points) {
+            settled.push_back(worst);
+            continue;
+        }
+        points += finer;
+        --worst.level;
+        worst.error_px = error_px(block, worst.level, ball_around(block), view);
+        open.push(worst);
+    }
+    for (; !open.empty(); open.pop()) {
+        settled.push_back(open.top());
+    }
+    std::ranges::sort(settled, [](const Candidate& a, const Candidate& b) {
+        return a.chunk != b.chunk ? a.chunk < b.chunk : a.block < b.block;
+    });
+    std::vector<std::vector<std::uint16_t>> indices(chunks.size());
+    for (const Candidate& chosen : settled) {
+        const PathChunk& chunk = *chunks[chosen.chunk];
+        append(indices[chosen.chunk], chunk, chunk.blocks[chosen.block], chosen.level);
+    }
+    return indices;
+}
+
+} // namespace millwright::viewport
