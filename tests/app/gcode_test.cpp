@@ -98,7 +98,7 @@ TEST(Gcode, TimeIsThatOfThePlannedMotion) {
     const auto answer = nlohmann::json::parse(ended.out);
     EXPECT_NEAR(answer.at("time_s").get<double>(), 100.0 / 50.0 + 50.0 / 800.0, 1e-9);
     EXPECT_NEAR(answer.at("length_mm").get<double>(), 100.0, 1e-9);
-    EXPECT_EQ(answer.at("blocks").get<int>(), 3); // the feed, and M2: the spindle off, the end
+    EXPECT_EQ(answer.at("blocks").get<int>(), 2); // the feed and the end
 }
 
 TEST(Gcode, TimeDependsOnHowCornersAreTaken) {
