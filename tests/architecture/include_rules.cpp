@@ -146,6 +146,8 @@ constexpr std::array<std::string_view, 1> asio = {"boost/asio"};
 constexpr std::array<std::string_view, 1> asio_home = {"core/machine/links"};
 constexpr std::array<std::string_view, 1> clipper = {"polyclipping/"};
 constexpr std::array<std::string_view, 1> clipper_home = {"core/plot"};
+constexpr std::array<std::string_view, 2> pictures = {"png.h", "jpeglib.h"};
+constexpr std::array<std::string_view, 2> pictures_home = {"core/plot/picture", "tests/core/plot/picture"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
@@ -154,6 +156,7 @@ constexpr std::array homes = {
     Home{"nlohmann-json", json, json_home},
     Home{"Boost.Asio", asio, asio_home},
     Home{"Clipper", clipper, clipper_home},
+    Home{"libpng or libjpeg", pictures, pictures_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {

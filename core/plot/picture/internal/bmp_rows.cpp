@@ -1,0 +1,191 @@
+// BMP: uncompressed pixels of 1, 4, 8, 16, 24 or 32 bits. Source: Microsoft, Windows GDI, bitmap structures.
+#include "core/plot/picture/internal/row_sink.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+
+namespace millwright::plot::internal {
+namespace {
+
+constexpr std::int64_t file_head = 14;
+constexpr std::uint32_t core_head = 12; // OS/2
+constexpr std::uint32_t info_head = 40;
+constexpr std::uint32_t largest_head = 124; // version 5
+constexpr std::uint32_t uncompressed = 0;
+constexpr std::uint32_t bit_fields = 3;
+constexpr std::uint32_t alpha_bit_fields = 6;
+
+struct Rgb {
+    unsigned char r = 0, g = 0, b = 0;
+};
+
+/// One colour's bits in a pixel of 16 or 32.
+class Field {
+public:
+    explicit Field(std::uint32_t mask) : mask_(mask), shift_(mask == 0 ? 0 : std::countr_zero(mask)) {}
+
+    [[nodiscard]] unsigned char of(std::uint32_t pixel) const {
+        const std::uint64_t most = mask_ >> shift_;
+        const std::uint64_t value = (pixel & mask_) >> shift_;
+        return most == 0 ? 0 : static_cast<unsigned char>((value * 255 + most / 2) / most);
+    }
+    [[nodiscard]] bool contiguous() const { return std::has_single_bit(std::uint64_t{mask_ >> shift_} + 1); }
+
+private:
+    std::uint32_t mask_;
+    int shift_;
+};
+
+class BmpReader {
+public:
+    BmpReader(std::string_view bytes, RowSink& sink) : bytes_(bytes), sink_(sink) {}
+
+    void read() {
+        read_head();
+        sink_.begin(width_, height_, {3, 8});
+        if (pixels_per_metre_ > 0) {
+            sink_.set_pixels_per_mm(pixels_per_metre_ / 1000.0);
+        }
+        const std::int64_t stride = (width_ * bits_ + 31) / 32 * 4;
+        const std::int64_t needed = pixels_ + stride * height_;
+        if (needed > std::ssize(bytes_)) {
+            sink_.fail(
+                fmt::format("the BMP is cut off: {} bytes where its size needs {}", bytes_.size(), needed));
+        }
+        std::vector<Rgb> row(static_cast<std::size_t>(width_));
+        for (int y = 0; y < height_ && !sink_.over_at(y); ++y) {
+            const std::int64_t line = top_down_ ? y : height_ - 1 - y;
+            read_row(pixels_ + line * stride, row);
+            sink_.row(y, &row.front().r);
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t number(std::int64_t at, int count) const {
+        if (at < 0 || at + count > std::ssize(bytes_)) {
+            sink_.fail(fmt::format("the BMP is cut off at byte {}", bytes_.size()));
+        }
+        std::uint32_t value = 0;
+        for (int n = 0; n < count; ++n) {
+            const auto byte = static_cast<unsigned char>(bytes_[static_cast<std::size_t>(at + n)]);
+            value |= std::uint32_t{byte} << (8 * n);
+        }
+        return value;
+    }
+    [[nodiscard]] std::uint32_t word(std::int64_t at) const { return number(at, 4); }
+    [[nodiscard]] std::int32_t signed_word(std::int64_t at) const {
+        return static_cast<std::int32_t>(word(at));
+    }
+
+    void read_head() {
+        pixels_ = word(10);
+        const std::uint32_t head = word(file_head);
+        const bool small = head == core_head;
+        if (!small && (head < info_head || head > largest_head)) {
+            sink_.fail(fmt::format("the BMP has a head of {} bytes, which no kind has", head));
+        }
+        width_ = small ? std::int64_t{number(18, 2)} : signed_word(18);
+        height_ = small ? std::int64_t{number(20, 2)} : signed_word(22);
+        top_down_ = height_ < 0;
+        height_ = std::abs(height_);
+        bits_ = static_cast<int>(number(small ? 24 : 28, 2));
+        const std::uint32_t compression = small ? uncompressed : word(30);
+        pixels_per_metre_ = small ? 0 : signed_word(38);
+        check_kind(compression);
+        if (bits_ <= 8) {
+            read_palette(file_head + head, small ? 3 : 4, small ? 0 : word(46));
+        } else if (compression != uncompressed) {
+            constexpr std::int64_t masks = file_head + info_head;
+            take_fields(word(masks), word(masks + 4), word(masks + 8));
+        } else if (bits_ == 16) {
+            take_fields(0x7c00, 0x03e0, 0x001f);
+        } else {
+            take_fields(0xff0000, 0x00ff00, 0x0000ff);
+        }
+    }
+
+    void check_kind(std::uint32_t compression) const {
+        const bool known =
+            bits_ == 1 || bits_ == 4 || bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32;
+        if (!known) {
+            sink_.fail(fmt::format("the BMP has pixels of {} bits, which none have", bits_));
+        }
+        const bool fields = compression == bit_fields || compression == alpha_bit_fields;
+        if (compression != uncompressed && !(fields && (bits_ == 16 || bits_ == 32))) {
+            sink_.fail(fmt::format("the BMP is compressed (kind {})", compression),
+                       "save it uncompressed, or as PNG");
+        }
+    }
+
+    void read_palette(std::int64_t at, int size, std::uint32_t count) {
+        const std::uint32_t most = 1U << bits_;
+        count = count == 0 ? most : count;
+        if (count > most) {
+            sink_.fail(fmt::format("the BMP has {} colours where {} bits hold {}", count, bits_, most));
+        }
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const std::int64_t color = at + std::int64_t{n} * size;
+            palette_[n] = {static_cast<unsigned char>(number(color + 2, 1)),
+                           static_cast<unsigned char>(number(color + 1, 1)),
+                           static_cast<unsigned char>(number(color, 1))};
+        }
+        colors_ = count;
+    }
+
+    void take_fields(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+        fields_ = {Field(red), Field(green), Field(blue)};
+        for (const Field& field : fields_) {
+            if (!field.contiguous()) {
+                sink_.fail("the BMP spreads a colour over bits that are not neighbours");
+            }
+        }
+    }
+
+    void read_row(std::int64_t at, std::vector<Rgb>& row) const {
+        const auto* bytes = reinterpret_cast<const unsigned char*>(bytes_.data()) + at;
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            row[x] = bits_ <= 8 ? from_palette(bytes, x) : from_fields(bytes, x);
+        }
+    }
+
+    [[nodiscard]] Rgb from_palette(const unsigned char* bytes, std::size_t x) const {
+        const auto bits = static_cast<std::size_t>(bits_);
+        const std::size_t bit = x * bits;
+        const std::uint32_t index = (bytes[bit / 8] >> (8 - bits - bit % 8)) & ((1U << bits) - 1);
+        if (index >= colors_) {
+            sink_.fail(fmt::format("a pixel of the BMP has colour {} of {}", index + 1, colors_));
+        }
+        return palette_[index];
+    }
+
+    [[nodiscard]] Rgb from_fields(const unsigned char* bytes, std::size_t x) const {
+        const auto size = static_cast<std::size_t>(bits_) / 8;
+        std::uint32_t pixel = 0;
+        for (std::size_t n = 0; n < size; ++n) {
+            pixel |= std::uint32_t{bytes[x * size + n]} << (8 * n);
+        }
+        return {fields_[0].of(pixel), fields_[1].of(pixel), fields_[2].of(pixel)};
+    }
+
+    std::string_view bytes_;
+    RowSink& sink_;
+    std::int64_t pixels_ = 0; ///< byte of the first row that is stored
+    std::int64_t width_ = 0;
+    std::int64_t height_ = 0;
+    bool top_down_ = false;
+    int bits_ = 24;
+    std::int32_t pixels_per_metre_ = 0;
+    std::array<Rgb, 256> palette_ = {};
+    std::uint32_t colors_ = 0;
+    std::array<Field, 3> fields_ = {Field(0), Field(0), Field(0)};
+};
+
+} // namespace
+
+void read_bmp_rows(std::string_view bytes, RowSink& sink) {
+    BmpReader(bytes, sink).read();
+}
+
+} // namespace millwright::plot::internal

@@ -1,0 +1,200 @@
+#include "core/plot/picture/internal/row_sink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace millwright::plot::internal {
+namespace {
+
+constexpr std::int64_t largest_side = 1'000'000;
+constexpr std::int64_t most_source_pixels = 4'000'000'000; // hours of reading lie beyond
+
+/// A sample as 16 bits.
+template <typename Sample> std::uint32_t sample(const unsigned char* pixel, int channel) {
+    Sample value = 0;
+    std::memcpy(&value, pixel + static_cast<std::size_t>(channel) * sizeof(Sample), sizeof(Sample));
+    return value;
+}
+
+template <typename Sample> struct Scale {
+    static constexpr std::uint32_t most = sizeof(Sample) == 1 ? 255 : 65535;
+    static constexpr std::uint32_t to_16_bits = sizeof(Sample) == 1 ? 257 : 1;
+};
+
+/// Brightness of 16 bits; the thesis's rule cuts the fraction off at the file's own bits.
+template <typename Sample> std::uint32_t gray_of(const unsigned char* pixel, GrayRule rule) {
+    const std::uint32_t r = sample<Sample>(pixel, 0);
+    const std::uint32_t g = sample<Sample>(pixel, 1);
+    const std::uint32_t b = sample<Sample>(pixel, 2);
+    constexpr std::uint32_t scale = Scale<Sample>::to_16_bits;
+    if (rule == GrayRule::mean) {
+        return (r + g + b) / 3 * scale;
+    }
+    return static_cast<std::uint32_t>(
+        (std::uint64_t{2126} * r + std::uint64_t{7152} * g + std::uint64_t{722} * b) * scale / 10'000);
+}
+
+/// On white paper.
+std::uint32_t over_white(std::uint32_t gray, std::uint32_t opacity) {
+    const std::uint64_t most = white;
+    return static_cast<std::uint32_t>((gray * std::uint64_t{opacity} + most * (most - opacity) + most / 2) /
+                                      most);
+}
+
+/// The pixels as brightness; whether one of them was transparent.
+template <typename Sample>
+bool brighten(const unsigned char* pixel, int channels, GrayRule rule, std::vector<std::uint16_t>& line) {
+    constexpr std::uint32_t scale = Scale<Sample>::to_16_bits;
+    bool transparent = false;
+    for (std::uint16_t& to : line) {
+        std::uint32_t gray = channels >= 3 ? gray_of<Sample>(pixel, rule) : sample<Sample>(pixel, 0) * scale;
+        if (channels % 2 == 0) {
+            const std::uint32_t opacity = sample<Sample>(pixel, channels - 1) * scale;
+            transparent = transparent || opacity < white;
+            gray = over_white(gray, opacity);
+        }
+        to = static_cast<std::uint16_t>(gray);
+        pixel += static_cast<std::size_t>(channels) * sizeof(Sample);
+    }
+    return transparent;
+}
+
+} // namespace
+
+void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
+    if (width < 1 || height < 1) {
+        fail(fmt::format("a picture of {} x {} pixels", width, height));
+    }
+    if (width > largest_side || height > largest_side || width * height > most_source_pixels) {
+        fail(fmt::format("a picture of {} x {} pixels is too large", width, height),
+             "at most 4,000 million pixels are read");
+    }
+    format_ = format;
+    region_ = settings_.region.value_or(PixelRegion{0, 0, static_cast<int>(width), static_cast<int>(height)});
+    const auto inside = [](std::int64_t from, std::int64_t count, std::int64_t all) {
+        return from >= 0 && count >= 1 && from + count <= all;
+    };
+    if (!inside(region_.left, region_.width, width) || !inside(region_.top, region_.height, height)) {
+        fail(fmt::format("the region of {} x {} pixels from ({}, {}) leaves the picture of {} x {}",
+                         region_.width,
+                         region_.height,
+                         region_.left,
+                         region_.top,
+                         width,
+                         height));
+    }
+    const auto squares = [&](std::int64_t side) {
+        return ((region_.width + side - 1) / side) * ((region_.height + side - 1) / side);
+    };
+    while (squares(square_) > std::max<std::int64_t>(settings_.most_pixels, 1)) {
+        ++square_;
+    }
+    read_.picture.width = (region_.width + square_ - 1) / square_;
+    read_.picture.height = (region_.height + square_ - 1) / square_;
+    read_.picture.gray.resize(static_cast<std::size_t>(squares(square_)));
+    line_.resize(static_cast<std::size_t>(region_.width));
+    if (square_ > 1) {
+        sums_.resize(static_cast<std::size_t>(read_.picture.width));
+        notice(fmt::format("{} x {} pixels are averaged over squares of {}: {} x {} are left",
+                           region_.width,
+                           region_.height,
+                           square_,
+                           read_.picture.width,
+                           read_.picture.height));
+    }
+}
+
+void RowSink::set_pixels_per_mm(double density) {
+    constexpr double densest = 1e4;
+    if (std::isfinite(density) && density > 0.0 && density < densest) {
+        read_.picture.pixels_per_mm = density;
+    }
+}
+
+void RowSink::row(int y, const unsigned char* samples) {
+    const int line = y - region_.top;
+    if (line < 0 || line >= region_.height) {
+        return;
+    }
+    progress_.check();
+    progress_.report(static_cast<double>(lines_) / region_.height);
+    const auto stride = static_cast<std::size_t>(format_.channels * format_.bits / 8);
+    const unsigned char* first = samples + stride * static_cast<std::size_t>(region_.left);
+    const auto brightened = format_.bits == 16 ? brighten<std::uint16_t> : brighten<std::uint8_t>;
+    transparent_ = brightened(first, format_.channels, settings_.gray, line_) || transparent_;
+    if (settings_.invert) {
+        std::ranges::transform(line_, line_.begin(), [](std::uint16_t gray) {
+            return static_cast<std::uint16_t>(white - gray);
+        });
+    }
+    if (square_ > 1) {
+        add_to_block(line);
+    } else {
+        std::ranges::copy(line_, read_.picture.gray.begin() + std::ptrdiff_t{line} * region_.width);
+    }
+    ++lines_;
+}
+
+void RowSink::add_to_block(int line) {
+    if (line / square_ != sums_row_) {
+        flush_block();
+        sums_row_ = line / square_;
+    }
+    for (std::size_t n = 0; n < line_.size(); ++n) {
+        sums_[n / static_cast<std::size_t>(square_)] += line_[n];
+    }
+    ++sums_lines_;
+}
+
+void RowSink::flush_block() {
+    if (sums_lines_ == 0) {
+        return;
+    }
+    const auto width = static_cast<int>(sums_.size());
+    for (int n = 0; n < width; ++n) {
+        const int columns = std::min(square_, region_.width - n * square_);
+        const auto count = static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(sums_lines_);
+        std::uint64_t& sum = sums_[static_cast<std::size_t>(n)];
+        read_.picture.gray[static_cast<std::size_t>(std::ptrdiff_t{sums_row_} * width + n)] =
+            static_cast<std::uint16_t>((sum + count / 2) / count);
+        sum = 0;
+    }
+    sums_lines_ = 0;
+}
+
+void RowSink::notice(std::string message, std::string hint) {
+    read_.notices.push_back({Place{.file = file_}, std::move(message), std::move(hint)});
+}
+
+void RowSink::fail(std::string message, std::string hint) const {
+    throw Error(std::move(message), file_, std::move(hint));
+}
+
+void RowSink::allow_memory(std::int64_t bytes, const std::string& what) const {
+    if (bytes > settings_.most_memory) {
+        constexpr std::int64_t megabyte = 1'000'000;
+        fail(fmt::format("{} of this size needs {} MB at once, more than the {} that are allowed",
+                         what,
+                         bytes / megabyte,
+                         settings_.most_memory / megabyte),
+             "save it as a plain one, neither interlaced nor progressive");
+    }
+}
+
+ReadPicture RowSink::end() {
+    expects(lines_ == region_.height, "a decoder hands in every row of the region");
+    flush_block();
+    if (square_ > 1 && read_.picture.pixels_per_mm) {
+        *read_.picture.pixels_per_mm /= square_;
+    }
+    if (transparent_) {
+        notice("transparent pixels are taken to lie on white");
+    }
+    return std::move(read_);
+}
+
+} // namespace millwright::plot::internal

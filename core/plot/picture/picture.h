@@ -1,0 +1,79 @@
+// Pictures as brightness, and how they are read from PNG, JPEG and BMP files. Formats, rules and limits:
+// docs/reference/picture.md. Source of the gray rule: KMITL master's thesis 2006, forming software for wood
+// and plastic.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/base/progress.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace millwright::plot {
+
+/// The brightest there is. 8 bits become 16 by 257, which keeps 0 and 255 at the ends.
+inline constexpr std::uint16_t white = 65535;
+
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint16_t> gray;     ///< rows from the top, each from the left; 0 black, `white` white
+    std::optional<double> pixels_per_mm; ///< across, as the file says
+
+    /// 0 <= row < height, 0 <= column < width.
+    [[nodiscard]] std::uint16_t at(int row, int column) const {
+        return gray[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(column)];
+    }
+
+    friend bool operator==(const Picture&, const Picture&) = default;
+};
+
+enum class GrayRule {
+    mean,     ///< (R + G + B) / 3, the fraction cut off, as the thesis
+    luminance ///< 0.2126 R + 0.7152 G + 0.0722 B, as the eye weighs them (ITU-R BT.709)
+};
+
+/// Pixels of the file, counted from its top left corner.
+struct PixelRegion {
+    int left = 0;
+    int top = 0;
+    int width = 0;
+    int height = 0;
+
+    friend bool operator==(const PixelRegion&, const PixelRegion&) = default;
+};
+
+struct PictureSettings {
+    GrayRule gray = GrayRule::mean;
+    bool invert = false;                    ///< dark becomes bright
+    std::optional<PixelRegion> region = {}; ///< not given: all of it
+    /// A region of more pixels is averaged over squares of 2, 3, ... pixels until it has no more, >= 1.
+    std::int64_t most_pixels = 64'000'000;
+    /// What a picture that cannot be read row by row (interlaced, progressive) may take meanwhile, bytes.
+    std::int64_t most_memory = 1'000'000'000;
+};
+
+struct ReadPicture {
+    Picture picture;
+    std::vector<Diagnostic> notices; ///< what a person should know: averaged, transparent, CMYK
+};
+
+/// Reads a file's bytes; which format it is they say themselves. Transparent pixels lie on white. Throws
+/// Error naming `file` for what is no picture, is damaged or cut off, or leaves the limits; and for a region
+/// that leaves the picture. Throws Cancelled through `progress`.
+[[nodiscard]] ReadPicture read_picture(std::string_view bytes,
+                                       const std::filesystem::path& file,
+                                       const PictureSettings& settings = {},
+                                       const Progress& progress = Progress());
+
+/// Reads the file itself, looking at its bytes as they are needed. Throws Error if it cannot be read, too.
+[[nodiscard]] ReadPicture read_picture_file(const std::filesystem::path& file,
+                                            const PictureSettings& settings = {},
+                                            const Progress& progress = Progress());
+
+} // namespace millwright::plot
