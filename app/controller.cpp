@@ -6,7 +6,7 @@
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
-#include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/drivers/make_driver.h"
 #include "core/machine/survey.h"
 
 #include <CLI/App.hpp>
@@ -31,20 +31,18 @@ struct Controller {
 };
 
 /// Throws Error also for what this controller must not be sent.
-Controller
-make_controller(const machine::Job& job, const ControllerChoice& choice, const machine::Clock& clock) {
-    auto link = machine::make_link(choice.port);
-    if (choice.driver == "linuxcnc") {
-        machine::LinuxCncOptions wanted;
-        wanted.axes = choice.axes;
-        return {std::make_unique<machine::LinuxCncDriver>(std::move(link), clock, wanted),
-                [] { return std::string("LinuxCNC"); }};
-    }
-    auto driver = std::make_unique<machine::GrblDriver>(
-        std::move(link), clock, machine::GrblOptions{.one_by_one = choice.one_by_one});
+Controller make_controller(const machine::Job& job, const ControllerChoice& choice, machine::Clock& clock) {
+    machine::DriverChoice wanted;
+    wanted.kind = machine::driver_kind(choice.driver);
+    wanted.address = choice.port;
+    wanted.axes = choice.axes;
+    wanted.one_by_one = choice.one_by_one;
+    auto driver = machine::make_driver(wanted, {}, clock);
     driver->check(*job.listing, job.project);
-    const machine::GrblDriver& grbl = *driver;
-    return {std::move(driver), [&grbl] { return "Grbl " + grbl.readout().version; }};
+    if (const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver.get())) {
+        return {std::move(driver), [grbl] { return "Grbl " + grbl->readout().version; }};
+    }
+    return {std::move(driver), [] { return std::string("LinuxCNC"); }};
 }
 
 /// A locked controller is unlocked only for who says so: its position may be lost.

@@ -9,9 +9,8 @@
 #include "core/base/text.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
-#include "core/machine/drivers/stream/stream_driver.h"
+#include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
-#include "core/machine/links/link.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -69,27 +68,16 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
     return job;
 }
 
-std::unique_ptr<machine::Driver>
-make_driver(const machine::Job& job, const Options& options, machine::Clock& clock) {
-    if (options.driver == "virtual") {
-        return std::make_unique<machine::VirtualMachine>(
-            job.program->start, machine::VirtualSpeed{options.speed}, clock);
-    }
-    const bool to_file = options.controller.port.starts_with("file:");
-    return std::make_unique<machine::StreamDriver>(
-        machine::make_link(options.controller.port),
-        clock,
-        job.machine,
-        job.program->start,
-        machine::StreamOptions{.period = options.period, .paced = !to_file});
-}
-
 machine::JobOutcome
 run_on_planned_machine(const machine::Job& job, const Options& options, const std::stop_token& stop) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
     machine::SteadyClock clock;
-    const auto driver = make_driver(job, options, clock);
+    machine::DriverChoice choice;
+    choice.kind = machine::driver_kind(options.driver);
+    choice.address = options.controller.port;
+    choice.period = options.period;
+    const auto driver = machine::make_driver(choice, {job.machine, job.program->start, options.speed}, clock);
     driver->connect();
     machine::Dispatcher dispatcher(*driver, clock, options.log);
     machine::JobOutcome outcome = dispatcher.run(job, progress);

@@ -12,6 +12,8 @@ namespace {
 
 } // namespace
 
+void Driver::check(const gcode::Listing&, const std::filesystem::path&) const {}
+
 void Driver::set_overrides(const Overrides&) {
     refuse(*this, "override feeds");
 }

@@ -12,6 +12,7 @@
 #include "core/machine/driver_status.h"
 #include "core/motion/trajectory.h"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,8 +25,10 @@ namespace millwright::machine {
 struct Capabilities {
     bool plans = false;                   ///< executes text, without a trajectory
     std::vector<gcode::ProgramAxis> axes; ///< that it moves; empty: those of any program
-    bool overrides = false;
+    bool overrides = false;               ///< of the feed
+    bool other_overrides = false;         ///< of rapids and spindle speed, too
     bool jog = false;
+    std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
     bool home = false;
     bool command = false;      ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
     bool probe = false;        ///< G38.2 as a command
@@ -87,6 +90,8 @@ public:
     [[nodiscard]] virtual DriverStatus status() const = 0;
     [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
 
+    /// Throws Error naming `file`, line and column for what start() would refuse; needs no link.
+    virtual void check(const gcode::Listing& listing, const std::filesystem::path& file) const;
     /// Makes the link; nothing moves. Does nothing if there is one. Throws Error if there is nothing to link
     /// to.
     virtual void connect() = 0;

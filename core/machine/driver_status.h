@@ -85,7 +85,8 @@ struct DriverStatus {
     Inputs inputs;
     std::optional<Probing> probe;
     CommandAnswer answer;
-    std::string message; ///< why there is an alarm or a hold that nobody here asked for, in a sentence
+    bool link_lost = false; ///< an alarm because nobody answers any more; reset() makes the link again
+    std::string message;    ///< why there is an alarm or a hold that nobody here asked for, in a sentence
 
     /// What a program calls the position.
     [[nodiscard]] kinematics::AxisPositions work_position() const {

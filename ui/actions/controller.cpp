@@ -1,8 +1,5 @@
 #include "ui/actions/controller.h"
 
-#include "core/machine/drivers/grbl/grbl_driver.h"
-#include "core/machine/drivers/virtual_machine/virtual_machine.h"
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -72,7 +69,7 @@ void Controller::enqueue(Task task) {
     changed_.notify_all();
 }
 
-void Controller::connect(const ControllerChoice& choice,
+void Controller::connect(const machine::DriverChoice& choice,
                          std::shared_ptr<const kinematics::MachineModel> model) {
     {
         const std::scoped_lock lock(mutex_);
@@ -102,44 +99,48 @@ void Controller::disconnect() {
 }
 
 void Controller::reset() {
-    enqueue([this] {
+    tell_in_background([](machine::Driver& driver) { driver.reset(); });
+}
+
+void Controller::reconnect() {
+    tell_in_background([](machine::Driver& driver) {
+        driver.close();
+        driver.connect();
+    });
+}
+
+/// A driver that has no link any more afterwards is dropped: it can be connected anew.
+void Controller::tell_in_background(std::function<void(machine::Driver&)> what) {
+    enqueue([this, what = std::move(what)] {
         const auto driver = this->driver();
         if (!driver) {
             return;
         }
         std::optional<Diagnostic> failure;
         try {
-            driver->reset();
+            what(*driver);
         } catch (const Error& error) {
             failure = error.diagnostic();
         }
+        const bool gone = failure && driver->status().state == DriverState::disconnected;
         const std::scoped_lock lock(mutex_);
-        view_.failure = failure;
+        if (gone) {
+            driver_.reset();
+            view_ = {LinkState::none, view_.choice, failure, {}, {}, {}, {}, {}};
+        } else {
+            view_.failure = failure;
+        }
     });
 }
 
-std::shared_ptr<machine::Driver>
-Controller::make(const ControllerChoice& choice,
-                 const std::shared_ptr<const kinematics::MachineModel>& model) const {
-    if (choice.kind == DriverKind::grbl) {
-        if (choice.address.empty()) {
-            throw Error("there is no port to connect to", {}, "choose one, or type tcp:HOST:PORT");
-        }
-        return std::make_shared<machine::GrblDriver>(machine::make_link(choice.address), clock_);
-    }
-    if (!model) {
-        throw Error("there is no machine yet that could be simulated");
-    }
-    return std::make_shared<machine::VirtualMachine>(
-        resting_place(*model), machine::VirtualSpeed{}, clock_, model);
-}
-
-void Controller::try_connect(const ControllerChoice& choice,
+void Controller::try_connect(const machine::DriverChoice& choice,
                              const std::shared_ptr<const kinematics::MachineModel>& model) {
     std::shared_ptr<machine::Driver> made;
     std::optional<Diagnostic> failure;
     try {
-        made = make(choice, model);
+        const machine::MovedAxes axes{
+            model, model ? resting_place(*model) : kinematics::AxisPositions(), 1.0};
+        made = machine::make_driver(choice, axes, clock_);
         made->connect();
     } catch (const Error& error) {
         failure = error.diagnostic();

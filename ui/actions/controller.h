@@ -6,6 +6,7 @@
 #include "core/machine/clock.h"
 #include "core/machine/console.h"
 #include "core/machine/driver.h"
+#include "core/machine/drivers/make_driver.h"
 
 #include <condition_variable>
 #include <deque>
@@ -19,22 +20,12 @@
 
 namespace millwright::actions {
 
-enum class DriverKind { virtual_machine, grbl };
-
-/// What to connect to, as a person chose it.
-struct ControllerChoice {
-    DriverKind kind = DriverKind::virtual_machine;
-    std::string address; ///< serial port or tcp:HOST:PORT; the virtual machine needs none
-
-    friend bool operator==(const ControllerChoice&, const ControllerChoice&) = default;
-};
-
 enum class LinkState { none, connecting, connected, closing };
 
 /// What is known of it, for one frame.
 struct ControllerView {
     LinkState link = LinkState::none;
-    ControllerChoice choice;           ///< of the link that is there or was tried last
+    machine::DriverChoice choice;      ///< of the link that is there or was tried last
     std::optional<Diagnostic> failure; ///< why the last attempt came to nothing
     machine::DriverStatus status;
     machine::Capabilities can;
@@ -54,11 +45,14 @@ public:
     /// Stops whatever moves and drops the link.
     ~Controller();
 
-    /// In the background, in place of what is connected. `model`: of the virtual machine. Nothing moves.
-    void connect(const ControllerChoice& choice, std::shared_ptr<const kinematics::MachineModel> model);
+    /// In the background, in place of what is connected. `model`: of machines that no controller plans for.
+    /// Nothing moves.
+    void connect(const machine::DriverChoice& choice, std::shared_ptr<const kinematics::MachineModel> model);
+    /// In the background, makes a lost link again. Nothing moves; a controller that is locked stays so.
+    void reconnect();
     /// In the background: stops what moves first.
     void disconnect();
-    /// After an alarm or a lost link, in the background.
+    /// After an alarm, in the background.
     void reset();
 
     [[nodiscard]] ControllerView view() const;
@@ -81,15 +75,14 @@ private:
     void enqueue(Task task);
     void work(const std::stop_token& stop);
     void watch();
-    void try_connect(const ControllerChoice& choice,
+    void try_connect(const machine::DriverChoice& choice,
                      const std::shared_ptr<const kinematics::MachineModel>& model);
     void drop();
-    [[nodiscard]] std::shared_ptr<machine::Driver>
-    make(const ControllerChoice& choice, const std::shared_ptr<const kinematics::MachineModel>& model) const;
+    void tell_in_background(std::function<void(machine::Driver&)> what);
 
     std::function<void()> wake_;
-    mutable machine::SteadyClock clock_; ///< outlives every driver
-    mutable std::mutex mutex_;           ///< guards what follows
+    machine::SteadyClock clock_; ///< outlives every driver
+    mutable std::mutex mutex_;   ///< guards what follows
     mutable std::condition_variable_any changed_;
     std::deque<Task> tasks_;
     bool busy_ = false;

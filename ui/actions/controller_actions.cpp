@@ -41,8 +41,18 @@ Permission in_alarm(const Workbench& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
+    if (now.controller.status.link_lost) {
+        return Permission::refused("The link is lost: reconnect first.");
+    }
     return now.controller.status.state == DriverState::alarm ? Permission{}
                                                              : Permission::refused("There is no alarm.");
+}
+
+Permission can_reconnect(const Workbench& now) {
+    if (const Permission connected = can_disconnect(now); !connected.allowed) {
+        return connected;
+    }
+    return now.controller.status.link_lost ? Permission{} : Permission::refused("The link is there.");
 }
 
 Permission can_home(const Workbench& now) {
@@ -51,6 +61,9 @@ Permission can_home(const Workbench& now) {
     }
     if (!now.controller.can.home) {
         return Permission::refused("This machine cannot home.");
+    }
+    if (now.controller.status.link_lost) {
+        return Permission::refused("The link is lost: reconnect first.");
     }
     const DriverState state = now.controller.status.state;
     const bool at_rest =
@@ -96,11 +109,19 @@ void add_controller_actions(Actions& actions) {
         can_disconnect,
         [](Hands& hands) { hands.workshop.controller().disconnect(); });
     add(actions,
+        {"machine.reconnect",
+         "Machine",
+         "Reconnect",
+         "Makes a lost link again. Nothing moves, and nothing goes on that was under way.",
+         "",
+         icons::plug},
+        can_reconnect,
+        [](Hands& hands) { hands.workshop.controller().reconnect(); });
+    add(actions,
         {"machine.reset",
          "Machine",
          "Unlock",
-         "After an alarm or a lost link: a person has looked at the machine, it may move again. Nothing "
-         "moves now.",
+         "After an alarm: a person has looked at the machine, it may move again. Nothing moves now.",
          "",
          icons::unlock},
         in_alarm,

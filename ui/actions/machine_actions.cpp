@@ -1,5 +1,4 @@
 #include "core/machine/driver.h"
-#include "core/machine/drivers/grbl/grbl_driver.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
 
@@ -112,9 +111,7 @@ void run_job(Hands& hands) {
     hands.session.file.step.reset();
     hands.session.workspace = Workspace::machine;
     if (auto driver = hands.workshop.controller().driver()) {
-        if (const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver.get())) {
-            grbl->check(*job.listing, file);
-        }
+        driver->check(*job.listing, file);
         hands.jobs.start(std::move(job), std::move(driver));
     } else {
         hands.jobs.start(std::move(job), hands.session.machine_speed);

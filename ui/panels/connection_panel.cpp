@@ -13,22 +13,45 @@ namespace millwright::panels {
 namespace {
 
 namespace icons = widgets::icons;
-using actions::ControllerChoice;
-using actions::DriverKind;
 using actions::LinkState;
+using machine::DriverChoice;
+using machine::DriverKind;
 using machine::DriverState;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 2> kinds{
+constexpr std::array<widgets::Option, 4> kinds{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
-     {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"}}};
+     {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
+     {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
+     {"stream",
+      "Coordinate stream",
+      {},
+      "A machine that is sent where its axes shall be, and says nothing"}}};
 
 std::string kind_text(DriverKind kind) {
-    return kind == DriverKind::grbl ? "Grbl" : "virtual machine";
+    return kind == DriverKind::virtual_machine ? "virtual machine"
+           : kind == DriverKind::stream        ? "coordinate stream"
+                                               : std::string(kinds[static_cast<std::size_t>(kind)].label);
+}
+
+/// Drivers begin their messages small, as parts of longer ones.
+std::string as_sentence(std::string text) {
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+        text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    }
+    return text;
+}
+
+/// Changes one thing of what was chosen.
+template <class Change> void choose(ActionQueue& ask, Change&& change) {
+    ask.show([change = std::forward<Change>(change)](actions::Session& session) { change(session.hand); });
 }
 
 /// What a person should do about an alarm.
 std::string advice(const Workbench& now) {
+    if (now.controller.status.link_lost) {
+        return "Look at the machine first. Then reconnect: nothing moves by that.";
+    }
     return now.controller.can.home
                ? "Look at the machine first. Then home it, or unlock it if its position is surely right."
                : "Look at the machine first. Then unlock it.";
@@ -47,7 +70,7 @@ std::string state_text(const machine::DriverStatus& status) {
 std::string controller_text(const Workbench& now) {
     const actions::ControllerView& machine = now.controller;
     const std::string name = kind_text(machine.choice.kind) +
-                             (machine.choice.kind == DriverKind::grbl ? " at " + machine.choice.address : "");
+                             (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     switch (machine.link) {
     case LinkState::none:
         return "no machine connected";
@@ -83,38 +106,77 @@ void ConnectionPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const ControllerChoice& choice = now.session.hand.choice;
-    const auto choose = [&](ControllerChoice wanted) {
-        ask.show([wanted = std::move(wanted)](actions::Session& session) { session.hand.choice = wanted; });
-    };
+    const DriverChoice& choice = now.session.hand.choice;
     const auto permitted = ui.permitted(now.controller.link == LinkState::none
                                             ? widgets::Permission{}
                                             : widgets::Permission::refused("It is being connected."));
     if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), kinds)) {
-        choose({static_cast<DriverKind>(*kind), choice.address});
+        choose(ask, [kind = *kind](actions::HandSettings& hand) {
+            hand.addresses[static_cast<std::size_t>(hand.choice.kind)] = hand.choice.address;
+            hand.choice.kind = static_cast<DriverKind>(kind);
+            hand.choice.address = hand.addresses[static_cast<std::size_t>(kind)];
+        });
     }
-    if (choice.kind != DriverKind::grbl) {
+    if (choice.kind == DriverKind::virtual_machine) {
         return;
     }
+    draw_address(ui, now, ask);
+    if (choice.kind == DriverKind::grbl) {
+        if (const auto on = ui.toggle("one_by_one",
+                                      "Line by line",
+                                      choice.one_by_one,
+                                      "Waits for the answer to each line before the next: slower, for "
+                                      "controllers with a small buffer")) {
+            choose(ask, [on = *on](actions::HandSettings& hand) { hand.choice.one_by_one = on; });
+        }
+    } else if (choice.kind == DriverKind::linuxcnc) {
+        if (const auto axes = ui.text_field(
+                "axes", "Axes", choice.axes, "Letters of the machine's axes: XYZ, and any of ABC behind")) {
+            choose(ask, [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
+        }
+    } else {
+        const widgets::FieldInfo info{
+            "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
+        if (const auto ms = ui.number(1e3 * choice.period, info)) {
+            choose(ask, [ms = *ms](actions::HandSettings& hand) { hand.choice.period = 1e-3 * ms; });
+        }
+        ui.note("It tells nothing back. The machine has to stand at zero when it is connected.");
+    }
+}
+
+void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const DriverChoice& choice = now.session.hand.choice;
+    const bool shell = choice.kind == DriverKind::linuxcnc;
+    const std::string_view tip = shell ? "tcp:HOST:PORT of its linuxcncrsh, most often port 5007"
+                                 : choice.kind == DriverKind::grbl
+                                     ? "A serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
+                                     : "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
+    if (const auto address = ui.text_field("address", shell ? "Address" : "Port", choice.address, tip)) {
+        choose(ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
+    }
+    if (!shell) {
+        draw_ports(ui, now, ask);
+    }
+}
+
+void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!looked_) {
         look_for_ports();
-    }
-    if (const auto address = ui.text_field(
-            "address", "Port", choice.address, "A serial port such as /dev/ttyUSB0, or tcp:HOST:PORT")) {
-        choose({choice.kind, *address});
     }
     std::vector<widgets::Option> options;
     for (const Port& port : ports_) {
         options.push_back({port.path, port.label});
     }
-    if (!options.empty()) {
-        const auto at = std::ranges::find(ports_, choice.address, &Port::path);
+    if (options.empty()) {
+        ui.note("No serial port was found on this computer.");
+    } else {
+        const auto at = std::ranges::find(ports_, now.session.hand.choice.address, &Port::path);
         if (const auto chosen =
                 ui.choice("ports", "Found here", static_cast<int>(at - ports_.begin()), options)) {
-            choose({choice.kind, ports_[static_cast<std::size_t>(*chosen)].path});
+            choose(ask, [path = ports_[static_cast<std::size_t>(*chosen)].path](actions::HandSettings& hand) {
+                hand.choice.address = path;
+            });
         }
-    } else {
-        ui.note("No serial port was found on this computer.");
     }
     if (ui.button("look", "Look for ports again", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {
         look_for_ports();
@@ -126,27 +188,32 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (machine.failure) {
         const std::string hint = machine.failure->hint.empty() ? "" : " (" + machine.failure->hint + ")";
         (void)widgets::banner(
-            ui, "failure", {widgets::Severity::warning, machine.failure->message + hint, {}});
+            ui, "failure", {widgets::Severity::warning, as_sentence(machine.failure->message) + hint, {}});
     }
     if (!machine.connected()) {
         action_button(ui, now, ask, catalogue_, "machine.connect", Rank::primary);
         return;
     }
-    ui.value("state", kind_text(machine.choice.kind), state_text(machine.status));
-    if (machine.choice.kind == DriverKind::grbl) {
-        ui.value("port", "Port", machine.choice.address);
+    ui.value("state", as_sentence(kind_text(machine.choice.kind)), state_text(machine.status));
+    if (!machine.choice.address.empty()) {
+        ui.value("port", "At", machine.choice.address);
     }
     const bool alarm = machine.status.state == DriverState::alarm;
     if (!machine.status.message.empty()) {
         (void)widgets::banner(ui,
                               "message",
                               {alarm ? widgets::Severity::danger : widgets::Severity::warning,
-                               machine.status.message + (alarm ? ". " + advice(now) : ""),
+                               as_sentence(machine.status.message) + (alarm ? ". " + advice(now) : ""),
                                {}});
     }
     const auto row = ui.row(alarm ? 2 : 1);
     if (alarm) {
-        action_button(ui, now, ask, catalogue_, "machine.reset", Rank::primary);
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      machine.status.link_lost ? "machine.reconnect" : "machine.reset",
+                      Rank::primary);
     }
     action_button(ui, now, ask, catalogue_, "machine.disconnect");
 }

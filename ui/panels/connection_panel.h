@@ -15,6 +15,8 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_address(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void look_for_ports();
 
@@ -26,7 +28,7 @@ private:
     bool looked_ = false;
 };
 
-/// "Grbl at /dev/ttyUSB0, idle", "virtual machine, running a job"; "no machine connected".
+/// "Grbl at /dev/ttyUSB0: idle", "virtual machine: running (program)"; "no machine connected".
 [[nodiscard]] std::string controller_text(const Workbench& now);
 
 } // namespace millwright::panels

@@ -23,6 +23,14 @@ using widgets::Rank;
 constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
 constexpr double seconds_a_minute = 60.0;
 
+Permission can_override(const machine::Capabilities& can, bool feed) {
+    if (!can.overrides) {
+        return Permission::refused("This machine has no overrides.");
+    }
+    return feed || can.other_overrides ? Permission{}
+                                       : Permission::refused("This machine overrides the feed alone.");
+}
+
 /// -10 %, the value, +10 %, back to 100 %.
 void override_row(Ui& ui,
                   const Workbench& now,
@@ -34,8 +42,7 @@ void override_row(Ui& ui,
                   int least,
                   int most) {
     const machine::Overrides& all = now.controller.status.overrides;
-    const Permission can =
-        now.controller.can.overrides ? Permission{} : Permission::refused("This machine has no overrides.");
+    const Permission can = can_override(now.controller.can, which == &machine::Overrides::feed);
     const auto set = [&](int percent) {
         machine::Overrides wanted = all;
         wanted.*which = std::clamp(percent, least, most);

@@ -41,12 +41,16 @@ bool is_rotary(const gcode::ProgramAxis& axis) {
     return axis.kind == AxisKind::rotary;
 }
 
-Permission can_jog(const Workbench& now) {
+Permission can_jog(const Workbench& now, char axis) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
     if (!now.controller.can.jog) {
         return Permission::refused("This machine cannot jog.");
+    }
+    const std::string_view some = now.controller.can.jog_axes;
+    if (!some.empty() && some.find(axis) == std::string_view::npos) {
+        return Permission::refused("This machine jogs " + std::string(some) + " alone.");
     }
     const bool jogging = now.controller.status.activity == machine::Activity::jog;
     return jogging ? Permission{} : at_rest(now.controller);
@@ -105,13 +109,13 @@ void jog_button(Ui& ui, const Workbench& now, Wish& wish, std::size_t axis, doub
     const std::string letter = letter_of(now.controller.axes[axis]);
     const std::string id = (sign > 0.0 ? "plus_" : "minus_") + letter;
     const std::string label = letter + (sign > 0.0 ? "+" : "\u2212");
-    const widgets::HeldButton now_held =
-        ui.hold_button(id, label, can_jog(now), {{}, Rank::normal, -1.0F, {}});
+    const widgets::HeldButton now_held = ui.hold_button(
+        id, label, can_jog(now, now.controller.axes[axis].letter), {{}, Rank::normal, -1.0F, {}});
     wish.want(axis, sign, now_held.held, now_held.pressed);
 }
 
 void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
-    if (!now.session.hand.keys_armed || ui.was_typing() || now.asks() || !can_jog(now).allowed) {
+    if (!now.session.hand.keys_armed || ui.was_typing() || now.asks()) {
         return;
     }
     struct KeyAxis {
@@ -126,7 +130,8 @@ void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
                                            {render::Key::page_up, 'Z', 1.0},
                                            {render::Key::page_down, 'Z', -1.0}}};
     for (const KeyAxis& key : keys) {
-        if (const auto axis = axis_named(now.controller, key.letter)) {
+        const auto axis = axis_named(now.controller, key.letter);
+        if (axis && can_jog(now, key.letter).allowed) {
             wish.want(*axis, key.sign, render::key_down(key.key), render::key_pressed(key.key));
         }
     }
@@ -200,6 +205,14 @@ void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (!section) {
         return;
     }
+    Wish wish(now, ask);
+    for (std::size_t axis = 0; axis < now.controller.axes.size(); axis += 2) {
+        const auto row = ui.row(4);
+        for (std::size_t n = axis; n < std::min(axis + 2, now.controller.axes.size()); ++n) {
+            jog_button(ui, now, wish, n, -1.0);
+            jog_button(ui, now, wish, n, 1.0);
+        }
+    }
     const actions::HandSettings& hand = now.session.hand;
     const auto chosen_step = std::ranges::find(steps, hand.step);
     const auto labels = ui.label_share(0.3F);
@@ -229,14 +242,6 @@ void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (const auto on =
             ui.toggle("keys", "Jog by keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
         ask.run("machine.arm_keys");
-    }
-    Wish wish(now, ask);
-    for (std::size_t axis = 0; axis < now.controller.axes.size(); axis += 2) {
-        const auto row = ui.row(4);
-        for (std::size_t n = axis; n < std::min(axis + 2, now.controller.axes.size()); ++n) {
-            jog_button(ui, now, wish, n, -1.0);
-            jog_button(ui, now, wish, n, 1.0);
-        }
     }
     key_wishes(ui, now, wish);
     wish.tell();

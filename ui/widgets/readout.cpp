@@ -10,6 +10,8 @@ namespace millwright::widgets {
 namespace {
 
 constexpr float line_height = 36.0F;
+constexpr float close_line_height = 30.0F; ///< of many axes, so that what stands below stays in sight
+constexpr std::size_t few_axes = 4;
 
 Colour letter_colour(const Palette& colours, std::string_view letter) {
     if (letter == "X" || letter == "A") {
@@ -92,8 +94,9 @@ void readout(Ui& ui, std::string_view id, std::span<const AxisReading> axes, std
         const Rect place{slot.rect().x, slot.rect().y, slot.rect().w - ui.px(8.0F), slot.rect().h};
         draw_text(ui, ui.look().fonts.small, place, ui.colours().muted, second_title, Align::right);
     }
+    const float height = axes.size() > few_axes ? close_line_height : line_height;
     for (const AxisReading& axis : axes) {
-        const Slot slot(ui, 0.0F, ui.px(line_height));
+        const Slot slot(ui, 0.0F, ui.px(height));
         const std::string own = ui.path(axis.letter);
         draw_axis(ui, slot.rect(), axis);
         record_at(ui, own, slot.rect());

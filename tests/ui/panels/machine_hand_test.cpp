@@ -20,9 +20,9 @@
 namespace millwright::panels {
 namespace {
 
-using actions::DriverKind;
 using actions::LinkState;
 using actions::Workspace;
+using machine::DriverKind;
 using machine::DriverState;
 using test::GrblBench;
 using test::Person;
@@ -212,7 +212,7 @@ TEST_F(MachineByHand, TellsOfALostLinkAndOffersToMakeItAgain) {
     person.hold_button(false);
     person.frames(3);
     EXPECT_FALSE(machine().status.message.empty());
-    EXPECT_TRUE(person.sees("inspector/connection/machine_reset"));
+    EXPECT_TRUE(person.sees("inspector/connection/machine_reconnect"));
     person.keep("machine-lost");
 }
 

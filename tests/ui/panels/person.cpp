@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 
 namespace millwright::test {
@@ -59,6 +60,23 @@ void Person::wait_idle() {
     frames(2);
     workshop_.wait_idle();
     frames(3);
+}
+
+bool Person::live_until(const std::function<bool()>& done, double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    while (std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
+        frame();
+        if (done()) {
+            return true;
+        }
+    }
+    return done();
+}
+
+std::string Person::refusal(std::string_view path) {
+    (void)place(path);
+    return desktop_->ui().places().all().find(path)->second.reason;
 }
 
 widgets::Rect Person::place(std::string_view path) {

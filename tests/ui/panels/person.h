@@ -6,6 +6,7 @@
 #include "ui/render/offscreen_context.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,9 +33,14 @@ public:
     /// Waits until nothing runs in the background, then looks twice.
     void wait_idle();
 
+    /// Frames as they come, until `done` or the time is over; the last word is done()'s.
+    bool live_until(const std::function<bool()>& done, double seconds = 20.0);
+
     /// Where a widget was in the last frame. Throws Error if it was not drawn.
     [[nodiscard]] widgets::Rect place(std::string_view path);
     [[nodiscard]] bool sees(std::string_view path);
+    /// Why a widget is greyed out; empty if it is not. Throws Error if it was not drawn.
+    [[nodiscard]] std::string refusal(std::string_view path);
 
     void click(std::string_view path);
     void click_at(widgets::Point at);

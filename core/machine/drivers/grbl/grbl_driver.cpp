@@ -111,6 +111,7 @@ Capabilities GrblDriver::capabilities() const {
     return {.plans = true,
             .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
             .overrides = true,
+            .other_overrides = true,
             .jog = true,
             .home = true,
             .command = true,

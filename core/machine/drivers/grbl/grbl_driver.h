@@ -40,8 +40,7 @@ public:
     [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] Capabilities capabilities() const override;
     [[nodiscard]] GrblReadout readout() const;
-    /// Throws Error naming `file`, line and column for what start() would refuse; needs no link.
-    void check(const gcode::Listing& listing, const std::filesystem::path& file) const;
+    void check(const gcode::Listing& listing, const std::filesystem::path& file) const override;
 
     /// Resets the controller, if nothing is moving, and asks it for version and settings; waits for each of
     /// both at most the greeting time. Throws Error if nobody answers, or if the machine is moving already. A

@@ -150,6 +150,7 @@ Capabilities LinuxCncDriver::capabilities() const {
     using kinematics::AxisKind;
     Capabilities able;
     able.plans = able.overrides = able.jog = able.home = able.command = true;
+    able.jog_axes = "XYZ";
     able.dialect = gcode::Dialect::linuxcnc;
     for (const char letter : body_->options.axes) {
         able.axes.push_back({letter, letter >= 'X' ? AxisKind::linear : AxisKind::rotary});

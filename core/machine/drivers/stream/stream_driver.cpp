@@ -45,6 +45,7 @@ DriverStatus StreamDriver::status() const {
     DriverStatus status = machine_.status();
     if (const std::string why = lost(); !why.empty() && status.state != DriverState::disconnected) {
         status.state = DriverState::alarm;
+        status.link_lost = true;
         status.message = "the link was lost: " + why;
     }
     return status;

@@ -17,7 +17,7 @@ bool unlimited(VirtualSpeed speed) {
     return !(speed.factor > VirtualSpeed::unlimited);
 }
 
-void check(VirtualSpeed speed) {
+void check_speed(VirtualSpeed speed) {
     const double factor = speed.factor;
     const bool in_range = factor >= VirtualSpeed::slowest && factor <= VirtualSpeed::fastest;
     if (!in_range && !(factor >= 0.0 && unlimited(speed))) {
@@ -37,7 +37,7 @@ VirtualMachine::VirtualMachine(kinematics::AxisPositions position,
                                std::shared_ptr<const kinematics::MachineModel> model)
     : clock_(clock), speed_(speed),
       axes_(std::make_unique<internal::VirtualAxes>(std::move(position), std::move(model))) {
-    check(speed);
+    check_speed(speed);
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -52,7 +52,7 @@ DriverStatus VirtualMachine::status() const {
 }
 
 void VirtualMachine::set_speed(VirtualSpeed speed) {
-    check(speed);
+    check_speed(speed);
     const std::scoped_lock lock(mutex_);
     catch_up();
     speed_ = speed;
@@ -113,7 +113,7 @@ void VirtualMachine::close() noexcept {
 
 Capabilities VirtualMachine::capabilities() const {
     Capabilities able;
-    able.overrides = true;
+    able.overrides = able.other_overrides = true;
     if (const kinematics::MachineModel* model = axes_->model()) {
         for (const kinematics::MachineAxis& axis : model->axes()) {
             able.axes.push_back({axis.letter, axis.kind});

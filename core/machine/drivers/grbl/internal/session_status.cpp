@@ -50,6 +50,7 @@ Activity Session::activity() const {
 DriverStatus Session::status() const {
     DriverStatus status;
     status.message = message_;
+    status.link_lost = link_lost_;
     status.state = state();
     if (status.state == DriverState::disconnected) {
         return status;

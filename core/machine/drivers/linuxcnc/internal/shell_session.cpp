@@ -548,6 +548,7 @@ DriverState ShellSession::state() const {
 DriverStatus ShellSession::status() const {
     DriverStatus status;
     status.message = message_;
+    status.link_lost = link_lost_;
     status.state = state();
     if (status.state == DriverState::disconnected) {
         return status;

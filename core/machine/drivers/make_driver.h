@@ -1,0 +1,45 @@
+// The kinds of drivers, by name, and how one is made of what a person chose. So the command line and the
+// workbench offer the same.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/driver.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine {
+
+enum class DriverKind { virtual_machine, grbl, linuxcnc, stream };
+
+/// "virtual", "grbl", "linuxcnc", "stream": as on the command line, and as Driver::name().
+[[nodiscard]] std::string_view to_text(DriverKind kind);
+/// Throws Error for any other name.
+[[nodiscard]] DriverKind driver_kind(std::string_view name);
+
+/// What to connect to.
+struct DriverChoice {
+    DriverKind kind = DriverKind::virtual_machine;
+    std::string address;      ///< as make_link() takes it; the virtual machine needs none
+    std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions
+    bool one_by_one = false;  ///< Grbl: each line waits for the answer to the last
+    double period = 0.01;     ///< of a coordinate stream: s between samples
+
+    friend bool operator==(const DriverChoice&, const DriverChoice&) = default;
+};
+
+/// The machine that is moved position by position, where no controller plans for itself.
+struct MovedAxes {
+    std::shared_ptr<const kinematics::MachineModel> model;
+    kinematics::AxisPositions position; ///< where it stands
+    double speed = 1.0;                 ///< of the virtual machine, see VirtualSpeed
+};
+
+/// Disconnected; nothing moves. `axes` is for the virtual machine and the coordinate stream alone, `clock`
+/// must outlive the driver. A stream into a file goes as fast as it can. Throws Error for what was chosen
+/// wrongly: no address, no model, a value out of range.
+[[nodiscard]] std::unique_ptr<Driver>
+make_driver(const DriverChoice& choice, const MovedAxes& axes, Clock& clock);
+
+} // namespace millwright::machine

@@ -1,0 +1,157 @@
+// The Machine workspace at the other end of different links: what can be chosen, what a machine cannot do,
+// and a link that is lost and made again.
+#include "core/machine/emulators/grbl/grbl_server.h"
+#include "core/machine/links/tcp_server.h"
+#include "tests/ui/panels/person.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace millwright::panels {
+namespace {
+
+using actions::LinkState;
+using machine::DriverKind;
+using machine::DriverState;
+using test::Person;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class MachineLink : public ::testing::Test {
+protected:
+    Person person{{1280, 720}};
+
+    [[nodiscard]] actions::ControllerView machine() { return person.workshop().look().controller; }
+    [[nodiscard]] bool is(DriverState state) {
+        return machine().connected() && machine().status.state == state;
+    }
+
+    /// By the drop-down and the field, as a person does it.
+    void choose(DriverKind kind, const std::string& address) {
+        person.workshop().run("view.machine");
+        person.frames(3);
+        person.click("inspector/connection/driver");
+        person.click("inspector/connection/driver/" + std::string(to_text(kind)));
+        person.frames(2);
+        ASSERT_EQ(person.workshop().session().hand.choice.kind, kind);
+        person.fill_in("inspector/connection/address", address);
+    }
+    void connect() {
+        person.click("inspector/connection/machine_connect");
+        ASSERT_TRUE(person.live_until([this] { return machine().connected(); }))
+            << (machine().failure ? machine().failure->message : "");
+    }
+};
+
+/// A listener that takes whatever comes.
+class Receiver {
+public:
+    explicit Receiver(std::uint16_t port = 0) : server_(port) { server_.open(); }
+
+    [[nodiscard]] std::uint16_t port() const { return server_.port(); }
+    [[nodiscard]] std::string address() const { return "tcp:127.0.0.1:" + std::to_string(port()); }
+    [[nodiscard]] const std::string& text() { return text_ += server_.read(); }
+    [[nodiscard]] std::string last_line() {
+        const std::string& all = text();
+        const std::size_t end = all.rfind('\n');
+        const std::size_t before = end == std::string::npos || end == 0 ? end : all.rfind('\n', end - 1);
+        return before == std::string::npos ? std::string() : all.substr(before + 1, end - before - 1);
+    }
+
+private:
+    machine::TcpServer server_;
+    std::string text_;
+};
+
+TEST_F(MachineLink, SendsACoordinateStreamAndMakesALostLinkAgainWithoutMoving) {
+    auto receiver = std::make_unique<Receiver>();
+    choose(DriverKind::stream, receiver->address());
+    person.keep("machine-stream-choice");
+    connect();
+    person.workshop().session().hand.step = 1.0;
+    person.frames(2);
+    person.click("hand/jog/plus_X");
+    ASSERT_TRUE(person.live_until([&] { return receiver->last_line().starts_with("1.0000 "); }))
+        << receiver->text();
+    EXPECT_THAT(receiver->text(), StartsWith("# millwright-stream 1 period_s 0.01 "));
+    EXPECT_EQ(person.refusal("inspector/finding/probe"), "This machine cannot probe.");
+
+    const std::uint16_t port = receiver->port();
+    const std::string last = receiver->last_line();
+    receiver.reset();
+    ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+    person.frames(3);
+    EXPECT_TRUE(is(DriverState::alarm));
+    EXPECT_FALSE(person.sees("inspector/connection/machine_reset"));
+    person.keep("machine-stream-lost");
+
+    receiver = std::make_unique<Receiver>(port);
+    person.click("inspector/connection/machine_reconnect");
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
+    ASSERT_TRUE(person.live_until([&] { return !receiver->last_line().empty(); }));
+    EXPECT_EQ(receiver->last_line(), last); // it stays where it was
+    const auto lines = std::ranges::count(receiver->text(), '\n');
+    EXPECT_EQ(lines, 2) << receiver->text(); // the heading, and the place where it stands
+}
+
+TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
+    machine::SteadyClock clock;
+    const auto serve = [&](std::uint16_t port) {
+        auto listener = std::make_unique<machine::TcpServer>(port);
+        listener->open();
+        const std::uint16_t opened = listener->port();
+        std::vector<std::unique_ptr<machine::Link>> links;
+        links.push_back(std::move(listener));
+        return std::pair{opened, std::make_unique<machine::GrblServer>(std::move(links), clock)};
+    };
+    auto [port, grbl] = serve(0);
+    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
+    connect();
+    person.workshop().run("machine.reset");
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
+    person.fill_in("lower/command", "G1 X80 F300");
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
+    grbl.reset();
+    ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+
+    // Nobody is there yet: that is told, and it can be connected later.
+    person.frames(3);
+    person.click("inspector/connection/machine_reconnect");
+    ASSERT_TRUE(person.live_until([this] { return machine().link == LinkState::none; }));
+    ASSERT_TRUE(machine().failure.has_value());
+
+    auto again = serve(port).second;
+    person.frames(3);
+    connect();
+    person.frames(30);
+    EXPECT_FALSE(machine().status.link_lost);
+    const auto last_motion =
+        again->with_controller([](machine::GrblEmulator& it) { return it.truth().last_motion; });
+    EXPECT_LE(last_motion, 0.0);
+    EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
+}
+
+TEST_F(MachineLink, SaysWhyLinuxCncIsNotConnected) {
+    choose(DriverKind::linuxcnc, "tcp:127.0.0.1:9");
+    EXPECT_TRUE(person.sees("inspector/connection/axes"));
+    person.click("inspector/connection/machine_connect");
+    ASSERT_TRUE(person.live_until([this] { return machine().failure.has_value(); }));
+    EXPECT_THAT(machine().failure->message, HasSubstr("127.0.0.1:9"));
+    person.frames(3);
+    person.keep("machine-linuxcnc");
+    // Each kind keeps its own address.
+    choose(DriverKind::grbl, "/dev/no-such-port");
+    person.click("inspector/connection/driver");
+    person.click("inspector/connection/driver/linuxcnc");
+    person.frames(2);
+    EXPECT_EQ(person.workshop().session().hand.choice.address, "tcp:127.0.0.1:9");
+}
+
+} // namespace
+} // namespace millwright::panels
