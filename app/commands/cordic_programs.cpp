@@ -1,11 +1,13 @@
 #include "app/commands/cordic_programs.h"
 
+#include "app/commands/cordic_motion.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/comparison.h"
+#include "core/cordic/microprogram.h"
 #include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
@@ -36,8 +38,10 @@ constexpr double most_clock_hz = 1e11;
 
 struct Options {
     std::string file;
+    CordicMotionOptions motion;
     std::string out;
     std::string trace;
+    std::string microprogram; ///< text file; empty: ours
     std::string format = "f32";
     double clock_hz = 8e6;
     double tolerance = 0.001;
@@ -96,13 +100,13 @@ gcode::CordicProgram program_of(const Options& options) {
     const auto kind = std::filesystem::path(options.file).extension();
     if (kind == ".bin") {
         const std::string bytes = read_file(options.file);
-        return {cordic::parse_image(bytes_of(bytes), options.file), {}, {}, {}};
+        return {cordic::parse_image(bytes_of(bytes), options.file), {}, {}, {}, {}};
     }
     if (kind == ".asm") {
         auto made = cordic::assemble(
             read_file(options.file), options.file, cordic::parse_number_format(options.format));
         refuse(made.errors);
-        return {std::move(made.image), {}, {}, {}};
+        return {std::move(made.image), {}, {}, {}, {}};
     }
     return compiled(options);
 }
@@ -119,6 +123,46 @@ cordic::ProcessorSettings settings_of(const Options& options) {
     return settings;
 }
 
+cordic::Processor processor_of(const Options& options, const cordic::Image& image) {
+    const cordic::ProcessorSettings settings = settings_of(options);
+    if (options.microprogram.empty()) {
+        return {settings, image};
+    }
+    auto made =
+        cordic::assemble_microprogram(read_file(options.microprogram),
+                                      options.microprogram,
+                                      cordic::microprogram_constants(settings.sequence, image.format));
+    refuse(made.errors);
+    return {settings, image, std::move(made.program)};
+}
+
+/// Why the program is not at its end, with the place in it or in the microprogram.
+Error not_at_its_end(const cordic::Processor& processor, const Options& options) {
+    const cordic::ProcessorState& state = processor.state();
+    if (state.stop == cordic::Stop::none) {
+        return Error(fmt::format("the program is not at its end after {} clocks", options.most_clocks),
+                     options.file);
+    }
+    const bool stack =
+        state.stop == cordic::Stop::stack_overflow || state.stop == cordic::Stop::stack_underflow;
+    if (stack && !options.microprogram.empty()) {
+        return Error(
+            Diagnostic{{options.microprogram, processor.microprogram().lines[state.sequencer.address], 0, -1},
+                       std::string(to_text(state.stop)),
+                       {}});
+    }
+    return Error(fmt::format("the processor stopped in the instruction at {:#06x}: {}",
+                             state.instruction_at,
+                             cordic::to_text(state.stop)),
+                 options.file);
+}
+
+int show_microprogram(const Options& options) {
+    const auto publishing = options.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
+    fmt::print("{}", cordic::microprogram_text(publishing));
+    return 0;
+}
+
 void run_traced(cordic::Processor& processor, const Options& options) {
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
     for (std::int64_t n = 0; n < options.most_clocks && processor.state().stop == cordic::Stop::none; ++n) {
@@ -128,8 +172,28 @@ void run_traced(cordic::Processor& processor, const Options& options) {
     write_file(options.trace, waves.take());
 }
 
-nlohmann::ordered_json
-json_of(const cordic::Processor& processor, const cordic::RunReport& report, bool has_exact) {
+nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const cordic::Published& record) {
+    const auto set = processor.set_point(record);
+    nlohmann::ordered_json point{{"clock", record.clock},
+                                 {"x", set.x},
+                                 {"y", set.y},
+                                 {"vx", set.vx},
+                                 {"vy", set.vy},
+                                 {"ax", set.ax},
+                                 {"ay", set.ay}};
+    if (record.opcode == cordic::Opcode::g00z || record.opcode == cordic::Opcode::g01z) {
+        const auto height = processor.height_point(record);
+        point["z"] = height.z;
+        point["vz"] = height.vz;
+        point["az"] = height.az;
+    }
+    return point;
+}
+
+nlohmann::ordered_json json_of(const cordic::Processor& processor,
+                               const gcode::CordicProgram& program,
+                               const cordic::RunReport& report,
+                               bool has_exact) {
     nlohmann::ordered_json answer;
     answer["stop"] = cordic::to_text(report.stop);
     answer["format"] = cordic::to_text(processor.format());
@@ -147,20 +211,26 @@ json_of(const cordic::Processor& processor, const cordic::RunReport& report, boo
     answer["fastest_mm_per_min"] = to_mm_per_min(report.fastest);
     answer["points"] = nlohmann::ordered_json::array();
     for (const cordic::Published& record : processor.published()) {
-        const auto set = processor.set_point(record);
-        answer["points"].push_back({{"clock", record.clock},
-                                    {"x", set.x},
-                                    {"y", set.y},
-                                    {"vx", set.vx},
-                                    {"vy", set.vy},
-                                    {"ax", set.ax},
-                                    {"ay", set.ay}});
+        answer["points"].push_back(json_of_point(processor, record));
+    }
+    answer["commands"] = nlohmann::ordered_json::array();
+    for (const cordic::Commanded& command : processor.commanded()) {
+        const std::size_t n = answer["commands"].size();
+        answer["commands"].push_back(
+            {{"clock", command.clock},
+             {"command", cordic::to_text(command.opcode)},
+             {"parameter", command.parameter},
+             {"behind_points", command.behind_set_points},
+             {"line", n < program.command_lines.size() ? program.command_lines[n] : 0}});
     }
     return answer;
 }
 
-void print(const cordic::RunReport& report, bool has_exact) {
-    fmt::print("{} set-points, {}\n", report.published, cordic::to_text(report.stop));
+void print(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
+    fmt::print("{} set-points, {} commands, {}\n",
+               report.published,
+               processor.commanded().size(),
+               cordic::to_text(report.stop));
     fmt::print("{} clocks, {:.6g} ms: {} CORDIC, {} fetch, {} immediates, {} publishing, {} control\n",
                report.clocks.total,
                1e3 * report.seconds,
@@ -183,7 +253,7 @@ void print(const cordic::RunReport& report, bool has_exact) {
 
 int run(const Options& options) {
     const gcode::CordicProgram program = program_of(options);
-    cordic::Processor processor(settings_of(options), program.image);
+    cordic::Processor processor = processor_of(options, program.image);
     if (options.trace.empty()) {
         processor.run(options.most_clocks);
     } else {
@@ -193,18 +263,24 @@ int run(const Options& options) {
     const bool has_exact = !program.points.empty() && !options.thesis_direction;
     const auto exact = has_exact ? std::span(program.points) : std::span<const cordic::ExactPoint>();
     const cordic::RunReport report = cordic::report_of(processor, exact, options.clock_hz);
+    const auto motion =
+        report.stop == cordic::Stop::halted
+            ? move_along(processor, program, options.motion, options.acceleration, options.file)
+            : std::nullopt;
     if (options.json) {
-        fmt::print("{}\n", json_of(processor, report, has_exact).dump(2));
+        auto answer = json_of(processor, program, report, has_exact);
+        if (motion) {
+            answer["motion"] = json_of(*motion);
+        }
+        fmt::print("{}\n", answer.dump(2));
     } else {
-        print(report, has_exact);
+        print(report, processor, has_exact);
+        if (motion) {
+            print(*motion);
+        }
     }
     if (report.stop != cordic::Stop::halted) {
-        throw Error(report.stop == cordic::Stop::none
-                        ? fmt::format("the program is not at its end after {} clocks", options.most_clocks)
-                        : fmt::format("the processor stopped in the instruction at {:#06x}: {}",
-                                      processor.state().instruction_at,
-                                      cordic::to_text(report.stop)),
-                    options.file);
+        throw not_at_its_end(processor, options);
     }
     return 0;
 }
@@ -277,7 +353,7 @@ add_file(CLI::App& group, const char* name, const char* text, const std::shared_
         ->check(CLI::Range(1e-3, 1e7))
         ->capture_default_str();
     command.add_flag("--thesis-arcs", options->thesis_arcs, "End arcs where their rotations lead");
-    command.add_flag("--other-axes", options->other_axes, "Leave out what other axes than X and Y do");
+    command.add_flag("--other-axes", options->other_axes, "Leave out what other axes than X, Y and Z do");
     return command;
 }
 
@@ -300,6 +376,9 @@ void add_run(CLI::App& group, Command& chosen) {
         "--thesis-direction", options->thesis_direction, "G2 counter-clockwise, as the thesis's model");
     command.add_flag("--matlab-zero", options->matlab_zero, "The thesis's MATLAB model where an angle is 0");
     command.add_flag("--over-bus", options->over_bus, "Set-points byte by byte over the bus");
+    command.add_option("--microprogram", options->microprogram, "A microprogram of one's own")
+        ->type_name("FILE");
+    add_cordic_motion_options(command, options->motion);
     command.add_flag("--json", options->json, "Print the answer as JSON");
     command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
 }
@@ -314,6 +393,9 @@ void add_cordic_programs(CLI::App& group, Command& chosen) {
     assembling.callback([&chosen, options] { chosen = [options] { return assemble(*options); }; });
     CLI::App& showing = add_file(group, "disasm", "Print a program as assembler text", options);
     showing.callback([&chosen, options] { chosen = [options] { return disassemble(*options); }; });
+    CLI::App& micro = *group.add_subcommand("microprogram", "Print the processor's microprogram");
+    micro.add_flag("--over-bus", options->over_bus, "With set-points byte by byte over the bus");
+    micro.callback([&chosen, options] { chosen = [options] { return show_microprogram(*options); }; });
     CLI::App& comparing =
         *group.add_subcommand("compare", "The processor beside the thesis's micro-controller");
     comparing.add_option("--clock", options->clock_hz, "Clock frequency, Hz")

@@ -87,7 +87,8 @@ run_on_planned_machine(const machine::Job& job, const Options& options, const st
 
 /// Before the work is done.
 void refuse_missing_port(const Options& options) {
-    if (options.driver != "virtual" && options.controller.port.empty()) {
+    const bool inside = options.driver == "virtual" || options.driver == "cordic";
+    if (!inside && options.controller.port.empty()) {
         throw Error("the " + options.driver + " driver needs a port", {}, "give --port");
     }
 }
@@ -116,15 +117,16 @@ void add_run_command(CLI::App& app, Command& chosen) {
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--driver", options->driver, "Machine to run on")
         ->required()
-        ->check(CLI::IsMember({"virtual", "grbl", "stream"}));
+        ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic"}));
     add_controller_options(command, options->controller);
     command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
         ->type_name("S")
         ->capture_default_str();
     add_post_options(command, options->post);
     command
-        .add_option(
-            "--speed", options->speed, "Times real time, of the virtual machine; 0: as fast as it goes")
+        .add_option("--speed",
+                    options->speed,
+                    "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
         ->capture_default_str();
     command.add_option("--log", options->log, "Folder of the job logs")

@@ -17,29 +17,12 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Opcode>, 6> plain = {{{"NOP", Opcode::nop},
-                                                                       {"HLT", Opcode::hlt},
-                                                                       {"G00", Opcode::g00},
-                                                                       {"G01", Opcode::g01},
-                                                                       {"G02", Opcode::g02},
-                                                                       {"G03", Opcode::g03}}};
-
 std::string upper(std::string_view text) {
     std::string made(text);
     std::ranges::transform(made, made.begin(), [](char c) {
         return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     });
     return made;
-}
-
-/// The name of an instruction without operands.
-std::string_view name_of(Opcode opcode) {
-    for (const auto& [name, known] : plain) {
-        if (known == opcode) {
-            return name;
-        }
-    }
-    return {};
 }
 
 bool read_real(std::string_view text, double& value) {
@@ -104,9 +87,9 @@ private:
         }
         const LineWord word = words_[at_++];
         const std::string name = upper(word.text);
-        const auto* const known = std::ranges::find(plain, name, &std::pair<std::string_view, Opcode>::first);
-        if (known != plain.end()) {
-            append(result_.image.code, {.opcode = known->second}, result_.image.format);
+        const auto known = std::ranges::find(named_opcodes(), name, &NamedOpcode::name);
+        if (known != named_opcodes().end()) {
+            append(result_.image.code, {.opcode = known->opcode}, result_.image.format);
             begun_ = true;
         } else if (name == "MOV") {
             read_mov();
@@ -117,7 +100,7 @@ private:
         } else {
             fail(word.column,
                  fmt::format("\"{}\" is no instruction", word.text),
-                 "MOV, G00 to G03, NOP or HLT");
+                 "MOV, G00 to G04, G00Z, G01Z, M00 to M09, M30, MUSER, NOP or HLT");
             return;
         }
         if (more() && (result_.errors.empty() || result_.errors.back().place.line != line_)) {
@@ -168,6 +151,10 @@ private:
                  more() ? fmt::format("\"{}\" is no register", words_[at_].text) : "a register is missing");
             return;
         }
+        if (static_cast<int>(*target) >= loaded_register_count) {
+            fail(column(), fmt::format("{} is computed and cannot be loaded", to_text(*target)));
+            return;
+        }
         ++at_;
         if (!more() || words_[at_].text != ",") {
             fail(column(), "a comma is missing behind the register");
@@ -186,7 +173,7 @@ private:
         }
     }
 
-    /// Bits (0x...), a number of the format, a whole number for N and PC, or a label for PC.
+    /// Bits (0x...), a number of the format, a whole number for N, PC and P, or a label for PC.
     std::optional<Word> immediate_of(Register target, const LineWord& word) {
         const bool bits = word.text.starts_with("0x") || word.text.starts_with("0X");
         if (bits) {
@@ -295,7 +282,7 @@ std::string disassemble(const Image& image) {
                                to_text(found->instruction.target),
                                immediate_text(found->instruction, image.format));
         } else if (found) {
-            line = name_of(found->instruction.opcode);
+            line = to_text(found->instruction.opcode);
         }
         text += fmt::format("        {:<32}; {:04x}\n", line, at);
         at += static_cast<std::size_t>(found ? found->size : 1);

@@ -13,6 +13,7 @@ namespace millwright::cordic {
 
 inline constexpr std::uint16_t ram_begin = 0x8000;  ///< below: program ROM
 inline constexpr std::uint16_t port_begin = 0xc000; ///< from here: the motion controller
+inline constexpr std::uint8_t command_port = 0x80;  ///< behind port_begin: opcode and parameter of a command
 
 enum class Device : std::uint8_t { rom, ram, port };
 

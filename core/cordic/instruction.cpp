@@ -10,8 +10,33 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr std::array<std::string_view, register_count> names = {
-    "XI", "YJ", "Vmax", "Amax", "Dz", "N", "X0", "Y0", "Vx", "Vy", "Ax", "Ay", "PC"};
+constexpr std::array<std::string_view, register_count> names = {"XI",
+                                                                "YJ",
+                                                                "Vmax",
+                                                                "Amax",
+                                                                "Dz",
+                                                                "N",
+                                                                "X0",
+                                                                "Y0",
+                                                                "Vx",
+                                                                "Vy",
+                                                                "Ax",
+                                                                "Ay",
+                                                                "PC",
+                                                                "Z",
+                                                                "Z0",
+                                                                "P",
+                                                                "Vz",
+                                                                "Az"};
+
+constexpr std::array<NamedOpcode, 21> plain = {{
+    {"NOP", Opcode::nop},     {"HLT", Opcode::hlt}, {"G00", Opcode::g00}, {"G01", Opcode::g01},
+    {"G02", Opcode::g02},     {"G03", Opcode::g03}, {"G04", Opcode::g04}, {"G00Z", Opcode::g00z},
+    {"G01Z", Opcode::g01z},   {"M00", Opcode::m00}, {"M01", Opcode::m01}, {"M02", Opcode::m02},
+    {"M03", Opcode::m03},     {"M04", Opcode::m04}, {"M05", Opcode::m05}, {"M06", Opcode::m06},
+    {"M07", Opcode::m07},     {"M08", Opcode::m08}, {"M09", Opcode::m09}, {"M30", Opcode::m30},
+    {"MUSER", Opcode::muser},
+}};
 
 constexpr std::array<std::uint8_t, 4> magic = {'M', 'W', 'C', 'P'};
 constexpr std::uint8_t version = 1;
@@ -47,6 +72,32 @@ std::optional<Register> register_of(std::string_view name) {
     return found == names.end() ? std::nullopt : std::optional(static_cast<Register>(found - names.begin()));
 }
 
+std::span<const NamedOpcode> named_opcodes() {
+    return plain;
+}
+
+std::string_view to_text(Opcode opcode) {
+    const auto* const found = std::ranges::find(plain, opcode, &NamedOpcode::opcode);
+    return found == plain.end() ? std::string_view("MOV") : found->name;
+}
+
+bool is_command(Opcode opcode) {
+    return opcode == Opcode::g04 || opcode >= Opcode::m00;
+}
+
+bool takes_parameter(Opcode opcode) {
+    switch (opcode) {
+    case Opcode::g04:
+    case Opcode::m03:
+    case Opcode::m04:
+    case Opcode::m06:
+    case Opcode::muser:
+        return true;
+    default:
+        return false;
+    }
+}
+
 void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format) {
     const auto opcode = static_cast<std::uint8_t>(instruction.opcode);
     if (instruction.opcode != Opcode::mov) {
@@ -64,7 +115,7 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFo
         return std::nullopt;
     }
     const int target = code[0] - static_cast<int>(Opcode::mov);
-    if (target >= 0 && target < register_count) {
+    if (target >= 0 && target < loaded_register_count) {
         const auto size = static_cast<std::size_t>(immediate_bytes(format));
         if (code.size() <= size) {
             return std::nullopt;
@@ -72,10 +123,9 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFo
         return Decoded{{Opcode::mov, static_cast<Register>(target), little_endian(code.subspan(1, size))},
                        1 + immediate_bytes(format)};
     }
-    for (const Opcode known :
-         {Opcode::nop, Opcode::hlt, Opcode::g00, Opcode::g01, Opcode::g02, Opcode::g03}) {
-        if (code[0] == static_cast<std::uint8_t>(known)) {
-            return Decoded{{.opcode = known}, 1};
+    for (const NamedOpcode& known : plain) {
+        if (code[0] == static_cast<std::uint8_t>(known.opcode)) {
+            return Decoded{{.opcode = known.opcode}, 1};
         }
     }
     return std::nullopt;

@@ -15,16 +15,38 @@
 
 namespace millwright::cordic {
 
-/// The thirteen registers of the thesis. N and PC hold whole numbers, the others numbers of the format.
-enum class Register : std::uint8_t { XI, YJ, Vmax, Amax, Dz, N, X0, Y0, Vx, Vy, Ax, Ay, PC };
+/// The thirteen registers of the thesis, and ours behind them: Z, where a line in space ends; Z0, where the
+/// third axis is; P, the parameter of commands; Vz and Az. N, PC and P hold whole numbers, the others numbers
+/// of the format.
+enum class Register : std::uint8_t {
+    XI,
+    YJ,
+    Vmax,
+    Amax,
+    Dz,
+    N,
+    X0,
+    Y0,
+    Vx,
+    Vy,
+    Ax,
+    Ay,
+    PC,
+    Z,
+    Z0,
+    P,
+    Vz,
+    Az
+};
 
-inline constexpr int register_count = 13;
+inline constexpr int register_count = 18;
+inline constexpr int loaded_register_count = 16; ///< those that Mov can load
 
 [[nodiscard]] std::string_view to_text(Register name);
 /// Upper and lower case alike.
 [[nodiscard]] std::optional<Register> register_of(std::string_view name);
 [[nodiscard]] constexpr bool is_whole(Register name) {
-    return name == Register::N || name == Register::PC;
+    return name == Register::N || name == Register::PC || name == Register::P;
 }
 
 enum class Opcode : std::uint8_t {
@@ -35,7 +57,33 @@ enum class Opcode : std::uint8_t {
     g01 = 0x21,
     g02 = 0x22,
     g03 = 0x23,
+    g04 = 0x24,  ///< dwell of P microseconds
+    g00z = 0x28, ///< line in space to (XI, YJ, Z)
+    g01z = 0x29,
+    m00 = 0x40, ///< program stop; the M-codes are 0x40 + their number
+    m01 = 0x41,
+    m02 = 0x42, ///< end: hands the command over and stops
+    m03 = 0x43, ///< spindle clockwise at P rpm
+    m04 = 0x44,
+    m05 = 0x45,
+    m06 = 0x46, ///< tool P
+    m07 = 0x47,
+    m08 = 0x48,
+    m09 = 0x49,
+    m30 = 0x5e,   ///< as m02
+    muser = 0x60, ///< machine-specific command M P, P from 100 to 199
 };
+
+/// Name and opcode of every instruction but Mov.
+struct NamedOpcode {
+    std::string_view name;
+    Opcode opcode = Opcode::nop;
+};
+[[nodiscard]] std::span<const NamedOpcode> named_opcodes();
+[[nodiscard]] std::string_view to_text(Opcode opcode);
+/// Whether an instruction hands a command to the motion controller, and whether P goes along.
+[[nodiscard]] bool is_command(Opcode opcode);
+[[nodiscard]] bool takes_parameter(Opcode opcode);
 
 struct Instruction {
     Opcode opcode = Opcode::nop;

@@ -36,11 +36,11 @@ enum class Control : std::uint8_t {
     shift_byte,     ///< temporary <- byte read, behind those before it; PC + 1
     store_register, ///< register named by IR <- temporary
     take_end,       ///< (XE, YE) <- (XI, YJ)
-    take_position,  ///< (X0, Y0) <- (XE, YE)
-    publish,        ///< hand (XE, YE, Vx, Vy, Ax, Ay) to the motion controller
+    take_position,  ///< (X0, Y0, Z0) <- (XE, YE, ZE)
+    publish,        ///< hand (XE, YE, Vx, Vy, Ax, Ay, ZE, Vz, Az) to the motion controller
     count_chord,    ///< N - 1
     fold_radius,    ///< (x, y, f1, f2) <- Pre((X0, Y0) - (XI, YJ)); z <- +-Dz
-    fold_move,      ///< (x, y, f1, f2) <- Pre((XE, YE) - (X0, Y0)), normalised; z <- 0
+    fold_move,      ///< (x, y, f1, f2) <- Pre((XE, YE) - (X0, Y0)), normalised; z, Vz, Az <- 0
     load_speed,     ///< (x, y) <- (Vmax, 0); (x2, y2) <- (Amax/2, 0)
     rotate,         ///< a CORDIC step of (x, y, z), driving z to 0
     vector,         ///< a CORDIC step of (x, y, z), driving y to 0
@@ -51,9 +51,14 @@ enum class Control : std::uint8_t {
     unfold_speed,   ///< (Vx, Vy) <- Post(x, y, f1, f2); (Ax, Ay) <- Post(x2, y2, f1, f2)
     write_byte,     ///< begin to write the next byte of the record to the motion controller
     halt,           ///< stop
+    take_height,    ///< ZE <- Z
+    fold_space,     ///< as fold_move, with ZE - Z0 -> rise, all three normalised together
+    fold_rise,      ///< bearing <- z; y <- rise; z <- 0: the next direction is the slope
+    unfold_rise,    ///< Vz <- y, Az <- y2; y, y2 <- 0; z <- bearing
+    command,        ///< hand (IR, P) to the motion controller
 };
 
-inline constexpr int control_count = 20;
+inline constexpr int control_count = 25;
 using ControlSignals = std::uint32_t; ///< one bit a Control
 
 [[nodiscard]] constexpr ControlSignals bit_of(Control control) {

@@ -3,14 +3,15 @@
 #include "core/base/error.h"
 #include "core/cordic/instruction.h"
 
-#include <array>
 #include <string_view>
 #include <utility>
 
 namespace millwright::cordic {
 namespace {
 
-constexpr int record_words = 6; // X, Y, Vx, Vy, Ax, Ay
+constexpr int record_words = 6;  // X, Y, Vx, Vy, Ax, Ay
+constexpr int space_words = 9;   // and Z, Vz, Az
+constexpr int command_bytes = 5; // opcode and P
 
 constexpr std::string_view fetch_and_move = R"(
 ; Fetch. Reset begins here, and so does every instruction.
@@ -49,6 +50,27 @@ constexpr std::string_view arc_tail = R"(
         JZ
 )";
 
+constexpr std::string_view space_line = R"(
+; G00Z and G01Z: a line to (XI, YJ, Z). Its bearing and length in the plane, then its slope; speed and
+; acceleration are turned by the slope, what is left of them in the plane by the bearing. 140 clocks of CORDIC.
+SPACE:  CONT                            | take_end, take_height
+        LDCT  LAST_STEP                 | fold_space
+P1:     RPCT  P1                        | vector
+        LDCT  LAST_CORRECTION
+P3:     RPCT  P3                        | correct
+        LDCT  LAST_STEP                 | fold_rise
+P5:     RPCT  P5                        | vector
+        LDCT  LAST_STEP                 | load_speed
+P7:     RPCT  P7                        | rotate, rotate_both
+        LDCT  LAST_CORRECTION
+P9:     RPCT  P9                        | correct, correct_both
+        LDCT  LAST_STEP                 | unfold_rise
+P11:    RPCT  P11                       | rotate, rotate_both
+        LDCT  LAST_CORRECTION
+P13:    RPCT  P13                       | correct, correct_both
+        CONT                            | unfold_speed
+)";
+
 constexpr std::string_view set_point = R"(
 ; Speed and acceleration of the axes on the way from (X0, Y0) to (XE, YE): vectoring, then rotation, 74 clocks.
 SETPOINT: LDCT LAST_STEP                | fold_move
@@ -62,19 +84,41 @@ S7:     RPCT  S7                        | correct, correct_both
         CRTN  always                    | unfold_speed
 )";
 
+/// The ends of the routines: all at once in one clock.
 constexpr std::string_view latch_line = R"(        JZ                              | take_position, publish
 )";
 constexpr std::string_view latch_arc =
     R"(        CONT                            | take_position, publish, count_chord
 )";
+constexpr std::string_view latch_commands = R"(
+; M-codes and G04. M02 and M30 stop the processor.
+COMMAND: JZ                             | command
+END:    JZ                              | command, halt
+)";
+
+/// The same with the record over the bus.
 constexpr std::string_view bus_line = R"(        CJS   always STORE              | take_position, publish
+        JZ
+)";
+constexpr std::string_view bus_space = R"(        CJS   always STORE_SPACE        | take_position, publish
         JZ
 )";
 constexpr std::string_view bus_arc =
     R"(        CJS   always STORE              | take_position, publish, count_chord
 )";
+constexpr std::string_view bus_commands = R"(
+; M-codes and G04. M02 and M30 stop the processor.
+COMMAND: CJS  always STORE_COMMAND      | command
+        JZ
+END:    CJS   always STORE_COMMAND      | command
+        JZ                              | halt
+)";
 constexpr std::string_view store = R"(
 ; The record, byte by byte to the motion controller.
+STORE_COMMAND: LDCT LAST_COMMAND_BYTE
+        CJP   always W1
+STORE_SPACE: LDCT LAST_SPACE_BYTE
+        CJP   always W1
 STORE:  LDCT  LAST_RECORD_BYTE
 W1:     CONT                            | write_byte
 W2:     CJP   bus_busy W2
@@ -85,9 +129,16 @@ W2:     CJP   bus_busy W2
 constexpr std::string_view dispatch = R"(
 .map 0x00 NOP
 .map 0x01 HLT
-.map 0x10 0x1c MOV
+.map 0x10 0x1f MOV
 .map 0x20 0x21 LINE
 .map 0x22 0x23 ARC
+.map 0x24 COMMAND
+.map 0x28 0x29 SPACE
+.map 0x40 0x41 COMMAND
+.map 0x42 END
+.map 0x43 0x49 COMMAND
+.map 0x5e END
+.map 0x60 COMMAND
 )";
 
 } // namespace
@@ -101,22 +152,31 @@ std::string microprogram_text(Publishing publishing) {
     text += by_bus ? bus_arc : latch_arc;
     text += arc_tail.substr(1);
     text += set_point;
+    text += space_line;
+    text += by_bus ? bus_space : latch_line;
+    text += by_bus ? bus_commands : latch_commands;
     text += by_bus ? store : std::string_view();
     text += dispatch;
     return text;
 }
 
-Microprogram make_microprogram(const Sequence& sequence, const NumberFormat& format, Publishing publishing) {
+std::vector<std::pair<std::string, int>> microprogram_constants(const Sequence& sequence,
+                                                                const NumberFormat& format) {
     const int corrections = sequence.clock_count() - sequence.step_count;
     expects(corrections > 0, "a sequence has something to correct");
-    const std::array<std::pair<std::string, int>, 4> constants = {{
+    return {
         {"LAST_STEP", sequence.step_count - 1},
         {"LAST_CORRECTION", corrections - 1},
         {"LAST_BYTE", immediate_bytes(format) - 1},
         {"LAST_RECORD_BYTE", record_words * immediate_bytes(format) - 1},
-    }};
-    AssembledMicroprogram made =
-        assemble_microprogram(microprogram_text(publishing), "microprogram", constants);
+        {"LAST_SPACE_BYTE", space_words * immediate_bytes(format) - 1},
+        {"LAST_COMMAND_BYTE", command_bytes - 1},
+    };
+}
+
+Microprogram make_microprogram(const Sequence& sequence, const NumberFormat& format, Publishing publishing) {
+    AssembledMicroprogram made = assemble_microprogram(
+        microprogram_text(publishing), "microprogram", microprogram_constants(sequence, format));
     expects(made.errors.empty(), "our microprogram has no errors");
     return std::move(made.program);
 }

@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::cordic {
 
@@ -19,6 +21,10 @@ enum class Publishing : std::uint8_t {
 
 /// Its text for the micro-assembler.
 [[nodiscard]] std::string microprogram_text(Publishing publishing);
+
+/// The numbers that the text names: LAST_STEP, LAST_CORRECTION, LAST_BYTE and so on.
+[[nodiscard]] std::vector<std::pair<std::string, int>> microprogram_constants(const Sequence& sequence,
+                                                                              const NumberFormat& format);
 
 /// The text assembled with the counts of a sequence and the immediate size of a format.
 [[nodiscard]] Microprogram

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/fold.h"
+#include "core/cordic/internal/space_line.h"
 
 #include <fmt/format.h>
 
@@ -16,13 +17,16 @@ constexpr bool has(ControlSignals controls, Control control) {
 }
 
 constexpr ControlSignals steps = bit_of(Control::rotate) | bit_of(Control::vector) | bit_of(Control::correct);
-constexpr ControlSignals folds =
-    bit_of(Control::fold_radius) | bit_of(Control::fold_move) | bit_of(Control::load_speed);
-constexpr ControlSignals unfolds = bit_of(Control::unfold_radius) | bit_of(Control::unfold_speed);
+constexpr ControlSignals folds = bit_of(Control::fold_radius) | bit_of(Control::fold_move) |
+                                 bit_of(Control::fold_space) | bit_of(Control::fold_rise) |
+                                 bit_of(Control::load_speed);
+constexpr ControlSignals unfolds =
+    bit_of(Control::unfold_radius) | bit_of(Control::unfold_rise) | bit_of(Control::unfold_speed);
 constexpr ControlSignals moves = bit_of(Control::load_opcode) | bit_of(Control::shift_byte) |
                                  bit_of(Control::store_register) | bit_of(Control::take_end) |
                                  bit_of(Control::take_position) | bit_of(Control::publish) |
-                                 bit_of(Control::count_chord) | bit_of(Control::halt);
+                                 bit_of(Control::count_chord) | bit_of(Control::halt) |
+                                 bit_of(Control::take_height) | bit_of(Control::command);
 
 template <class Arithmetic>
 Kernel<Arithmetic> kernel_with(const Arithmetic& arithmetic, const ProcessorSettings& settings) {
@@ -88,9 +92,14 @@ SetPoint<double> Processor::set_point(const Published& record) const {
     return {number(w[0]), number(w[1]), number(w[2]), number(w[3]), number(w[4]), number(w[5])};
 }
 
+HeightPoint Processor::height_point(const Published& record) const {
+    return {number(record.words[6]), number(record.words[7]), number(record.words[8])};
+}
+
 void Processor::reset() {
     state_ = {};
     published_.clear();
+    commanded_.clear();
 }
 
 std::int64_t Processor::run(std::int64_t clocks) {
@@ -208,12 +217,18 @@ void Processor::use_bus(ControlSignals controls) {
 void Processor::write_byte() {
     const int size = immediate_bytes(format_);
     const int byte = state_.record_byte++;
-    const Word word =
-        published_.empty() ? 0 : published_.back().words[static_cast<std::size_t>((byte / size) % 6)];
+    Word data = 0;
+    if (byte >= command_port && !commanded_.empty()) {
+        const Commanded& last = commanded_.back();
+        const Word record = Word{last.parameter} << 8U | static_cast<Word>(last.opcode);
+        data = record >> (8 * (byte - command_port));
+    } else if (!published_.empty()) {
+        data = published_.back().words[static_cast<std::size_t>((byte / size) % 9)] >> (8 * (byte % size));
+    }
     begin_cycle(state_.bus,
                 BusCycle::write,
                 static_cast<std::uint16_t>(port_begin + byte),
-                static_cast<std::uint8_t>(word >> (8 * (byte % size))),
+                static_cast<std::uint8_t>(data),
                 settings_.wait_states);
 }
 
@@ -236,15 +251,22 @@ void Processor::move_data(ControlSignals controls) {
         state_.path.xe = reg(Register::XI);
         state_.path.ye = reg(Register::YJ);
     }
+    if (has(controls, Control::take_height)) {
+        state_.path.ze = reg(Register::Z);
+    }
     if (has(controls, Control::publish)) {
         publish();
     }
     if (has(controls, Control::take_position)) {
         reg(Register::X0) = state_.path.xe;
         reg(Register::Y0) = state_.path.ye;
+        reg(Register::Z0) = state_.path.ze;
     }
     if (has(controls, Control::count_chord)) {
         --reg(Register::N);
+    }
+    if (has(controls, Control::command)) {
+        hand_over_command();
     }
     if (has(controls, Control::halt)) {
         stop(Stop::halted);
@@ -253,7 +275,7 @@ void Processor::move_data(ControlSignals controls) {
 
 void Processor::store_register() {
     const auto target = static_cast<Register>(state_.opcode - static_cast<unsigned>(Opcode::mov));
-    if (static_cast<int>(target) >= register_count) {
+    if (static_cast<int>(target) >= loaded_register_count) {
         stop(Stop::illegal_instruction); // a microprogram of one's own may map any opcode here
     } else if (is_whole(target)) {
         reg(target) = state_.temporary & (target == Register::PC ? 0xffffU : 0xffffffffU);
@@ -268,18 +290,35 @@ void Processor::store_register() {
         if (overflow) {
             stop(Stop::overflow);
         }
+        if (target == Register::Z0) {
+            state_.path.ze = reg(target);
+        }
     }
+}
+
+void Processor::hand_over_command() {
+    const auto opcode = static_cast<Opcode>(state_.opcode);
+    commanded_.push_back({state_.clocks.total,
+                          state_.instruction_at,
+                          opcode,
+                          takes_parameter(opcode) ? static_cast<std::uint32_t>(reg(Register::P)) : 0U,
+                          static_cast<std::int64_t>(published_.size())});
+    state_.record_byte = command_port;
 }
 
 void Processor::publish() {
     published_.push_back({state_.clocks.total,
                           state_.instruction_at,
+                          static_cast<Opcode>(state_.opcode),
                           {state_.path.xe,
                            state_.path.ye,
                            reg(Register::Vx),
                            reg(Register::Vy),
                            reg(Register::Ax),
-                           reg(Register::Ay)}});
+                           reg(Register::Ay),
+                           state_.path.ze,
+                           reg(Register::Vz),
+                           reg(Register::Az)}});
     state_.record_byte = 0;
 }
 
@@ -349,6 +388,17 @@ template <class Arithmetic> void Processor::fold(const Kernel<Arithmetic>& kerne
         path.y2 = path.y;
         return;
     }
+    if (has(controls, Control::fold_rise)) {
+        internal::fold_rise(kernel, state_);
+        return;
+    }
+    if (has(controls, Control::fold_space)) {
+        internal::fold_space(kernel, state_, overflow);
+        if (overflow) {
+            stop(Stop::overflow);
+        }
+        return;
+    }
     const bool radius = has(controls, Control::fold_radius);
     const Number dx =
         radius ? arithmetic.difference(value(reg(Register::X0)), value(reg(Register::XI)), overflow)
@@ -373,6 +423,9 @@ template <class Arithmetic> void Processor::fold(const Kernel<Arithmetic>& kerne
         }
     } else {
         path.standing = kernel.reach_of_vectoring(folded.x, folded.y) == Reach::zero_vector;
+        path.upright = path.standing;
+        reg(Register::Vz) = path.z;
+        reg(Register::Az) = path.z;
     }
     if (overflow) {
         stop(Stop::overflow);
@@ -384,6 +437,12 @@ void Processor::unfold(const Kernel<Arithmetic>& kernel, ControlSignals controls
     const Arithmetic& arithmetic = kernel.arithmetic();
     using Number = typename Arithmetic::Number;
     DataPath& path = state_.path;
+    if (has(controls, Control::unfold_rise)) {
+        path.step = 0;
+        path.correction = 0;
+        internal::unfold_rise(kernel, state_);
+        return;
+    }
     bool overflow = false;
     const auto unfolded = [&](Word x, Word y) {
         return post(arithmetic,
@@ -398,7 +457,7 @@ void Processor::unfold(const Kernel<Arithmetic>& kernel, ControlSignals controls
             arithmetic.to_word(arithmetic.sum(first.y, arithmetic.from_word(reg(Register::YJ)), overflow));
     } else {
         const auto second = unfolded(path.x2, path.y2);
-        const auto speed = [&](Number v) { return arithmetic.to_word(path.standing ? Number{} : v); };
+        const auto speed = [&](Number v) { return arithmetic.to_word(path.upright ? Number{} : v); };
         reg(Register::Vx) = speed(first.x);
         reg(Register::Vy) = speed(first.y);
         reg(Register::Ax) = speed(second.x);

@@ -54,11 +54,14 @@ enum class Stop : std::uint8_t {
 /// The registers of the arithmetic unit, which programs do not see.
 struct DataPath {
     Word x = 0, y = 0, z = 0;
-    Word x2 = 0, y2 = 0; ///< second pair, turned along with the first
-    Word xe = 0, ye = 0; ///< where the motion ends
-    bool f1 = false;     ///< of PreCORDIC
+    Word x2 = 0, y2 = 0;         ///< second pair, turned along with the first
+    Word xe = 0, ye = 0, ze = 0; ///< where the motion ends
+    Word rise = 0;               ///< of a line in space
+    Word bearing = 0;            ///< its direction in the plane
+    bool f1 = false;             ///< of PreCORDIC
     bool f2 = false;
     bool standing = false; ///< the last motion had no length: speeds are 0
+    bool upright = false;  ///< or none in the plane
     std::uint8_t step = 0;
     std::uint8_t correction = 0;
 
@@ -86,7 +89,8 @@ struct ProcessorState {
     std::uint16_t instruction_at = 0; ///< where the instruction in IR lies
     Word temporary = 0;               ///< immediate on its way in
     std::uint8_t immediate_bytes_in = 0;
-    std::uint8_t record_byte = 0; ///< next one to be written
+    std::uint8_t record_byte =
+        0; ///< next one to be written, of a set-point or, from command_port on, a command
     DataPath path;
     BusState bus;
     ClockCounts clocks;
@@ -100,7 +104,22 @@ struct ProcessorState {
 struct Published {
     std::int64_t clock = 0;
     std::uint16_t instruction_at = 0;
-    std::array<Word, 6> words{}; ///< X, Y, Vx, Vy, Ax, Ay
+    Opcode opcode = Opcode::nop; ///< of the instruction
+    std::array<Word, 9> words{}; ///< X, Y, Vx, Vy, Ax, Ay, and of the third axis Z, Vz, Az
+};
+
+/// A command that was handed over: the M-codes and G04.
+struct Commanded {
+    std::int64_t clock = 0;
+    std::uint16_t instruction_at = 0;
+    Opcode opcode = Opcode::nop;
+    std::uint32_t parameter = 0;        ///< P where the command takes one
+    std::int64_t behind_set_points = 0; ///< how many had been published before it
+};
+
+/// The third axis of a set-point.
+struct HeightPoint {
+    double z = 0.0, vz = 0.0, az = 0.0;
 };
 
 class Processor {
@@ -118,9 +137,12 @@ public:
     [[nodiscard]] Memory& memory() { return memory_; }
     /// All that was published since reset.
     [[nodiscard]] const std::vector<Published>& published() const { return published_; }
+    /// And all commands.
+    [[nodiscard]] const std::vector<Commanded>& commanded() const { return commanded_; }
     /// A register or a published word as a number.
     [[nodiscard]] double number(Word word) const;
     [[nodiscard]] SetPoint<double> set_point(const Published& record) const;
+    [[nodiscard]] HeightPoint height_point(const Published& record) const;
 
     /// One clock. Does nothing once the processor stands.
     void clock() { run(1); }
@@ -141,6 +163,7 @@ private:
     void use_bus(ControlSignals controls);
     void count(const MicroWord& word);
     void publish();
+    void hand_over_command();
     void write_byte();
     void store_register();
     void stop(Stop why);
@@ -160,6 +183,7 @@ private:
     Memory memory_;
     ProcessorState state_;
     std::vector<Published> published_;
+    std::vector<Commanded> commanded_;
 };
 
 } // namespace millwright::cordic

@@ -10,52 +10,71 @@ namespace millwright::cordic {
 namespace {
 
 struct Point {
-    double x = 0.0, y = 0.0;
+    double x = 0.0, y = 0.0, z = 0.0;
 };
 
-/// In parts of the speed; 0 where the exact path does not move.
-double speed_error(const SetPoint<double>& found, const ExactPoint& exact, const Point& from) {
-    const double length = std::hypot(exact.x - from.x, exact.y - from.y);
-    if (!(length > 0.0) || !(exact.speed > 0.0)) {
-        return 0.0;
-    }
-    return std::hypot(found.vx - exact.speed * (exact.x - from.x) / length,
-                      found.vy - exact.speed * (exact.y - from.y) / length) /
-           exact.speed;
+/// Of a set-point.
+struct Found {
+    Point at, velocity;
+};
+
+double length(const Point& p) {
+    return std::hypot(p.x, p.y, p.z);
 }
 
-void compare(RunReport& report, const Processor& processor, std::span<const ExactPoint> exact) {
+Point operator-(const Point& a, const Point& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+Found found(const Processor& processor, const Published& record) {
+    const SetPoint<double> set = processor.set_point(record);
+    const HeightPoint height = processor.height_point(record);
+    return {{set.x, set.y, height.z}, {set.vx, set.vy, height.vz}};
+}
+
+/// In parts of the speed; 0 where the exact path does not move.
+double speed_error(const Found& found, const ExactPoint& exact, const Point& from) {
+    const Point way = Point{exact.x, exact.y, exact.z} - from;
+    const double far = length(way);
+    if (!(far > 0.0) || !(exact.speed > 0.0)) {
+        return 0.0;
+    }
+    const double scale = exact.speed / far;
+    return length(found.velocity - Point{scale * way.x, scale * way.y, scale * way.z}) / exact.speed;
+}
+
+void compare(RunReport& report, const Processor& processor, std::span<const ExactPoint> exact, Point from) {
     const auto& published = processor.published();
-    Point from;
     for (std::size_t n = 0; n < std::min(exact.size(), published.size()); ++n) {
-        const SetPoint<double> found = processor.set_point(published[n]);
-        report.position_error =
-            std::max(report.position_error, std::hypot(found.x - exact[n].x, found.y - exact[n].y));
-        report.speed_error = std::max(report.speed_error, speed_error(found, exact[n], from));
-        from = {exact[n].x, exact[n].y};
+        const Found set = found(processor, published[n]);
+        const Point to{exact[n].x, exact[n].y, exact[n].z};
+        report.position_error = std::max(report.position_error, length(set.at - to));
+        report.speed_error = std::max(report.speed_error, speed_error(set, exact[n], from));
+        from = to;
     }
 }
 
 /// While one motion is under way the next set-point is computed.
-void find_late(RunReport& report, const Processor& processor, double clock_hz) {
+void find_late(RunReport& report, const Processor& processor, double clock_hz, Point from) {
     const auto& published = processor.published();
     double fastest = std::numeric_limits<double>::max();
-    Point from;
     for (std::size_t n = 0; n + 1 < published.size(); ++n) {
-        const SetPoint<double> at = processor.set_point(published[n]);
-        const double length = std::hypot(at.x - from.x, at.y - from.y);
+        const Found set = found(processor, published[n]);
+        const double way = length(set.at - from);
         const double computing = static_cast<double>(published[n + 1].clock - published[n].clock) / clock_hz;
-        const double speed = std::hypot(at.vx, at.vy);
-        report.late += length < speed * computing ? 1 : 0;
-        fastest = std::min(fastest, length / computing);
-        from = {at.x, at.y};
+        report.late += way < length(set.velocity) * computing ? 1 : 0;
+        fastest = std::min(fastest, way / computing);
+        from = set.at;
     }
     report.fastest = published.size() > 1 ? fastest : 0.0;
 }
 
 } // namespace
 
-RunReport report_of(const Processor& processor, std::span<const ExactPoint> exact, double clock_hz) {
+RunReport report_of(const Processor& processor,
+                    std::span<const ExactPoint> exact,
+                    double clock_hz,
+                    const std::array<double, 3>& start) {
     expects(clock_hz > 0.0, "a processor's clock runs");
     RunReport report;
     report.stop = processor.state().stop;
@@ -63,8 +82,9 @@ RunReport report_of(const Processor& processor, std::span<const ExactPoint> exac
     report.expected = static_cast<std::int64_t>(exact.size());
     report.clocks = processor.state().clocks;
     report.seconds = static_cast<double>(report.clocks.total) / clock_hz;
-    compare(report, processor, exact);
-    find_late(report, processor, clock_hz);
+    const Point from{start[0], start[1], start[2]};
+    compare(report, processor, exact, from);
+    find_late(report, processor, clock_hz, from);
     return report;
 }
 

@@ -4,16 +4,18 @@
 
 #include "core/cordic/processor.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace millwright::cordic {
 
-/// A set-point that a program is to publish, as exact arithmetic has it.
+/// A set-point that a program is to publish, as exact arithmetic has it. mm, mm/s.
 struct ExactPoint {
     double x = 0.0, y = 0.0;
     double speed = 0.0; ///< Vmax
     int line = 0;       ///< of the G-code; 0: none
+    double z = 0.0;
 };
 
 struct RunReport {
@@ -28,8 +30,10 @@ struct RunReport {
     double fastest = 0.0;        ///< speed up to which none would be late; 0 with fewer than two set-points
 };
 
-/// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0.
-[[nodiscard]] RunReport
-report_of(const Processor& processor, std::span<const ExactPoint> exact, double clock_hz);
+/// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0; `start`: where the axes were.
+[[nodiscard]] RunReport report_of(const Processor& processor,
+                                  std::span<const ExactPoint> exact,
+                                  double clock_hz,
+                                  const std::array<double, 3>& start = {});
 
 } // namespace millwright::cordic

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace millwright::test {
@@ -103,10 +105,10 @@ TEST(Cordic, WritesWaves) {
 TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     const ScratchFolder folder;
     const auto file = folder.path() / "part.ngc";
-    write_content(file, "G21\nG0 X1\nG0 Z2\nM2\n");
+    write_content(file, "G21\nG0 X1\nG0 Z2 A3\nM2\n");
     const Ended axis = run({"cordic", "run", file.string()});
     EXPECT_EQ(axis.exit_code, 1);
-    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3: the CORDIC processor has no axis Z"));
+    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor has no axis A"));
     EXPECT_EQ(run({"cordic", "run", file.string(), "--other-axes"}).exit_code, 0);
     const auto text = folder.path() / "wrong.asm";
     write_content(text, "G01\n MOV Q, 1\n");
@@ -119,6 +121,98 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     EXPECT_EQ(stopped.exit_code, 1);
     EXPECT_THAT(stopped.err, HasSubstr("not at its end after 1000 clocks"));
     EXPECT_EQ(run({"cordic", "disasm", file.string() + ".bin"}).exit_code, 1);
+}
+
+TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
+    struct Bad {
+        std::string name, text, message;
+        std::vector<std::string> options{};
+    };
+    const ScratchFolder folder;
+    const auto micro = (folder.path() / "deep.micro").string();
+    write_content(micro, "CONT\nA: CJS always A\n");
+    const auto label = (folder.path() / "label.micro").string();
+    write_content(label, "CONT\n CJP always NOWHERE\n");
+    for (const Bad& bad : {
+             Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: radius at the arc's start"},
+             Bad{"b.ngc",
+                 "G21 S100 M3\nG0 X1\n G33 Z1 K1\nM2\n",
+                 "b.ngc:3:2: the CORDIC processor has no feed"},
+             Bad{"c.ngc",
+                 "G21\nG0 X300\nM2\n",
+                 "c.ngc:2:4: X 300 does not fit into q8.24",
+                 {"--format", "q8.24", "--acceleration", "100"}},
+             Bad{"d.asm",
+                 ".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV XI, 7\nG01\nHLT\n",
+                 "instruction at 0x000f: a number did not fit the word"},
+             Bad{"e.asm", "MOV PC, away\n", "e.asm:1:9: there is no label away"},
+             Bad{"f.asm",
+                 "HLT\n",
+                 "deep.micro:2: a microprogram called more than 4 deep",
+                 {"--microprogram", micro}},
+             Bad{"g.asm", "HLT\n", "label.micro:2:", {"--microprogram", label}},
+             Bad{"h.bin", "MWCP?", "h.bin"},
+             Bad{"i.ngc", "G21 S100 M19 R0\nM2\n", "no spindle orientation"},
+         }) {
+        const auto file = folder.path() / bad.name;
+        write_content(file, bad.text);
+        std::vector<std::string> words{"cordic", "run", file.string()};
+        words.insert(words.end(), bad.options.begin(), bad.options.end());
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 1) << bad.name;
+        EXPECT_THAT(ended.err, HasSubstr(bad.message)) << bad.name;
+    }
+    const auto still = folder.path() / "still.ngc";
+    write_content(still, "G21\nG0 X1\nG0 X1\nG0 X1.001\nM2\n");
+    const Ended ended = run({"cordic", "run", still.string(), "--format", "q16.8"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:3:1: a move without length is left out"));
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:4:1: a move of 0.001 mm is less than q16.8 can tell"));
+}
+
+TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {
+    const ScratchFolder folder;
+    const auto pulses = folder.path() / "pulses.csv";
+    for (const char* profile : {"trapezoid", "s-curve"}) {
+        const Ended ended = run({"cordic",
+                                 "run",
+                                 arc,
+                                 "--profile",
+                                 profile,
+                                 "--steps",
+                                 "100",
+                                 "--timer",
+                                 "1e5",
+                                 "--pulses",
+                                 pulses.string(),
+                                 "--json"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const auto motion = nlohmann::json::parse(ended.out).at("motion");
+        EXPECT_LE(motion.at("max_acceleration_mm_s2").get<double>(), 250.0 + 1e-6); // half of Amax
+        EXPECT_LE(motion.at("max_speed_mm_s").get<double>(), 50.0 + 1e-3);          // the rapid's
+        std::int64_t count = 0;
+        for (const auto& axis : motion.at("axes")) {
+            count += axis.at("pulses").get<std::int64_t>();
+            EXPECT_LE(axis.at("max_jitter_s").get<double>(), 0.5e-5 + 1e-12); // half a tick
+            EXPECT_LE(axis.at("end_error_steps").get<double>(), 0.5);
+        }
+        const std::string text = content_of(pulses);
+        EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), count + 1);
+    }
+    EXPECT_EQ(run({"cordic", "run", arc, "--pulses", pulses.string()}).exit_code, 1);
+}
+
+TEST(Cordic, PrintsTheMicroprogramThatItRunsOn) {
+    const ScratchFolder folder;
+    const Ended text = run({"cordic", "microprogram"});
+    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_THAT(text.out, HasSubstr("SETPOINT: LDCT LAST_STEP"));
+    const auto file = folder.path() / "our.micro";
+    write_content(file, text.out);
+    const Ended ours = run({"cordic", "run", arc});
+    const Ended again = run({"cordic", "run", arc, "--microprogram", file.string()});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(again.out, ours.out);
 }
 
 TEST(Cordic, WritesHardwareForFixedPoint) {

@@ -44,6 +44,28 @@ TEST(RunCommand, RunsTheWholeProgramAndLogsIt) {
     EXPECT_EQ(log.back().at("executed_blocks"), log.front().at("blocks"));
 }
 
+TEST(RunCommand, DispatchesToTheCordicProcessorWhatItCanDo) {
+    const ScratchFolder scratch;
+    const auto logs = (scratch / "logs").string();
+    const Ended ended = run({"run",
+                             small_project(scratch.path(), "router-dome"),
+                             "--driver",
+                             "cordic",
+                             "--speed",
+                             "0",
+                             "--log",
+                             logs});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("blocks were executed"));
+    const auto log = only_log_in(scratch / "logs");
+    EXPECT_EQ(log.front().at("driver"), "cordic");
+    EXPECT_EQ(log.back().at("executed_blocks"), log.front().at("blocks"));
+    const Ended refused =
+        run({"run", small_project(scratch.path(), "dome"), "--driver", "cordic", "--log", logs});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("the CORDIC processor has no axis "));
+}
+
 TEST(RunCommand, CtrlCBrakesTheMachineFirst) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");

@@ -19,14 +19,15 @@ using machine::DriverKind;
 using machine::DriverState;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 4> kinds{
+constexpr std::array<widgets::Option, 5> kinds{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
      {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
      {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
-     {"stream",
-      "Coordinate stream",
+     {"stream", "Coordinate stream", {}, "A machine that is sent where its axes shall be, and says nothing"},
+     {"cordic",
+      "CORDIC processor",
       {},
-      "A machine that is sent where its axes shall be, and says nothing"}}};
+      "The G-code processor's model with a machine inside this program; X, Y and Z only"}}};
 
 std::string kind_text(DriverKind kind) {
     return kind == DriverKind::virtual_machine ? "virtual machine"
@@ -117,7 +118,7 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
             hand.choice.address = hand.addresses[static_cast<std::size_t>(kind)];
         });
     }
-    if (choice.kind == DriverKind::virtual_machine) {
+    if (choice.kind == DriverKind::virtual_machine || choice.kind == DriverKind::cordic) {
         return;
     }
     draw_address(ui, now, ask);

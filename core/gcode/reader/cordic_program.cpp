@@ -5,6 +5,8 @@
 #include "core/cordic/arithmetic.h"
 #include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
+#include "core/gcode/reader/internal/cordic_code.h"
+#include "core/gcode/reader/internal/cordic_commands.h"
 
 #include <fmt/format.h>
 
@@ -29,42 +31,15 @@ constexpr double same_place = 1e-9;              // mm or degrees: rounding of o
 constexpr double widest_chord = pi / 4;          // rad
 constexpr std::int64_t most_chords = 10'000'000; // of one arc: what a person waits for, far below register N
 
-struct Place2 {
-    double x = 0.0, y = 0.0;
+/// The instructions of a line in the plane and of one that rises.
+struct LineOpcodes {
+    Opcode plane, space;
 };
+constexpr LineOpcodes feed_line{Opcode::g01, Opcode::g01z};
 
-/// What a command is called where the processor cannot do it; empty: it changes nothing that the processor
-/// does.
-std::string_view refused(CommandKind kind) {
-    switch (kind) {
-    case CommandKind::dwell:
-        return "dwell";
-    case CommandKind::start_spindle_clockwise:
-    case CommandKind::start_spindle_counterclockwise:
-    case CommandKind::orient_spindle:
-        return "spindle";
-    case CommandKind::mist_on:
-    case CommandKind::flood_on:
-        return "coolant";
-    case CommandKind::change_tool:
-    case CommandKind::change_tool_number:
-        return "tool change";
-    case CommandKind::program_stop:
-    case CommandKind::optional_program_stop:
-        return "program stop";
-    case CommandKind::start_speed_feed_synch:
-        return "feed a revolution";
-    case CommandKind::wait_input:
-        return "input";
-    case CommandKind::set_motion_output_bit:
-    case CommandKind::set_aux_output_bit:
-    case CommandKind::set_motion_output_value:
-    case CommandKind::set_aux_output_value:
-        return "output";
-    default:
-        return {};
-    }
-}
+struct Place3 {
+    double x = 0.0, y = 0.0, z = 0.0;
+};
 
 } // namespace
 
@@ -79,24 +54,26 @@ std::int64_t chord_count(double radius, double sweep, double tolerance) {
 class CordicProgramBuilder::Parts {
 public:
     Parts(std::filesystem::path file, const CordicProgramSettings& settings)
-        : file_(std::move(file)), settings_(settings) {
+        : settings_(settings), code_(std::move(file), settings), at_(settings.start) {
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
-        result_.image.format = settings.format;
+        start();
     }
+
+    void begin_line(const SourceLine& now) { code_.begin_line(now); }
 
     void move(const Move& move) {
         const AxisValues end = frame_.to_machine(move.target);
         switch (move.kind) {
         case MoveKind::traverse:
-            return line(Opcode::g00, end, settings_.rapid_speed, move.source);
+            return line({Opcode::g00, Opcode::g00z}, end, settings_.rapid_speed, move.source);
         case MoveKind::feed:
-            return line(Opcode::g01, end, feed_, move.source);
+            return line(feed_line, end, feed_, move.source);
         case MoveKind::arc:
             return arc(move, end);
         case MoveKind::probe:
-            return fault(move.source, "the CORDIC processor cannot probe");
+            return code_.fault({move.source, 'G'}, "the CORDIC processor cannot probe");
         case MoveKind::rigid_tap:
-            return fault(move.source, "the CORDIC processor cannot tap");
+            return code_.fault({move.source, 'G'}, "the CORDIC processor cannot tap");
         }
     }
 
@@ -104,7 +81,7 @@ public:
         const AxisValues start = frame_.from_machine(at_);
         internal::curve_chords(
             start, curve, settings_.chord_tolerance / frame_.unit(), [&](const AxisValues& end) {
-                line(Opcode::g01, frame_.to_machine(end), feed_, curve.source);
+                line(feed_line, frame_.to_machine(end), feed_, curve.source);
             });
     }
 
@@ -113,78 +90,57 @@ public:
         if (command.kind == CommandKind::set_feed_rate) {
             feed_ = command.value * frame_.unit() / seconds_a_minute;
         }
-        if (const auto what = refused(command.kind); !what.empty()) {
-            fault(command.source, fmt::format("the CORDIC processor has no {}", what));
-        }
+        commands_.command(command);
     }
 
     CordicProgram take() {
-        op(Opcode::hlt);
-        if (result_.image.code.size() > cordic::rom_size) {
-            fault({},
-                  fmt::format("the program needs {} bytes, the program ROM holds {}",
-                              result_.image.code.size(),
-                              cordic::rom_size));
+        if (!commands_.ended()) {
+            code_.op(Opcode::hlt);
         }
-        return std::move(result_);
+        if (const std::size_t size = code_.result().image.code.size(); size > cordic::rom_size) {
+            code_.fault(
+                {},
+                fmt::format("the program needs {} bytes, the program ROM holds {}", size, cordic::rom_size));
+        }
+        return std::move(code_.result());
     }
 
 private:
-    std::filesystem::path file_;
     CordicProgramSettings settings_;
-    CordicProgram result_;
+    internal::CordicCode code_;
+    internal::CordicCommands commands_{code_};
     CanonFrame frame_;
-    AxisValues at_;     ///< on the machine, mm and degrees
-    double feed_ = 0.0; ///< mm/s
-    std::array<std::optional<Word>, cordic::register_count>
-        loaded_; ///< what the program left in the registers
+    AxisValues at_;       ///< on the machine, mm and degrees
+    double feed_ = 0.0;   ///< mm/s
+    double height_ = 0.0; ///< of the third axis, as the format holds it
+    /// Where the processor stands, as its format holds it; unknown behind rotations.
+    std::optional<Place3> held_ = Place3{};
 
-    void fault(SourcePlace source, std::string message, std::string hint = {}) {
-        if (result_.faults.size() < settings_.most_faults) {
-            result_.faults.push_back({{file_, source.line, 0, -1}, std::move(message), std::move(hint)});
-        }
+    /// The processor is at zero after reset.
+    void start() {
+        const auto load = [&](Register target, Axis axis, std::string_view what) {
+            const auto word = code_.number(at_[axis], what, {});
+            if (word && !exactly_equal(at_[axis], 0.0)) {
+                code_.mov(target, *word);
+            }
+            return word ? code_.as_held(*word) : 0.0;
+        };
+        held_ = {load(Register::X0, Axis::x, "X of the start"),
+                 load(Register::Y0, Axis::y, "Y of the start"),
+                 load(Register::Z0, Axis::z, "Z of the start")};
+        height_ = held_->z;
     }
 
-    /// The bits of a number; nothing, and a fault, if it does not fit.
-    std::optional<Word> number(double value, std::string_view what, SourcePlace source) {
-        bool overflow = false;
-        const Word word = cordic::with_arithmetic(settings_.format, [&](const auto& arithmetic) {
-            return arithmetic.to_word(arithmetic.from_double(value, overflow));
-        });
-        if (overflow) {
-            fault(source,
-                  fmt::format("{} {} does not fit into {}", what, value, cordic::to_text(settings_.format)),
-                  "choose a number format with more bits before the point");
-            return std::nullopt;
-        }
-        return word;
-    }
-    [[nodiscard]] double as_held(Word word) const {
-        return cordic::with_arithmetic(settings_.format, [&](const auto& arithmetic) {
-            return arithmetic.to_double(arithmetic.from_word(word));
-        });
-    }
-
-    void op(Opcode opcode) { cordic::append(result_.image.code, {.opcode = opcode}, settings_.format); }
-    /// Loads a register unless the program left that in it.
-    void mov(Register target, Word word) {
-        auto& loaded = loaded_[static_cast<std::size_t>(target)];
-        if (loaded != word) {
-            const Word immediate =
-                cordic::is_whole(target) ? word : cordic::to_immediate(settings_.format, word);
-            cordic::append(result_.image.code, {Opcode::mov, target, immediate}, settings_.format);
-            loaded = word;
-        }
-    }
-
-    /// True if only X and Y go somewhere.
-    bool is_flat(const AxisValues& end, SourcePlace source) {
+    /// True if only X, Y and Z go somewhere.
+    bool is_inside(const AxisValues& end, SourcePlace source) {
         if (settings_.leaves_out_other_axes) {
             return true;
         }
-        for (std::size_t n = 2; n < axis_count; ++n) {
+        for (std::size_t n = 3; n < axis_count; ++n) {
             if (std::abs(end[n] - at_[n]) > same_place) {
-                fault(source, fmt::format("the CORDIC processor has no axis {}", axis_letters[n]));
+                code_.fault({source, axis_letters[n]},
+                            fmt::format("the CORDIC processor has no axis {}", axis_letters[n]),
+                            "it moves X, Y and Z");
                 at_[n] = end[n]; // said once for each such move
                 return false;
             }
@@ -193,76 +149,84 @@ private:
     }
 
     bool load_speed(double speed, SourcePlace source) {
-        const auto v = number(speed, "the speed", source);
-        const auto a = number(settings_.acceleration, "the acceleration", source);
+        const auto v = code_.number(speed, "the speed in mm/s", {source, 'F'});
+        const auto a = code_.number(settings_.acceleration, "the acceleration in mm/s2", {source});
         if (!v || !a) {
             return false;
         }
-        mov(Register::Vmax, *v);
-        mov(Register::Amax, *a);
+        code_.mov(Register::Vmax, *v);
+        code_.mov(Register::Amax, *a);
         return true;
     }
 
-    void line(Opcode opcode, const AxisValues& end, double speed, SourcePlace source) {
-        if (!is_flat(end, source)) {
+    void line(const LineOpcodes& opcodes, const AxisValues& end, double speed, SourcePlace source) {
+        if (!is_inside(end, source)) {
             return;
         }
-        const Place2 to{end[Axis::x], end[Axis::y]};
-        const auto x = number(to.x, "X", source);
-        const auto y = number(to.y, "Y", source);
-        if (!x || !y) {
+        const Place3 to{end[Axis::x], end[Axis::y], end[Axis::z]};
+        const auto x = code_.number(to.x, "X", {source, 'X'});
+        const auto y = code_.number(to.y, "Y", {source, 'Y'});
+        const auto z = code_.number(to.z, "Z", {source, 'Z'});
+        if (!x || !y || !z) {
             return;
         }
-        const Place2 held{as_held(*x), as_held(*y)};
-        if (held_ && exactly_equal(held.x, held_->x) && exactly_equal(held.y, held_->y)) {
+        const Place3 held{code_.as_held(*x), code_.as_held(*y), code_.as_held(*z)};
+        const bool level = exactly_equal(held.z, height_);
+        if (held_ && level && exactly_equal(held.x, held_->x) && exactly_equal(held.y, held_->y)) {
             warn_of_no_length(to, source);
         } else if (load_speed(speed, source)) {
-            mov(Register::XI, *x);
-            mov(Register::YJ, *y);
-            op(opcode);
+            code_.mov(Register::XI, *x);
+            code_.mov(Register::YJ, *y);
+            if (!level) {
+                code_.mov(Register::Z, *z);
+            }
+            code_.op(level ? opcodes.plane : opcodes.space);
             publish(to, speed, source);
             held_ = held;
+            height_ = held.z;
         }
         at_ = end;
     }
-    void warn_of_no_length(const Place2& to, SourcePlace source) {
-        const double length = std::hypot(to.x - at_[Axis::x], to.y - at_[Axis::y]);
+    void warn_of_no_length(const Place3& to, SourcePlace source) {
+        const double length = std::hypot(to.x - at_[Axis::x], to.y - at_[Axis::y], to.z - at_[Axis::z]);
         if (length > same_place) {
-            result_.warnings.push_back(
-                {{file_, source.line, 0, -1},
-                 fmt::format("a move of {:.3g} mm is less than {} can tell and is left out",
-                             length,
-                             cordic::to_text(settings_.format)),
-                 {}});
+            code_.warn(source,
+                       fmt::format("a move of {:.3g} mm is less than {} can tell and is left out",
+                                   length,
+                                   cordic::to_text(settings_.format)));
         } else {
-            result_.warnings.push_back(
-                {{file_, source.line, 0, -1}, "a move without length is left out", {}});
+            code_.warn(source, "a move without length is left out");
         }
     }
-    void publish(const Place2& to, double speed, SourcePlace source) {
-        result_.points.push_back({to.x, to.y, speed, source.line});
+    void publish(const Place3& to, double speed, SourcePlace source) {
+        code_.result().points.push_back({to.x, to.y, speed, source.line, to.z});
     }
 
     void arc(const Move& move, const AxisValues& end) {
         if (move.plane != Plane::xy) {
-            return fault(move.source, "the CORDIC processor turns arcs in the XY plane alone (G17)");
+            return code_.fault({move.source, 'G'},
+                               "the CORDIC processor turns arcs in the XY plane alone (G17)");
         }
-        if (!is_flat(end, move.source)) {
+        if (!is_inside(end, move.source)) {
             return;
         }
         AxisValues centre_in_program = move.target;
         centre_in_program[Axis::x] = move.centre_1;
         centre_in_program[Axis::y] = move.centre_2;
         const AxisValues centre = frame_.to_machine(centre_in_program);
-        const Place2 about{centre[Axis::x], centre[Axis::y]};
+        const Place3 about{centre[Axis::x], centre[Axis::y], at_[Axis::z]};
         const double radius = std::hypot(at_[Axis::x] - about.x, at_[Axis::y] - about.y);
         const std::int64_t chords = chord_count(radius, move.sweep, settings_.chord_tolerance);
+        if (chords > most_chords) {
+            return code_.fault({move.source, 'G'},
+                               fmt::format("an arc of {} chords", chords),
+                               "choose a larger chord tolerance");
+        }
+        if (std::abs(end[Axis::z] - at_[Axis::z]) > same_place) {
+            return helix(about, move, end, chords);
+        }
         const bool rotated = settings_.arc_end == ArcEnd::rotated;
         const std::int64_t rotations = rotated ? chords : chords - 1;
-        if (rotations > most_chords) {
-            return fault(
-                move.source, fmt::format("an arc of {} chords", chords), "choose a larger chord tolerance");
-        }
         if (rotations > 0 && !rotate(about, move, rotations, chords)) {
             return;
         }
@@ -270,38 +234,61 @@ private:
         if (rotated) {
             at_ = end;
         } else {
-            line(Opcode::g01, end, feed_, move.source);
+            line(feed_line, end, feed_, move.source);
         }
     }
+    /// Where `k` chords of `chords` lead from where the axes are.
+    [[nodiscard]] Place3
+    on_arc(const Place3& about, const Move& move, std::int64_t k, std::int64_t chords) const {
+        const double angle = move.sweep / static_cast<double>(chords) * static_cast<double>(k);
+        const double dx = at_[Axis::x] - about.x;
+        const double dy = at_[Axis::y] - about.y;
+        return {about.x + dx * std::cos(angle) - dy * std::sin(angle),
+                about.y + dx * std::sin(angle) + dy * std::cos(angle),
+                about.z};
+    }
     /// `rotations` chords of sweep / chords each.
-    bool rotate(const Place2& about, const Move& move, std::int64_t rotations, std::int64_t chords) {
+    bool rotate(const Place3& about, const Move& move, std::int64_t rotations, std::int64_t chords) {
         const double step = move.sweep / static_cast<double>(chords);
-        const auto i = number(about.x, "I", move.source);
-        const auto j = number(about.y, "J", move.source);
-        const auto dz = number(std::abs(step), "the angle of a chord", move.source);
+        const auto i = code_.number(about.x, "the centre's X", {move.source, 'I'});
+        const auto j = code_.number(about.y, "the centre's Y", {move.source, 'J'});
+        const auto dz = code_.number(std::abs(step), "the angle of a chord", {move.source, 'G'});
         if (!i || !j || !dz || !load_speed(feed_, move.source)) {
             return false;
         }
-        mov(Register::XI, *i);
-        mov(Register::YJ, *j);
-        mov(Register::Dz, *dz);
-        mov(Register::N, static_cast<Word>(rotations));
-        op(move.sweep < 0.0 ? Opcode::g02 : Opcode::g03);
-        loaded_[static_cast<std::size_t>(Register::N)] = 0; // counted down
-        const double dx = at_[Axis::x] - about.x;
-        const double dy = at_[Axis::y] - about.y;
+        code_.mov(Register::XI, *i);
+        code_.mov(Register::YJ, *j);
+        code_.mov(Register::Dz, *dz);
+        code_.mov(Register::N, static_cast<Word>(rotations));
+        code_.op(move.sweep < 0.0 ? Opcode::g02 : Opcode::g03);
+        code_.set_loaded(Register::N, 0); // counted down
         for (std::int64_t k = 1; k <= rotations; ++k) {
-            const double angle = step * static_cast<double>(k);
-            publish({about.x + dx * std::cos(angle) - dy * std::sin(angle),
-                     about.y + dx * std::sin(angle) + dy * std::cos(angle)},
-                    feed_,
-                    move.source);
+            publish(on_arc(about, move, k, chords), feed_, move.source);
         }
         return true;
     }
-
-    /// Where the processor stands, as its format holds it; unknown behind rotations.
-    std::optional<Place2> held_ = Place2{};
+    /// Chords as lines in space.
+    void helix(const Place3& about, const Move& move, const AxisValues& end, std::int64_t chords) {
+        if (chords > cordic::rom_size) {
+            return code_.fault(
+                {move.source, 'Z'},
+                fmt::format("a rising arc of {} chords is longer than the program ROM", chords),
+                "choose a larger chord tolerance");
+        }
+        const double rise = end[Axis::z] - at_[Axis::z];
+        std::vector<AxisValues> points;
+        for (std::int64_t k = 1; k < chords; ++k) {
+            const Place3 place = on_arc(about, move, k, chords);
+            AxisValues& point = points.emplace_back(end);
+            point[Axis::x] = place.x;
+            point[Axis::y] = place.y;
+            point[Axis::z] = about.z + rise * static_cast<double>(k) / static_cast<double>(chords);
+        }
+        points.push_back(end);
+        for (const AxisValues& point : points) {
+            line(feed_line, point, feed_, move.source);
+        }
+    }
 };
 
 CordicProgramBuilder::CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings)
@@ -309,15 +296,18 @@ CordicProgramBuilder::CordicProgramBuilder(std::filesystem::path file, const Cor
 
 CordicProgramBuilder::~CordicProgramBuilder() = default;
 
-void CordicProgramBuilder::move(const Move& move, const SourceLine&) {
+void CordicProgramBuilder::move(const Move& move, const SourceLine& now) {
+    parts_->begin_line(now);
     parts_->move(move);
 }
 
-void CordicProgramBuilder::curve(const Curve& curve, const SourceLine&) {
+void CordicProgramBuilder::curve(const Curve& curve, const SourceLine& now) {
+    parts_->begin_line(now);
     parts_->curve(curve);
 }
 
-void CordicProgramBuilder::command(const Command& command, const SourceLine&) {
+void CordicProgramBuilder::command(const Command& command, const SourceLine& now) {
+    parts_->begin_line(now);
     parts_->command(command);
 }
 

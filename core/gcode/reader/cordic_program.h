@@ -1,6 +1,7 @@
-// From canonical commands to a program of the CORDIC processor: G00 to G03 in the XY plane as Mov and G
-// instructions, with offsets, units and rotation applied. Arcs become chords; the last chord is a line to the
-// programmed end, so that what rounding adds up to on the way does not stay. Positions mm, speeds mm/s.
+// From canonical commands to a program of the CORDIC processor: lines of X, Y and Z, arcs in the XY plane,
+// dwell, spindle, tool, coolant and stops as its instructions, with offsets, units and rotation applied. Arcs
+// become chords; the last chord is a line to the programmed end, so that what rounding adds up to on the way
+// does not stay; those that rise become lines in space. Positions mm, speeds mm/s.
 // Source: Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1;
 // the rule for the number of chords is ours (docs/reference/cordic.md#compiler).
 #pragma once
@@ -8,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/cordic/instruction.h"
 #include "core/cordic/run_report.h"
+#include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/canon.h"
 
 #include <cstdint>
@@ -29,20 +31,22 @@ struct CordicProgramSettings {
     ArcEnd arc_end = ArcEnd::programmed;
     double rapid_speed = 50.0;          ///< mm/s: Vmax of G00
     double acceleration = 500.0;        ///< mm/s2: Amax
-    bool leaves_out_other_axes = false; ///< motion of other axes than X and Y; else it is a fault
+    bool leaves_out_other_axes = false; ///< motion of other axes than X, Y and Z; else it is a fault
     std::size_t most_faults = 100;
+    AxisValues start; ///< where the machine stands, mm; the processor is told
 };
 
 struct CordicProgram {
     cordic::Image image;
     std::vector<cordic::ExactPoint> points; ///< what it will publish, in that order
+    std::vector<int> command_lines;         ///< of each command that it will hand over, in that order
     std::vector<Diagnostic> faults;         ///< what the processor cannot do; such moves are left out
     std::vector<Diagnostic> warnings;       ///< moves without length, which are left out
 };
 
 class CordicProgramBuilder final : public CanonSink {
 public:
-    /// For diagnostics the program is called `file`. The processor starts at (0, 0).
+    /// For diagnostics the program is called `file`.
     CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings = {});
     CordicProgramBuilder(const CordicProgramBuilder&) = delete;
     CordicProgramBuilder& operator=(const CordicProgramBuilder&) = delete;
@@ -52,7 +56,8 @@ public:
     void curve(const Curve& curve, const SourceLine& now) override;
     void command(const Command& command, const SourceLine& now) override;
 
-    /// What has come so far, ended by HLT; nothing comes after it. A program longer than the ROM is a fault.
+    /// What has come so far, ended by HLT if by nothing else; nothing comes after it. A program longer than
+    /// the ROM is a fault.
     [[nodiscard]] CordicProgram take();
 
 private:

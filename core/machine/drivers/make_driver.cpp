@@ -1,6 +1,7 @@
 #include "core/machine/drivers/make_driver.h"
 
 #include "core/base/error.h"
+#include "core/machine/drivers/cordic/cordic_driver.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
 #include "core/machine/drivers/stream/stream_driver.h"
@@ -14,7 +15,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> names{"virtual", "grbl", "linuxcnc", "stream"};
+constexpr std::array<std::string_view, 5> names{"virtual", "grbl", "linuxcnc", "stream", "cordic"};
 
 void require_model(const MovedAxes& axes) {
     if (!axes.model) {
@@ -40,8 +41,9 @@ std::string_view to_text(DriverKind kind) {
 DriverKind driver_kind(std::string_view name) {
     const auto* const found = std::ranges::find(names, name);
     if (found == names.end()) {
-        throw Error(
-            "there is no driver '" + std::string(name) + "'", {}, "virtual, grbl, linuxcnc or stream");
+        throw Error("there is no driver '" + std::string(name) + "'",
+                    {},
+                    "virtual, grbl, linuxcnc, stream or cordic");
     }
     return static_cast<DriverKind>(found - names.begin());
 }
@@ -59,6 +61,9 @@ std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const MovedAxes&
     case DriverKind::stream:
         require_model(axes);
         return make_stream(choice, axes, clock);
+    case DriverKind::cordic:
+        require_model(axes);
+        return std::make_unique<CordicDriver>(axes.position, VirtualSpeed{axes.speed}, clock, axes.model);
     case DriverKind::virtual_machine:
         break;
     }

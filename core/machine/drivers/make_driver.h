@@ -11,9 +11,9 @@
 
 namespace millwright::machine {
 
-enum class DriverKind { virtual_machine, grbl, linuxcnc, stream };
+enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic };
 
-/// "virtual", "grbl", "linuxcnc", "stream": as on the command line, and as Driver::name().
+/// "virtual", "grbl", "linuxcnc", "stream", "cordic": as on the command line, and as Driver::name().
 [[nodiscard]] std::string_view to_text(DriverKind kind);
 /// Throws Error for any other name.
 [[nodiscard]] DriverKind driver_kind(std::string_view name);
@@ -21,7 +21,7 @@ enum class DriverKind { virtual_machine, grbl, linuxcnc, stream };
 /// What to connect to.
 struct DriverChoice {
     DriverKind kind = DriverKind::virtual_machine;
-    std::string address;      ///< as make_link() takes it; the virtual machine needs none
+    std::string address;      ///< as make_link() takes it; those inside this program need none
     std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions
     bool one_by_one = false;  ///< Grbl: each line waits for the answer to the last
     double period = 0.01;     ///< of a coordinate stream: s between samples
@@ -33,12 +33,12 @@ struct DriverChoice {
 struct MovedAxes {
     std::shared_ptr<const kinematics::MachineModel> model;
     kinematics::AxisPositions position; ///< where it stands
-    double speed = 1.0;                 ///< of the virtual machine, see VirtualSpeed
+    double speed = 1.0;                 ///< of those inside this program, see VirtualSpeed
 };
 
-/// Disconnected; nothing moves. `axes` is for the virtual machine and the coordinate stream alone, `clock`
-/// must outlive the driver. A stream into a file goes as fast as it can. Throws Error for what was chosen
-/// wrongly: no address, no model, a value out of range.
+/// Disconnected; nothing moves. `axes` is for the virtual machine, the CORDIC processor and the coordinate
+/// stream alone, `clock` must outlive the driver. A stream into a file goes as fast as it can. Throws Error
+/// for what was chosen wrongly: no address, no model, a value out of range.
 [[nodiscard]] std::unique_ptr<Driver>
 make_driver(const DriverChoice& choice, const MovedAxes& axes, Clock& clock);
 

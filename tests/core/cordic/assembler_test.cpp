@@ -64,7 +64,7 @@ struct Wrong {
 
 TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
     for (const Wrong& wrong : {
-             Wrong{"g00\n  g04", 2, 3, "\"g04\" is no instruction"},
+             Wrong{"g00\n  g05", 2, 3, "\"g05\" is no instruction"},
              Wrong{"mov Q, 1", 1, 5, "\"Q\" is no register"},
              Wrong{"mov", 1, 4, "a register is missing"},
              Wrong{"mov XI 1", 1, 8, "a comma is missing"},

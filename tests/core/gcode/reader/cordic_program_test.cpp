@@ -57,7 +57,7 @@ std::string instructions(const CordicProgram& program) {
 TEST(CordicCompiler, MakesTheInstructionsOfTable21FromALine) {
     const CordicProgram program = compiled("G21 G0 X3 Y4\nM2\n");
     EXPECT_TRUE(program.faults.empty());
-    EXPECT_EQ(instructions(program), "MOV Vmax, 50\nMOV Amax, 500\nMOV XI, 3\nMOV YJ, 4\nG00\nHLT\n");
+    EXPECT_EQ(instructions(program), "MOV Vmax, 50\nMOV Amax, 500\nMOV XI, 3\nMOV YJ, 4\nG00\nM02\n");
 }
 
 TEST(CordicCompiler, MakesTheInstructionsOfTable21FromAnArc) {
@@ -69,7 +69,7 @@ TEST(CordicCompiler, MakesTheInstructionsOfTable21FromAnArc) {
     // 90 degrees clockwise about (50, 50), 70.71 long: 5 mm allow chords of 43 degrees, so there are 3.
     EXPECT_THAT(
         instructions(program),
-        HasSubstr("MOV Vmax, 10\nMOV XI, 50\nMOV YJ, 50\nMOV Dz, 0.5235987901687622\nMOV N, 3\nG02\nHLT\n"));
+        HasSubstr("MOV Vmax, 10\nMOV XI, 50\nMOV YJ, 50\nMOV Dz, 0.5235987901687622\nMOV N, 3\nG02\nM02\n"));
 }
 
 TEST(CordicCompiler, ChoosesChordsWithinTheToleranceAndNotMoreThanNeeded) {
@@ -130,24 +130,89 @@ TEST(CordicCompiler, AppliesUnitsOffsetsAndRotation) {
     EXPECT_EQ(program.points[0].line, 2);
 }
 
-TEST(CordicCompiler, SaysWithItsLineWhatTheProcessorCannotDo) {
+TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
     struct Case {
         const char* text;
+        int column;
         const char* message;
     };
-    for (const Case& c : {Case{"G21\nG0 Z5\nM2\n", "no axis Z"},
-                          Case{"G21\nG4 P1\nM2\n", "no dwell"},
-                          Case{"G21\nG18 G2 X2 Z0 I1 K0 F100\nM2\n", "XY plane"},
-                          Case{"G21\nG0 X200\nM2\n", "X 200 does not fit into q8.24"},
-                          Case{"G21\nM7\nM2\n", "no coolant"}}) {
+    for (const Case& c :
+         {Case{"G21\nG0 X1 A5\nM2\n", 7, "no axis A"},
+          Case{"G21\n(B) g0 x[1+1] b 5\nM2\n", 15, "no axis B"},
+          Case{"G21\nG18 G2 X2 Z0 I1 K0 F100\nM2\n", 1, "XY plane"},
+          Case{"G21\nG0 X200\nM2\n", 4, "X 200 does not fit into q8.24"},
+          Case{"G21\nG0 Y1 Z-200\nM2\n", 7, "Z -200 does not fit into q8.24"},
+          Case{"G21\nG1 X1 F12000\nM2\n", 7, "the speed in mm/s 200 does not fit"},
+          Case{"G21\nG2 X401 I200.5 J0 F1\nM2\n", 9, "the centre's X 200.5 does not fit"},
+          Case{"G21\n S100 M19 R90\nM2\n", 7, "no spindle orientation"},
+          Case{"G21\nG4 P5000\nM2\n", 4, "a dwell in us of 5000000000 does not fit into register P"},
+          Case{"G21\nG38.2 X5 F100\nM2\n", 1, "cannot probe"},
+          Case{"G21\nG4 P1 M60\nM2\n", 7, "no pallets"},
+          Case{"G21\nM64 P1\nM2\n", 1, "no output"}}) {
         CordicProgramSettings settings;
         settings.format = cordic::fixed_format(8, 24);
         settings.acceleration = 100.0;
         const CordicProgram program = compiled(c.text, settings);
         ASSERT_EQ(program.faults.size(), 1U) << c.text;
         EXPECT_EQ(program.faults[0].place.line, 2) << c.text;
+        EXPECT_EQ(program.faults[0].place.column, c.column) << c.text << program.faults[0].message;
         EXPECT_THAT(program.faults[0].message, HasSubstr(c.message));
     }
+}
+
+TEST(CordicCompiler, MakesLinesInSpaceAndHelicesOfWhatRises) {
+    CordicProgramSettings settings;
+    settings.format = cordic::binary64;
+    const CordicProgram program =
+        compiled("G21 F600 G0 Z5\nG1 X3 Z1\nG1 Y2\nG3 X3 Y2 Z-3 I-3 J0\nM2\n", settings);
+    ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
+    const cordic::Processor processor = run(program);
+    ASSERT_EQ(processor.published().size(), program.points.size());
+    EXPECT_EQ(processor.published()[0].opcode, cordic::Opcode::g00z);
+    EXPECT_EQ(processor.published()[1].opcode, cordic::Opcode::g01z);
+    EXPECT_EQ(processor.published()[2].opcode, cordic::Opcode::g01); // level: the thesis's own 74 clocks
+    const auto report = cordic::report_of(processor, program.points, 8e6);
+    EXPECT_EQ(report.position_error, 0.0);
+    EXPECT_LT(report.speed_error, 2e-7);
+    for (std::size_t n = 3; n < program.points.size(); ++n) { // on the helix: radius 3, 4 mm down a turn
+        const auto set = processor.set_point(processor.published()[n]);
+        const double z = processor.height_point(processor.published()[n]).z;
+        EXPECT_NEAR(std::hypot(set.x, set.y - 2.0), 3.0, 1e-12);
+        const double turn = 2.0 * pi * (1.0 - z) / 4.0;
+        EXPECT_NEAR(set.x, 3.0 * std::cos(turn), 1e-9);
+        EXPECT_NEAR(set.y, 2.0 + 3.0 * std::sin(turn), 1e-9);
+    }
+    EXPECT_EQ(processor.height_point(processor.published().back()).z, -3.0);
+}
+
+TEST(CordicCompiler, MakesCommandsOfMCodesSpindleSpeedAndDwell) {
+    const CordicProgram program =
+        compiled("G21 T3 M6\nS8000 M3\nM7\nM8\nG0 X1\nG4 P0.25\nS500\nM0\nM1\nM9\nM4\nM5\nM123\nM30\n");
+    ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
+    const cordic::Processor processor = run(program);
+    std::string all;
+    for (std::size_t n = 0; n < processor.commanded().size(); ++n) {
+        const auto& command = processor.commanded()[n];
+        all += std::string(cordic::to_text(command.opcode)) + " " + std::to_string(command.parameter) + " @" +
+               std::to_string(program.command_lines.at(n)) + "\n";
+    }
+    EXPECT_EQ(all,
+              "M06 3 @1\nM03 8000 @2\nM07 0 @3\nM08 0 @4\nG04 250000 @6\nM03 500 @7\nM00 0 @8\nM01 0 @9\n"
+              "M09 0 @10\nM04 500 @11\nM05 0 @12\nMUSER 123 @13\nM30 0 @14\n");
+}
+
+TEST(CordicCompiler, StartsWhereTheMachineStands) {
+    CordicProgramSettings settings;
+    settings.format = cordic::binary64;
+    settings.start[Axis::x] = 30.0;
+    settings.start[Axis::z] = 40.0;
+    const CordicProgram program = compiled("G21 F600 G0 X33 Y4 Z40\nM2\n", settings);
+    const cordic::Processor processor = run(program);
+    const auto set = processor.set_point(processor.published()[0]);
+    EXPECT_NEAR(set.vx, 0.6 * 50.0, 1e-5);
+    EXPECT_NEAR(set.vy, 0.8 * 50.0, 1e-5);
+    EXPECT_EQ(processor.height_point(processor.published()[0]).z, 40.0);
+    EXPECT_EQ(processor.height_point(processor.published()[0]).vz, 0.0);
 }
 
 TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {

@@ -39,8 +39,11 @@ DriverChoice choice_of(DriverKind kind, std::string address = {}) {
     return choice;
 }
 
-constexpr std::array kinds{
-    DriverKind::virtual_machine, DriverKind::grbl, DriverKind::linuxcnc, DriverKind::stream};
+constexpr std::array kinds{DriverKind::virtual_machine,
+                           DriverKind::grbl,
+                           DriverKind::linuxcnc,
+                           DriverKind::stream,
+                           DriverKind::cordic};
 
 TEST(MakeDriver, MakesEachKindUnderItsName) {
     SteadyClock clock;
@@ -69,7 +72,7 @@ TEST(MakeDriver, RefusesWhatItCannotMake) {
         EXPECT_THAT(refusal([&] { (void)make_driver(choice_of(kind), router(), clock); }),
                     HasSubstr("no port is named"));
     }
-    for (const DriverKind kind : {DriverKind::virtual_machine, DriverKind::stream}) {
+    for (const DriverKind kind : {DriverKind::virtual_machine, DriverKind::stream, DriverKind::cordic}) {
         const DriverChoice choice = choice_of(kind, "tcp:127.0.0.1:9");
         EXPECT_THAT(refusal([&] { (void)make_driver(choice, {}, clock); }), HasSubstr("no machine yet"));
     }

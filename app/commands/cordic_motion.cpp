@@ -1,0 +1,156 @@
+#include "app/commands/cordic_motion.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/gcode/reader/cordic_motion.h"
+#include "core/motion/planner.h"
+#include "core/motion/step_pulses.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+namespace millwright::app {
+
+namespace {
+
+/// The largest speed and acceleration along the path, at even times.
+void sample(const motion::Trajectory& trajectory, CordicMotionReport& report) {
+    constexpr int samples = 20'000;
+    for (int n = 0; n <= samples; ++n) {
+        const motion::Sample at = trajectory.at(trajectory.duration() * n / samples);
+        report.max_speed = std::max(report.max_speed, at.velocity.norm());
+        report.max_acceleration = std::max(report.max_acceleration, at.acceleration.norm());
+    }
+}
+
+std::vector<AxisPulses>
+pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& options, int axis_count) {
+    motion::StepSettings settings;
+    settings.steps_per_unit.assign(static_cast<std::size_t>(axis_count), options.steps_per_mm);
+    settings.timer_frequency = options.timer_hz;
+    settings.min_interval = options.min_interval;
+    std::string text = "tick,axis,direction,position\n";
+    const bool written = !options.pulses.empty();
+    const auto found = motion::step_pulses(
+        trajectory,
+        settings,
+        [&](std::span<const motion::StepPulse> pulses) {
+            for (const motion::StepPulse& pulse : pulses) {
+                if (written) {
+                    fmt::format_to(std::back_inserter(text),
+                                   "{},{},{},{}\n",
+                                   pulse.tick,
+                                   gcode::axis_letters[static_cast<std::size_t>(pulse.axis)],
+                                   pulse.direction,
+                                   pulse.position);
+                }
+            }
+        },
+        Progress());
+    if (written) {
+        write_file(options.pulses, text);
+    }
+    std::vector<AxisPulses> axes;
+    for (std::size_t n = 0; n < found.size(); ++n) {
+        const motion::StepJitter& axis = found[n];
+        axes.push_back({gcode::axis_letters[n],
+                        axis.pulses,
+                        axis.reversals,
+                        axis.late,
+                        axis.max_frequency,
+                        axis.max_jitter,
+                        axis.rms_jitter,
+                        axis.end_error_steps});
+    }
+    return axes;
+}
+
+} // namespace
+
+void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) {
+    command
+        .add_option("--profile", options.profile, "Put the set-points in time and measure their step pulses")
+        ->check(CLI::IsMember({"trapezoid", "s-curve"}));
+    command.add_option("--jerk", options.jerk, "Of the S-curve, mm/s3")
+        ->check(CLI::Range(1e-3, 1e9))
+        ->capture_default_str();
+    command.add_option("--steps", options.steps_per_mm, "Steps a mm of each axis")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->capture_default_str();
+    command.add_option("--timer", options.timer_hz, "Frequency of the timer that gives the pulses, Hz")
+        ->check(CLI::Range(1.0, 1e10))
+        ->capture_default_str();
+    command.add_option("--min-interval", options.min_interval, "Ticks between two pulses of an axis")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+        ->capture_default_str();
+    command.add_option("--pulses", options.pulses, "Write the pulses (CSV)")->type_name("FILE");
+}
+
+std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
+                                             const gcode::CordicProgram& made,
+                                             const CordicMotionOptions& options,
+                                             double acceleration,
+                                             const std::string& file) {
+    if (options.profile.empty()) {
+        if (!options.pulses.empty()) {
+            throw Error("pulses need a motion", {}, "give --profile trapezoid or s-curve");
+        }
+        return std::nullopt;
+    }
+    const double jerk = options.profile == "s-curve" ? options.jerk : 0.0;
+    constexpr double half = 0.5; // eq. 4.2: the axes get Amax/2
+    const kinematics::MachineModel machine = gcode::cordic_machine(half * acceleration, jerk);
+    const kinematics::AxisPositions start = kinematics::AxisPositions::Zero(machine.axis_count());
+    const gcode::Program program = gcode::cordic_motion(processor, made, machine, start, file);
+    const motion::Trajectory trajectory = motion::plan(program, machine, {}, Progress());
+    CordicMotionReport report;
+    report.seconds = trajectory.duration();
+    sample(trajectory, report);
+    report.axes = pulses_of(trajectory, options, machine.axis_count());
+    return report;
+}
+
+void print(const CordicMotionReport& report) {
+    fmt::print("motion: {:.6g} s, up to {:.6g} mm/s and {:.6g} mm/s2\n",
+               report.seconds,
+               report.max_speed,
+               report.max_acceleration);
+    for (const AxisPulses& axis : report.axes) {
+        fmt::print(
+            "{}: {} pulses up to {:.6g} Hz, {} reversals, jitter {:.3g} us at most, {:.3g} us RMS, {} late\n",
+            axis.letter,
+            axis.pulses,
+            axis.max_frequency,
+            axis.reversals,
+            1e6 * axis.max_jitter,
+            1e6 * axis.rms_jitter,
+            axis.late);
+    }
+}
+
+nlohmann::ordered_json json_of(const CordicMotionReport& report) {
+    nlohmann::ordered_json answer;
+    answer["seconds"] = report.seconds;
+    answer["max_speed_mm_s"] = report.max_speed;
+    answer["max_acceleration_mm_s2"] = report.max_acceleration;
+    for (const AxisPulses& axis : report.axes) {
+        answer["axes"].push_back({{"axis", std::string(1, axis.letter)},
+                                  {"pulses", axis.pulses},
+                                  {"reversals", axis.reversals},
+                                  {"max_frequency_hz", axis.max_frequency},
+                                  {"max_jitter_s", axis.max_jitter},
+                                  {"rms_jitter_s", axis.rms_jitter},
+                                  {"late", axis.late},
+                                  {"end_error_steps", axis.end_error_steps}});
+    }
+    return answer;
+}
+
+} // namespace millwright::app

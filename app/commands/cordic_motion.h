@@ -1,0 +1,59 @@
+// Behind the CORDIC processor, on the command line: its records in time, and as step pulses.
+#pragma once
+
+#include "core/cordic/processor.h"
+#include "core/gcode/reader/cordic_program.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+/// What the options --profile, --jerk, --steps, --timer, --min-interval and --pulses say.
+struct CordicMotionOptions {
+    std::string profile;    ///< trapezoid, s-curve; empty: no motion is asked for
+    double jerk = 10'000.0; ///< mm/s3, of the S-curve
+    double steps_per_mm = 200.0;
+    double timer_hz = 1e6;
+    std::int64_t min_interval = 2; ///< ticks
+    std::string pulses;            ///< file; empty: none
+};
+
+void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options);
+
+/// Of one axis.
+struct AxisPulses {
+    char letter = 'X';
+    std::int64_t pulses = 0, reversals = 0, late = 0;
+    double max_frequency = 0.0;                ///< Hz
+    double max_jitter = 0.0, rms_jitter = 0.0; ///< s
+    double end_error_steps = 0.0;
+};
+
+struct CordicMotionReport {
+    double seconds = 0.0;                           ///< of the planned motion
+    double max_speed = 0.0, max_acceleration = 0.0; ///< along the path, sampled, mm/s and mm/s2
+    std::vector<AxisPulses> axes;
+};
+
+/// Plans the motion of the records, makes its pulses and writes them to the file that was asked for: tick,
+/// axis, direction and position in steps. Nothing if no motion was asked for. `acceleration` is Amax. Throws
+/// Error.
+[[nodiscard]] std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
+                                                           const gcode::CordicProgram& made,
+                                                           const CordicMotionOptions& options,
+                                                           double acceleration,
+                                                           const std::string& file);
+
+void print(const CordicMotionReport& report);
+[[nodiscard]] nlohmann::ordered_json json_of(const CordicMotionReport& report);
+
+} // namespace millwright::app

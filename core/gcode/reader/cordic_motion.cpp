@@ -1,0 +1,182 @@
+#include "core/gcode/reader/cordic_motion.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace millwright::gcode {
+namespace {
+
+using cordic::Commanded;
+using cordic::Opcode;
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+
+constexpr double seconds_a_microsecond = 1e-6;
+constexpr int linear_axes = 3;
+
+class Controller {
+public:
+    Controller(const cordic::Processor& processor,
+               const CordicProgram& made,
+               const MachineModel& machine,
+               const AxisPositions& start,
+               const std::filesystem::path& file)
+        : processor_(processor), made_(made), file_(file) {
+        program_.machine = machine.name();
+        for (const kinematics::MachineAxis& axis : machine.axes()) {
+            program_.axes.push_back({axis.letter, axis.kind});
+        }
+        for (std::size_t n = 0; n < axes_.size(); ++n) {
+            axes_[n] = machine.axis_index(axis_letters[n]);
+            if (axes_[n] < 0) {
+                throw Error(fmt::format("machine '{}' has no axis {}", machine.name(), axis_letters[n]));
+            }
+            named_.insert(axes_[n]);
+        }
+        program_.start = start;
+        at_ = start;
+    }
+
+    Program program() {
+        const auto& set_points = processor_.published();
+        const auto& commands = processor_.commanded();
+        std::size_t next = 0;
+        for (std::size_t n = 0; n <= set_points.size(); ++n) {
+            for (; next < commands.size() && commands[next].behind_set_points == static_cast<std::int64_t>(n);
+                 ++next) {
+                command(commands[next], next);
+            }
+            if (n < set_points.size()) {
+                move(set_points[n], n);
+            }
+        }
+        if (program_.blocks.empty() || program_.blocks.back().kind != BlockKind::end) {
+            add(BlockKind::end, 0);
+        }
+        return std::move(program_);
+    }
+
+private:
+    const cordic::Processor& processor_;
+    const CordicProgram& made_;
+    const std::filesystem::path& file_;
+    Program program_;
+    std::array<int, linear_axes> axes_{};
+    AxisSet named_;
+    AxisPositions at_;
+
+    Block& add(BlockKind kind, int line) {
+        Block& block = program_.blocks.emplace_back();
+        block.kind = kind;
+        block.target = at_;
+        block.source_line = line;
+        return block;
+    }
+
+    void move(const cordic::Published& record, std::size_t n) {
+        const auto set = processor_.set_point(record);
+        const auto height = processor_.height_point(record);
+        const int line = n < made_.points.size() ? made_.points[n].line : 0;
+        const std::array<double, linear_axes> to{set.x, set.y, height.z};
+        double squares = 0.0;
+        for (std::size_t axis = 0; axis < to.size(); ++axis) {
+            squares += std::pow(to[axis] - at_[axes_[axis]], 2);
+            at_[axes_[axis]] = to[axis];
+        }
+        const double length = std::sqrt(squares);
+        const double speed = std::hypot(set.vx, set.vy, height.vz);
+        if (!(length > 0.0)) {
+            return; // nothing to do
+        }
+        if (!(speed > 0.0)) {
+            throw Error(
+                Diagnostic{{file_, line, 0, -1},
+                           fmt::format("set-point {} is {:.6g} mm away and has no speed", n + 1, length),
+                           "load Vmax"});
+        }
+        Block& block = add(BlockKind::feed, line);
+        block.named = named_;
+        block.feed = speed;
+        block.duration = length / speed;
+    }
+
+    void command(const Commanded& command, std::size_t n) {
+        const int line = n < made_.command_lines.size() ? made_.command_lines[n] : 0;
+        const double parameter = command.parameter;
+        switch (command.opcode) {
+        case Opcode::g04:
+            add(BlockKind::dwell, line).duration = parameter * seconds_a_microsecond;
+            return;
+        case Opcode::m00:
+            add(BlockKind::pause, line).text = "program stop";
+            return;
+        case Opcode::m01:
+            add(BlockKind::pause, line).text = "optional stop";
+            return;
+        case Opcode::m03:
+        case Opcode::m04:
+            add(BlockKind::spindle_on, line).spindle_rpm =
+                command.opcode == Opcode::m03 ? parameter : -parameter;
+            return;
+        case Opcode::m05:
+            add(BlockKind::spindle_off, line);
+            return;
+        case Opcode::m06:
+            add(BlockKind::pause, line).text = fmt::format("tool change to {}", command.parameter);
+            return;
+        case Opcode::m07:
+        case Opcode::m08:
+            add(BlockKind::coolant_on, line);
+            return;
+        case Opcode::m09:
+            add(BlockKind::coolant_off, line);
+            return;
+        case Opcode::m02:
+        case Opcode::m30:
+            add(BlockKind::end, line);
+            return;
+        default:
+            add(BlockKind::comment, line).text = fmt::format("M{}", command.parameter);
+        }
+    }
+};
+
+} // namespace
+
+MachineModel cordic_machine(double acceleration, double jerk) {
+    // A path that uses all three axes alike has sqrt(3) times what each of them has.
+    const double share = 1.0 / std::sqrt(static_cast<double>(linear_axes));
+    constexpr double fastest = 1e6; // mm/s: more than any program asks for
+    kinematics::MachineDescription description;
+    description.name = "cordic";
+    description.source = "limits of the records";
+    const std::array<Vec3, linear_axes> directions{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    for (std::size_t n = 0; n < directions.size(); ++n) {
+        kinematics::MachineAxis axis;
+        axis.letter = axis_letters[n];
+        axis.direction = directions[n];
+        axis.max_velocity = fastest;
+        axis.max_acceleration = acceleration * share;
+        if (jerk > 0.0) {
+            axis.max_jerk = jerk * share;
+        }
+        description.head.push_back(axis);
+    }
+    return MachineModel(std::move(description));
+}
+
+Program cordic_motion(const cordic::Processor& processor,
+                      const CordicProgram& made,
+                      const MachineModel& machine,
+                      const AxisPositions& start,
+                      const std::filesystem::path& file) {
+    return Controller(processor, made, machine, start, file).program();
+}
+
+} // namespace millwright::gcode

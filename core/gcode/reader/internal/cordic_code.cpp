@@ -1,0 +1,80 @@
+#include "core/gcode/reader/internal/cordic_code.h"
+
+#include "core/cordic/arithmetic.h"
+#include "core/gcode/reader/internal/word_column.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace millwright::gcode::internal {
+
+using cordic::Opcode;
+using cordic::Register;
+using cordic::Word;
+
+CordicCode::CordicCode(std::filesystem::path file, const CordicProgramSettings& settings)
+    : file_(std::move(file)), settings_(settings) {
+    result_.image.format = settings.format;
+}
+
+Place CordicCode::place_of(const FaultyWord& word) const {
+    if (word.source != now_.place) {
+        return {file_, word.source.line, 0, -1}; // asked for by an earlier line, whose text is gone
+    }
+    const int column = column_of_word(now_.text, word.letter, word.code);
+    return {file_, word.source.line, column > 0 ? column : first_column(now_.text), -1};
+}
+
+bool CordicCode::has_word(SourcePlace source, char letter, double code) const {
+    return source == now_.place && column_of_word(now_.text, letter, code) > 0;
+}
+
+void CordicCode::fault(const FaultyWord& word, std::string message, std::string hint) {
+    if (result_.faults.size() < settings_.most_faults) {
+        result_.faults.push_back({place_of(word), std::move(message), std::move(hint)});
+    }
+}
+
+void CordicCode::warn(SourcePlace source, std::string message) {
+    result_.warnings.push_back({place_of({source}), std::move(message), {}});
+}
+
+std::optional<Word> CordicCode::number(double value, std::string_view what, const FaultyWord& word) {
+    bool overflow = false;
+    const Word bits = cordic::with_arithmetic(settings_.format, [&](const auto& arithmetic) {
+        return arithmetic.to_word(arithmetic.from_double(value, overflow));
+    });
+    if (overflow) {
+        fault(word,
+              fmt::format("{} {} does not fit into {}", what, value, cordic::to_text(settings_.format)),
+              "choose a number format with more bits before the point");
+        return std::nullopt;
+    }
+    return bits;
+}
+
+double CordicCode::as_held(Word word) const {
+    return cordic::with_arithmetic(settings_.format, [&](const auto& arithmetic) {
+        return arithmetic.to_double(arithmetic.from_word(word));
+    });
+}
+
+void CordicCode::op(Opcode opcode) {
+    cordic::append(result_.image.code, {.opcode = opcode}, settings_.format);
+}
+
+void CordicCode::mov(Register target, Word word) {
+    auto& loaded = loaded_[static_cast<std::size_t>(target)];
+    if (loaded != word) {
+        const Word immediate = cordic::is_whole(target) ? word : cordic::to_immediate(settings_.format, word);
+        cordic::append(result_.image.code, {Opcode::mov, target, immediate}, settings_.format);
+        loaded = word;
+    }
+}
+
+void CordicCode::set_loaded(Register target, std::optional<Word> word) {
+    loaded_[static_cast<std::size_t>(target)] = word;
+}
+
+} // namespace millwright::gcode::internal

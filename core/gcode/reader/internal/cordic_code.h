@@ -1,0 +1,56 @@
+// Instructions of the CORDIC processor, one after another, and what is wrong with them: numbers as the format
+// holds them, registers loaded only when their value changes.
+#pragma once
+
+#include "core/cordic/instruction.h"
+#include "core/gcode/reader/cordic_program.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::gcode::internal {
+
+/// What a fault is about: a word of the line that asked for it; with a code, as G18.
+struct FaultyWord {
+    SourcePlace source;
+    char letter = '\0';
+    std::optional<double> code{};
+};
+
+class CordicCode {
+public:
+    CordicCode(std::filesystem::path file, const CordicProgramSettings& settings);
+
+    /// The line that the next faults may be in.
+    void begin_line(const SourceLine& now) { now_ = now; }
+    void fault(const FaultyWord& word, std::string message, std::string hint = {});
+    /// Whether the line that asked has such a word.
+    [[nodiscard]] bool has_word(SourcePlace source, char letter, double code) const;
+    void warn(SourcePlace source, std::string message);
+
+    /// The bits of a number; nothing, and a fault, if it does not fit.
+    std::optional<cordic::Word> number(double value, std::string_view what, const FaultyWord& word);
+    [[nodiscard]] double as_held(cordic::Word word) const;
+
+    void op(cordic::Opcode opcode);
+    /// Loads a register unless the program left that in it.
+    void mov(cordic::Register target, cordic::Word word);
+    /// A register that instructions change: what is in it is known, or not.
+    void set_loaded(cordic::Register target, std::optional<cordic::Word> word);
+
+    [[nodiscard]] CordicProgram& result() { return result_; }
+
+private:
+    [[nodiscard]] Place place_of(const FaultyWord& word) const;
+
+    std::filesystem::path file_;
+    CordicProgramSettings settings_;
+    CordicProgram result_;
+    SourceLine now_; ///< of the call that is being made
+    std::array<std::optional<cordic::Word>, cordic::register_count> loaded_;
+};
+
+} // namespace millwright::gcode::internal

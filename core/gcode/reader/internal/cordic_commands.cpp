@@ -1,0 +1,150 @@
+#include "core/gcode/reader/internal/cordic_commands.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace millwright::gcode::internal {
+namespace {
+
+using cordic::Opcode;
+using cordic::Register;
+using cordic::Word;
+
+constexpr double microseconds = 1e6; // a second
+constexpr double no_word = -1.0;     // P or Q of a user's command that was not programmed
+
+/// What the processor cannot do, and the word that asked for it; no letter: it changes nothing that it does.
+struct Refused {
+    std::string_view what;
+    char letter = '\0';
+};
+
+Refused refused(CommandKind kind) {
+    switch (kind) {
+    case CommandKind::orient_spindle:
+        return {"spindle orientation", 'M'};
+    case CommandKind::change_tool_number:
+        return {"tool number that is set", 'M'};
+    case CommandKind::start_speed_feed_synch:
+        return {"feed a revolution", 'G'};
+    case CommandKind::wait_input:
+        return {"input", 'M'};
+    case CommandKind::set_motion_output_bit:
+    case CommandKind::clear_motion_output_bit:
+    case CommandKind::set_aux_output_bit:
+    case CommandKind::clear_aux_output_bit:
+    case CommandKind::set_motion_output_value:
+    case CommandKind::set_aux_output_value:
+        return {"output", 'M'};
+    case CommandKind::control_tip:
+        return {"tool tip control", 'G'};
+    default:
+        return {};
+    }
+}
+
+} // namespace
+
+void CordicCommands::hand_over(Opcode opcode, SourcePlace source) {
+    code_.op(opcode);
+    code_.result().command_lines.push_back(source.line);
+}
+
+void CordicCommands::hand_over(Opcode opcode,
+                               double parameter,
+                               const FaultyWord& word,
+                               std::string_view what) {
+    if (!(parameter >= 0.0 && parameter <= std::numeric_limits<std::uint32_t>::max())) {
+        return code_.fault(word, fmt::format("{} of {} does not fit into register P", what, parameter));
+    }
+    code_.mov(Register::P, static_cast<Word>(std::llround(parameter)));
+    hand_over(opcode, word.source);
+}
+
+void CordicCommands::turn_spindle(Opcode opcode, SourcePlace source) {
+    spindle_ = opcode;
+    hand_over(opcode, std::round(std::abs(spindle_rpm_)), {source, 'S'}, "a spindle speed");
+}
+
+void CordicCommands::switch_coolant_off(SourcePlace source) {
+    if (coolant_) { // the reader tells mist and flood apart, M09 does not
+        coolant_ = false;
+        hand_over(Opcode::m09, source);
+    }
+}
+
+void CordicCommands::user_command(const Command& command) {
+    const FaultyWord word{command.source, 'M', static_cast<double>(command.index)};
+    if (command.value > no_word || command.value_2 > no_word) {
+        return code_.fault(word,
+                           fmt::format("the CORDIC processor passes no P and Q on to M{}", command.index));
+    }
+    hand_over(Opcode::muser, command.index, word, "a command's number");
+}
+
+void CordicCommands::end(SourcePlace source) {
+    hand_over(code_.has_word(source, 'M', 30.0) ? Opcode::m30 : Opcode::m02, source);
+    ended_ = true;
+}
+
+void CordicCommands::command(const Command& command) {
+    const SourcePlace source = command.source;
+    switch (command.kind) {
+    case CommandKind::dwell:
+        if (command.value > 0.0) {
+            hand_over(Opcode::g04, std::round(command.value * microseconds), {source, 'P'}, "a dwell in us");
+        }
+        return;
+    case CommandKind::set_spindle_speed:
+        spindle_rpm_ = command.value;
+        if (spindle_ != Opcode::m05) {
+            turn_spindle(spindle_, source);
+        }
+        return;
+    case CommandKind::start_spindle_clockwise:
+        return turn_spindle(Opcode::m03, source);
+    case CommandKind::start_spindle_counterclockwise:
+        return turn_spindle(Opcode::m04, source);
+    case CommandKind::stop_spindle_turning:
+        if (spindle_ != Opcode::m05) {
+            spindle_ = Opcode::m05;
+            hand_over(Opcode::m05, source);
+        }
+        return;
+    case CommandKind::select_tool:
+        tool_ = command.index;
+        return;
+    case CommandKind::change_tool:
+        return hand_over(Opcode::m06, tool_, {source, 'T'}, "a tool number");
+    case CommandKind::mist_on:
+    case CommandKind::flood_on:
+        coolant_ = true;
+        return hand_over(command.kind == CommandKind::mist_on ? Opcode::m07 : Opcode::m08, source);
+    case CommandKind::mist_off:
+    case CommandKind::flood_off:
+        return switch_coolant_off(source);
+    case CommandKind::program_stop:
+        return hand_over(Opcode::m00, source);
+    case CommandKind::optional_program_stop:
+        return hand_over(Opcode::m01, source);
+    case CommandKind::user_command:
+        return user_command(command);
+    case CommandKind::program_end:
+        return end(source);
+    case CommandKind::pallet_shuttle: // of M30 too, where it asks for nothing
+        if (code_.has_word(source, 'M', 60.0)) {
+            code_.fault({source, 'M', 60.0}, "the CORDIC processor has no pallets");
+        }
+        return;
+    default:
+        if (const Refused cannot = refused(command.kind); cannot.letter != '\0') {
+            code_.fault({source, cannot.letter}, fmt::format("the CORDIC processor has no {}", cannot.what));
+        }
+    }
+}
+
+} // namespace millwright::gcode::internal

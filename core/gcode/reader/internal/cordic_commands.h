@@ -1,0 +1,34 @@
+// What is no motion, as instructions of the CORDIC processor: dwell, spindle, tool, coolant, stops.
+#pragma once
+
+#include "core/gcode/reader/internal/cordic_code.h"
+
+#include <cstdint>
+
+namespace millwright::gcode::internal {
+
+class CordicCommands {
+public:
+    explicit CordicCommands(CordicCode& code) : code_(code) {}
+
+    /// Commands that change nothing that the processor does are passed over.
+    void command(const Command& command);
+    [[nodiscard]] bool ended() const { return ended_; } ///< by M02 or M30
+
+private:
+    void hand_over(cordic::Opcode opcode, SourcePlace source);
+    void hand_over(cordic::Opcode opcode, double parameter, const FaultyWord& word, std::string_view what);
+    void turn_spindle(cordic::Opcode opcode, SourcePlace source);
+    void switch_coolant_off(SourcePlace source);
+    void user_command(const Command& command);
+    void end(SourcePlace source);
+
+    CordicCode& code_;
+    double spindle_rpm_ = 0.0;
+    cordic::Opcode spindle_ = cordic::Opcode::m05;
+    bool coolant_ = false;
+    int tool_ = 0;
+    bool ended_ = false;
+};
+
+} // namespace millwright::gcode::internal

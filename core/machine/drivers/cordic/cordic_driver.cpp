@@ -1,0 +1,157 @@
+#include "core/machine/drivers/cordic/cordic_driver.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/gcode/reader/cordic_motion.h"
+#include "core/gcode/reader/interpreter.h"
+#include "core/motion/planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+using gcode::AxisValues;
+using kinematics::AxisKind;
+using kinematics::AxisPositions;
+
+constexpr const char* program_name = "program"; // a listing has no file of its own
+
+/// mm and degrees, as programs say them.
+AxisValues values_of(const AxisPositions& position, const kinematics::MachineModel& model) {
+    AxisValues values;
+    for (std::size_t n = 0; n < gcode::axis_count; ++n) {
+        const int index = model.axis_index(gcode::axis_letters[n]);
+        if (index >= 0) {
+            const bool rotary = model.axis(index).kind == AxisKind::rotary;
+            values[n] = rotary ? to_degrees(position[index]) : position[index];
+        }
+    }
+    return values;
+}
+
+void throw_first(const std::vector<Diagnostic>& found) {
+    if (!found.empty()) {
+        throw Error(found.front());
+    }
+}
+
+} // namespace
+
+CordicDriver::CordicDriver(AxisPositions position,
+                           VirtualSpeed speed,
+                           Clock& clock,
+                           std::shared_ptr<const kinematics::MachineModel> model,
+                           CordicDriverOptions options)
+    : model_(std::move(model)), options_(std::move(options)),
+      machine_(std::move(position), speed, clock, model_) {
+    expects(model_ != nullptr, "the motion controller knows its machine");
+}
+
+Capabilities CordicDriver::capabilities() const {
+    Capabilities able = machine_.capabilities();
+    able.plans = true;
+    able.dialect = gcode::Dialect::linuxcnc;
+    return able;
+}
+
+cordic::RunReport CordicDriver::report() const {
+    const std::scoped_lock lock(mutex_);
+    return report_;
+}
+
+gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {
+    gcode::CordicProgramSettings settings = options_.program;
+    settings.start = start;
+    gcode::CordicProgramBuilder builder(program_name, settings);
+    gcode::ReaderSettings reading;
+    reading.any_tool = true;
+    reading.start = start;
+    gcode::Interpreter program(std::string_view(listing.text), program_name, std::move(reading), builder);
+    program.run();
+    throw_first(program.errors());
+    gcode::CordicProgram made = builder.take();
+    throw_first(made.faults);
+    return made;
+}
+
+/// A block is executed when nothing that is left comes from it or from one before it, as in a loop.
+CordicDriver::BlockMap CordicDriver::map_of(const gcode::Program& records, const gcode::Listing& listing) {
+    BlockMap map;
+    const auto count = static_cast<int>(listing.line_of_block.size());
+    for (const gcode::Block& record : records.blocks) {
+        map.block.push_back(record.source_line > 0 ? listing.block_at_line(record.source_line) : count - 1);
+    }
+    map.executed.assign(records.blocks.size() + 1, count);
+    for (std::size_t n = records.blocks.size(); n-- > 0;) {
+        map.executed[n] = std::min(map.executed[n + 1], std::max(map.block[n], 0));
+    }
+    return map;
+}
+
+DriverStatus CordicDriver::BlockMap::translated(DriverStatus status) const {
+    const bool of_program = status.activity == Activity::program || status.activity == Activity::none;
+    if (!of_program || status.block < 0 || executed.empty()) {
+        return status;
+    }
+    const auto record = std::min(static_cast<std::size_t>(status.block), block.size() - 1);
+    const auto done = std::min(static_cast<std::size_t>(status.executed_blocks), executed.size() - 1);
+    std::size_t first = record;
+    std::size_t last = record + 1;
+    while (first > 0 && block[first - 1] == block[record]) {
+        --first;
+    }
+    while (last < block.size() && block[last] == block[record]) {
+        ++last;
+    }
+    status.fraction =
+        (static_cast<double>(record - first) + status.fraction) / static_cast<double>(last - first);
+    status.block = block[record];
+    status.executed_blocks = executed[done];
+    return status;
+}
+
+DriverStatus CordicDriver::status() const {
+    const std::scoped_lock lock(mutex_);
+    return blocks_.translated(machine_.status());
+}
+
+void CordicDriver::start(Work work) {
+    expects(work.listing != nullptr, "a program has a listing");
+    const DriverStatus before = machine_.status();
+    if (before.state != DriverState::idle && before.state != DriverState::stopped) {
+        throw Error(fmt::format("the machine is {} and takes no program", to_text(before.state)));
+    }
+    const AxisValues start = values_of(before.position, *model_);
+    const gcode::CordicProgram made = compiled(*work.listing, start);
+    cordic::Processor processor(options_.processor, made.image);
+    processor.run(options_.most_clocks);
+    if (processor.state().stop != cordic::Stop::halted) {
+        throw Error(processor.state().stop == cordic::Stop::none
+                        ? fmt::format("the processor is not at the end of the program after {} clocks",
+                                      options_.most_clocks)
+                        : fmt::format("the processor stopped in the instruction at {:#06x}: {}",
+                                      processor.state().instruction_at,
+                                      to_text(processor.state().stop)),
+                    program_name);
+    }
+    using gcode::Axis;
+    const std::array<double, 3> from{start[Axis::x], start[Axis::y], start[Axis::z]};
+    const cordic::RunReport report = cordic::report_of(processor, made.points, options_.clock_hz, from);
+    const auto records = std::make_shared<const gcode::Program>(
+        gcode::cordic_motion(processor, made, *model_, before.position, program_name));
+    const auto trajectory = std::make_shared<const motion::Trajectory>(
+        motion::plan(*records, *model_, {}, Progress(), before.position));
+    const std::scoped_lock lock(mutex_);
+    machine_.start({records, trajectory, work.listing, {}});
+    report_ = report;
+    blocks_ = map_of(*records, *work.listing);
+}
+
+} // namespace millwright::machine

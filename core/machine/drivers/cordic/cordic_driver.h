@@ -1,0 +1,83 @@
+// The CORDIC processor with a motion controller behind it, as a machine: a program's text is compiled, the
+// processor computes its set-points and commands clock by clock, and a virtual machine moves along them. What
+// the processor cannot do is refused before anything moves: docs/reference/cordic.md#compiler.
+#pragma once
+
+#include "core/cordic/run_report.h"
+#include "core/gcode/reader/cordic_program.h"
+#include "core/machine/clock.h"
+#include "core/machine/driver.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace millwright::machine {
+
+struct CordicDriverOptions {
+    gcode::CordicProgramSettings program; ///< but for the start, which is where the machine stands
+    cordic::ProcessorSettings processor;
+    double clock_hz = 8e6;                  ///< for the report: which set-points would come late
+    std::int64_t most_clocks = 200'000'000; ///< a program that takes more is refused
+};
+
+class CordicDriver final : public Driver {
+public:
+    /// Stands at `position`, disconnected. `clock` must outlive it. Throws Error for a speed out of range.
+    CordicDriver(kinematics::AxisPositions position,
+                 VirtualSpeed speed,
+                 Clock& clock,
+                 std::shared_ptr<const kinematics::MachineModel> model,
+                 CordicDriverOptions options = {});
+
+    [[nodiscard]] std::string name() const override { return "cordic"; }
+    /// Blocks are those of the work's listing.
+    [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] Capabilities capabilities() const override;
+    /// What the processor did for the last program.
+    [[nodiscard]] cordic::RunReport report() const;
+
+    void connect() override { machine_.connect(); }
+    /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, and if it
+    /// stops before the end of the program.
+    void start(Work work) override;
+    void hold() override { machine_.hold(); }
+    void resume() override { machine_.resume(); }
+    void stop() override { machine_.stop(); }
+    void emergency_stop() override { machine_.emergency_stop(); }
+    void reset() override { machine_.reset(); }
+    void close() noexcept override { machine_.close(); }
+    void set_overrides(const Overrides& wanted) override { machine_.set_overrides(wanted); }
+    void jog(const Jog& jog) override { machine_.jog(jog); }
+    void stop_jog() override { machine_.stop_jog(); }
+    void home() override { machine_.home(); }
+    int command(const std::string& lines) override { return machine_.command(lines); }
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override {
+        return machine_.stored_offsets();
+    }
+    [[nodiscard]] Console* console() override { return machine_.console(); }
+
+private:
+    /// The blocks of the listing behind the records that are executed.
+    struct BlockMap {
+        std::vector<int> block;    ///< of each record: -1 above the first
+        std::vector<int> executed; ///< for certain, before each record and after the last
+
+        [[nodiscard]] DriverStatus translated(DriverStatus status) const;
+    };
+
+    [[nodiscard]] gcode::CordicProgram compiled(const gcode::Listing& listing,
+                                                const gcode::AxisValues& start) const;
+    [[nodiscard]] static BlockMap map_of(const gcode::Program& records, const gcode::Listing& listing);
+
+    std::shared_ptr<const kinematics::MachineModel> model_;
+    CordicDriverOptions options_;
+    VirtualMachine machine_;
+    mutable std::mutex mutex_; ///< guards what follows
+    cordic::RunReport report_;
+    BlockMap blocks_;
+};
+
+} // namespace millwright::machine

@@ -1,0 +1,143 @@
+#include "core/machine/drivers/cordic/cordic_driver.h"
+
+#include "core/base/error.h"
+#include "core/gcode/reader/cordic_motion.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/job_log.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/jobs.h"
+#include "tests/support/machines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::machine {
+namespace {
+
+using kinematics::AxisPositions;
+using testing::HasSubstr;
+
+struct Bench {
+    explicit Bench(const char* machine_name = "router-xyz")
+        : model(std::make_shared<const kinematics::MachineModel>(test::machine(machine_name))),
+          driver(AxisPositions::Zero(model->axis_count()), {}, clock, model),
+          dispatcher(driver, clock, folder.path() / "logs") {}
+
+    test::TemporaryFolder folder;
+    test::ManualClock clock;
+    std::shared_ptr<const kinematics::MachineModel> model;
+    CordicDriver driver;
+    Dispatcher dispatcher;
+
+    [[nodiscard]] std::string refusal_of(const std::string& text) {
+        try {
+            (void)dispatcher.run(text_job(text, "part.ngc"), {});
+        } catch (const Error& error) {
+            return to_text(error.diagnostic());
+        }
+        return {};
+    }
+};
+
+constexpr const char* part = "G21 G90 F1200\n"
+                             "S8000 M3\n"
+                             "G0 X10 Y10\n"
+                             "(an arc)\n"
+                             "G3 X5 Y5 I-5 J0\n"
+                             "G1 Z-2\n"
+                             "G4 P0.5\n"
+                             "G2 X5 Y5 Z-4 I3 J0\n"
+                             "M5\n"
+                             "M2\n";
+
+TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
+    Bench bench;
+    const Job job = text_job(part, "part.ngc");
+    double farthest = 0.0; // of the arc about (5, 10) while it is being executed
+    double turning = 0.0;
+    int before = 0;
+    const JobOutcome outcome = bench.dispatcher.run(job, {}, [&](const JobReport& report) {
+        const DriverStatus& now = report.driver;
+        EXPECT_GE(now.executed_blocks, before);
+        before = now.executed_blocks;
+        turning = std::max(turning, now.spindle_rpm);
+        if (now.state == DriverState::running && now.block == 4) {
+            const double radius = std::hypot(now.position[0] - 5.0, now.position[1] - 10.0);
+            farthest = std::max(farthest, std::abs(radius - 5.0));
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.executed_blocks, job.block_count());
+    EXPECT_NEAR(outcome.position[0], 5.0, 1e-6);
+    EXPECT_NEAR(outcome.position[1], 5.0, 1e-6);
+    EXPECT_NEAR(outcome.position[2], -4.0, 1e-6);
+    EXPECT_GT(farthest, 0.0);
+    EXPECT_LT(farthest, 0.001 + 1e-4); // the tolerance of chords, and what binary32 rounds
+    EXPECT_EQ(turning, 8000.0);
+    const cordic::RunReport report = bench.driver.report();
+    EXPECT_EQ(report.stop, cordic::Stop::halted);
+    EXPECT_GT(report.published, 100);
+    EXPECT_LT(report.position_error, 1e-4);
+    EXPECT_EQ(read_job_log(outcome.log_file).start.driver, "cordic");
+}
+
+TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove) {
+    Bench bench;
+    EXPECT_THAT(bench.refusal_of("G21 G0 X1\nG38.2 X5 F100\nM2\n"),
+                HasSubstr("program:2:1: the CORDIC processor cannot probe"));
+    EXPECT_THAT(bench.refusal_of("G21\nG18 G3 X2 Z0 R5 F100\nM2\n"), HasSubstr("program:2:1: the CORDIC"));
+    EXPECT_EQ(bench.driver.status().position, AxisPositions::Zero(3));
+    EXPECT_EQ(bench.driver.status().state, DriverState::idle);
+}
+
+TEST(CordicDriver, RefusesFiveAxisPrograms) {
+    Bench bench("rotary-tilt-gui");
+    const std::string refusal = bench.refusal_of("G21 G0 X1\nG1 X2 A5 F100\nM2\n");
+    EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (it moves X, Y and Z)"));
+    EXPECT_EQ(bench.driver.status().executed_blocks, 0);
+}
+
+TEST(CordicDriver, CountsBlocksOfLoopsOnlyWhenNothingOfThemIsLeft) {
+    Bench bench;
+    const Job job = text_job("G21 F6000\no1 repeat [3]\nG1 X5\nG1 X0\no1 endrepeat\nG1 Y5\nM2\n", "loop.ngc");
+    int at_second_turn = -1;
+    const JobOutcome outcome = bench.dispatcher.run(job, {}, [&](const JobReport& report) {
+        if (report.driver.state == DriverState::running && report.driver.block == 3 && at_second_turn < 0) {
+            at_second_turn = report.driver.executed_blocks;
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.executed_blocks, 7);
+    EXPECT_EQ(at_second_turn, 2); // G1 X5 is done once, and comes again
+}
+
+TEST(CordicDriver, HoldsAndStopsLikeAnyMachine) {
+    Bench bench;
+    bench.driver.connect();
+    const Job job = text_job(part, "part.ngc");
+    bench.driver.start({nullptr, nullptr, job.listing, {}});
+    bench.driver.stop();
+    test::wait_until([&] { return bench.driver.status().activity == Activity::none; });
+    EXPECT_LE(bench.driver.status().executed_blocks, job.block_count());
+    bench.driver.emergency_stop();
+    EXPECT_EQ(bench.driver.status().state, DriverState::alarm);
+    EXPECT_THROW(bench.driver.start({nullptr, nullptr, job.listing, {}}), Error);
+}
+
+TEST(CordicDriver, RefusesAProgramThatDoesNotEnd) {
+    test::ManualClock clock;
+    const auto model = std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
+    CordicDriverOptions options;
+    options.most_clocks = 1000;
+    CordicDriver driver(AxisPositions::Zero(3), {}, clock, model, options);
+    driver.connect();
+    const Job job = text_job(part, "part.ngc");
+    EXPECT_THROW(driver.start({nullptr, nullptr, job.listing, {}}), Error);
+    EXPECT_EQ(driver.status().state, DriverState::idle);
+}
+
+} // namespace
+} // namespace millwright::machine
