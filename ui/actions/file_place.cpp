@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/kinematics/forward.h"
+#include "core/kinematics/inverse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,15 @@ PathPlace path_place(const OpenedProgram& opened, Step step, double share) {
     return {first + whole, at - static_cast<double>(whole)};
 }
 
-Vec3 tool_axis(const OpenedProgram& opened, double time) {
-    if (!opened.motion || opened.machine->rotary_axes().empty()) {
-        return Vec3::UnitZ();
+kinematics::AxisPositions axes_at(const OpenedProgram& opened, const Vec3& tip, double time) {
+    if (opened.motion) {
+        return opened.motion->trajectory->at(time).position;
     }
-    return kinematics::forward(*opened.machine, opened.motion->trajectory->at(time).position).axis;
+    if (!opened.machine || opened.path.empty() || !opened.machine->rotary_axes().empty()) {
+        return {};
+    }
+    const int count = opened.machine->axis_count();
+    return kinematics::with_tip_at(*opened.machine, kinematics::AxisPositions::Zero(count), tip);
 }
 
 FilePlace made(const OpenedProgram& opened, Step step, const PathPlace& place, double time) {
@@ -50,7 +55,10 @@ FilePlace made(const OpenedProgram& opened, Step step, const PathPlace& place, d
         found.moment.tip = opened.path.position(place);
         std::tie(found.moment.first, found.moment.end) = opened.path.points_of(step);
     }
-    found.moment.axis = tool_axis(opened, time);
+    found.axes = axes_at(opened, found.moment.tip, time);
+    if (opened.motion) {
+        found.moment.axis = kinematics::forward(*opened.machine, found.axes).axis;
+    }
     return found;
 }
 

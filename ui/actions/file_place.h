@@ -12,6 +12,9 @@ struct FilePlace {
     gcode::Step step = 0;
     int line = 1; ///< of the text, from 1
     viewport::ProgramMoment moment;
+    /// Of the chosen machine: as planned, or from the tip where it has no rotary axes; empty where neither is
+    /// known.
+    kinematics::AxisPositions axes;
 };
 
 /// s: planned, or as fast as programmed where nothing is planned. 0 before the file is read.

@@ -106,7 +106,34 @@ int Workbench::block() const {
     return planned ? planned->block_at(time()) : -1;
 }
 
+std::shared_ptr<const kinematics::MachineModel> Workbench::machine() const {
+    if (in_file()) {
+        return opened->machine;
+    }
+    const auto workpiece = plan ? plan->plan.workpiece : nullptr;
+    return workpiece ? std::shared_ptr<const kinematics::MachineModel>(workpiece, &workpiece->machine)
+                     : nullptr;
+}
+
+/// A controller that plans for itself knows its work offsets, and programs are written in those.
+kinematics::AxisPositions Workbench::connected_axes() const {
+    const auto model = machine();
+    if (session.workspace != Workspace::machine || !controller.connected() || !model) {
+        return {};
+    }
+    const bool same = std::ranges::equal(
+        controller.axes, model->axes(), {}, &gcode::ProgramAxis::letter, &kinematics::MachineAxis::letter);
+    const machine::DriverStatus& status = controller.status;
+    if (!same || status.position.size() != model->axis_count()) {
+        return {};
+    }
+    return controller.can.plans ? status.work_position() : status.position;
+}
+
 bool Workbench::at_machine() const {
+    if (connected_axes().size() > 0) {
+        return true;
+    }
     if (!job.report) {
         return false;
     }
@@ -114,21 +141,27 @@ bool Workbench::at_machine() const {
     return job.running || std::abs(session.playback.time - job.report->driver.planned_time) < same_moment;
 }
 
-std::optional<viewport::Moment> Workbench::moment() const {
+std::optional<viewport::Moment> Workbench::moment_of_program() const {
+    if (const auto place = file_place()) {
+        return place->axes.size() > 0 ? std::optional(viewport::Moment{place->axes, -1, 0.0}) : std::nullopt;
+    }
     const auto planned = trajectory();
     const auto made = program();
-    if (!planned || !made || made->blocks.empty()) {
+    if (in_file() || !planned || !made || made->blocks.empty()) {
         return std::nullopt;
     }
-    viewport::Moment moment;
-    if (in_file()) {
-        moment.axes = planned->at(time()).position;
-        moment.move = -1;
-    } else {
-        moment = moment_in(*made, planned->at(time()));
+    return moment_in(*made, planned->at(time()));
+}
+
+std::optional<viewport::Moment> Workbench::moment() const {
+    auto moment = moment_of_program();
+    if (const auto connected = connected_axes(); connected.size() > 0) {
+        const bool follows = moment && job.running;
+        return viewport::Moment{connected, follows ? moment->move : -1, follows ? moment->fraction : 0.0};
     }
-    if (job.running && job.report && job.report->driver.position.size() == moment.axes.size()) {
-        moment.axes = job.report->driver.position;
+    const bool reported = moment && job.running && job.report;
+    if (reported && job.report->driver.position.size() == moment->axes.size()) {
+        moment->axes = job.report->driver.position;
     }
     return moment;
 }

@@ -56,6 +56,11 @@ struct Workbench {
         return session.question != FileQuestion::none || !leaving_to.empty() || !left_behind.empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
+    /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.
+    [[nodiscard]] std::shared_ptr<const kinematics::MachineModel> machine() const;
+    /// Where the connected machine stands, in the axes of machine(); empty outside of the Machine workspace,
+    /// or where its axes are others.
+    [[nodiscard]] kinematics::AxisPositions connected_axes() const;
     /// The block that is being executed, stepped or scrubbed, and where on the tool path that is. Follows the
     /// running job, else the playback.
     [[nodiscard]] std::optional<viewport::Moment> moment() const;
@@ -64,6 +69,9 @@ struct Workbench {
     [[nodiscard]] double job_time() const; ///< the same, of the running job
     /// What moment() says is where the machine stands, not what the timeline would have it do.
     [[nodiscard]] bool at_machine() const;
+
+private:
+    [[nodiscard]] std::optional<viewport::Moment> moment_of_program() const;
 };
 
 } // namespace millwright::actions

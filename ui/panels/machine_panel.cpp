@@ -1,11 +1,9 @@
 #include "ui/panels/machine_panel.h"
 
 #include "core/base/text.h"
-#include "core/base/units.h"
-#include "core/kinematics/forward.h"
+#include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
-#include "ui/widgets/readout.h"
 
 #include <fmt/format.h>
 
@@ -15,38 +13,6 @@
 namespace millwright::panels {
 
 namespace {
-
-using kinematics::AxisKind;
-
-/// Near a limit means within a twentieth of the travel.
-widgets::AxisState state_of(const kinematics::MachineAxis& axis, double position) {
-    const double margin = 0.05 * (axis.max - axis.min);
-    if (position <= axis.min || position >= axis.max) {
-        return widgets::AxisState::at_limit;
-    }
-    const bool near = std::isfinite(margin) && (position < axis.min + margin || position > axis.max - margin);
-    return near ? widgets::AxisState::near_limit : widgets::AxisState::normal;
-}
-
-std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machine,
-                                           const kinematics::AxisPositions& position,
-                                           std::vector<std::string>& letters) {
-    for (const kinematics::MachineAxis& axis : machine.axes()) {
-        letters.emplace_back(1, axis.letter);
-    }
-    std::vector<widgets::AxisReading> result;
-    for (int n = 0; n < machine.axis_count(); ++n) {
-        const kinematics::MachineAxis& axis = machine.axis(n);
-        const bool rotary = axis.kind == AxisKind::rotary;
-        widgets::AxisReading reading;
-        reading.letter = letters[static_cast<std::size_t>(n)];
-        reading.value = rotary ? to_degrees(position[n]) : position[n];
-        reading.unit = rotary ? "\u00b0" : "mm";
-        reading.state = state_of(axis, position[n]);
-        result.push_back(reading);
-    }
-    return result;
-}
 
 constexpr std::array<double, 6> speeds{1.0, 5.0, 20.0, 100.0, 1000.0, 0.0};
 constexpr std::array<widgets::Option, 6> speed_options{{{"x1", "1 x real time"},
@@ -86,30 +52,9 @@ void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     const auto section =
         ui.section("position", now.at_machine() ? "Position of the machine" : "Position on the timeline");
-    const auto moment = now.moment();
-    const bool known = now.in_file() ? now.opened->machine != nullptr : now.plan && now.plan->plan.workpiece;
-    if (!section || !known) {
-        return;
+    if (section) {
+        axis_positions(ui, now);
     }
-    const kinematics::MachineModel& machine =
-        now.in_file() ? *now.opened->machine : now.plan->plan.workpiece->machine;
-    if (!moment || moment->axes.size() != machine.axis_count()) {
-        ui.note("No program yet.");
-        return;
-    }
-    std::vector<std::string> letters;
-    const auto axes = readings(machine, moment->axes, letters);
-    widgets::readout(ui, "axes", axes);
-    const geometry::ToolPose pose = kinematics::forward(machine, moment->axes);
-    ui.value(
-        "tip",
-        "Tip on the part",
-        fmt::format("{}  {}  {}", fixed(pose.tip.x(), 1), fixed(pose.tip.y(), 1), fixed(pose.tip.z(), 1)),
-        "mm");
-    ui.value(
-        "axis",
-        "Tool axis",
-        fmt::format("{}  {}  {}", fixed(pose.axis.x(), 3), fixed(pose.axis.y(), 3), fixed(pose.axis.z(), 3)));
 }
 
 /// What is known before anything is sent.

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
+#include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/lines.h"
 #include "ui/panels/modal_text.h"
@@ -86,6 +87,9 @@ std::string limit_text(const motion::Cause& limit, const gcode::Program& program
 void ProgramFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_file(ui, now, ask);
     draw_faults(ui, now, ask);
+    if (const auto section = ui.section("position", "Axes at this line")) {
+        axis_positions(ui, now);
+    }
     draw_modal(ui, now);
 }
 
@@ -190,15 +194,7 @@ void ProgramFilePanel::draw_modal(Ui& ui, const Workbench& now) const {
         return;
     }
     const gcode::ModalView state = now.opened->execution->state_after(place->step);
-    const Vec3 tip = place->moment.tip;
     ui.value("line", "Line", fmt::format("{}", place->line));
-    {
-        const auto labels = ui.label_share(0.18F);
-        ui.value("tip",
-                 "Tip",
-                 fmt::format("{}  {}  {}", fixed(tip.x(), 3), fixed(tip.y(), 3), fixed(tip.z(), 3)),
-                 "mm");
-    }
     if (now.opened->motion) {
         const PlannedHere here(*now.opened, now.time());
         ui.value("speed", "Speed now", fixed(here.speed_mm_per_min, 0), "mm/min");

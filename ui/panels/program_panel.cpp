@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 
@@ -16,6 +17,9 @@ void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_settings(ui, now, ask);
     draw_summary(ui, now, ask);
     draw_block(ui, now);
+    if (const auto section = ui.section("position", "Axes at this block")) {
+        axis_positions(ui, now);
+    }
 }
 
 void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask) const {

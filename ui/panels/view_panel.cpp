@@ -75,8 +75,9 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.selected = now.session.selected;
     scene.error = now.session.error;
     if (now.in_file()) {
-        scene.layers.machine = false;
         scene.opened = now.opened;
+        scene.now = now.moment();
+        scene.layers.machine = scene.layers.machine && scene.now && scene.opened->machine;
         if (const auto place = now.file_place()) {
             scene.opened_now = place->moment;
         }

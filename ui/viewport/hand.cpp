@@ -111,8 +111,11 @@ void Hand::point_at(const HandInput& input) {
     const glm::dvec2 pixel = pixel_of(input.pointer);
     const double scale = input.view.content_scale;
     if (scene.opened) {
-        const auto place =
-            pick_path(scene.opened->path, input.view, pixel, move_reach_px * scale, quickly_looked_at);
+        const auto place = pick_path(scene.opened->path,
+                                     path_view(input.view, scene),
+                                     pixel,
+                                     move_reach_px * scale,
+                                     quickly_looked_at);
         highlight_.path_point = place ? std::optional(place->point) : std::nullopt;
         return;
     }
@@ -221,8 +224,10 @@ void Hand::release(const HandInput& input, std::vector<ViewEvent>& events) {
 void Hand::click(const HandInput& input, std::vector<ViewEvent>& events) const {
     const std::vector<ControlPointId>& selected = input.scene.selected;
     if (input.scene.opened) {
-        const auto place = pick_path(
-            input.scene.opened->path, input.view, pressed_->pixel, move_reach_px * input.view.content_scale);
+        const auto place = pick_path(input.scene.opened->path,
+                                     path_view(input.view, input.scene),
+                                     pressed_->pixel,
+                                     move_reach_px * input.view.content_scale);
         if (place) {
             events.emplace_back(GoToPathPlace{*place});
         }

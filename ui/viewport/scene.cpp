@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
+#include "ui/render/convert.h"
 
 #include <algorithm>
 #include <array>
@@ -96,11 +97,21 @@ bool operator==(const Scene& a, const Scene& b) {
            a.selected == b.selected && a.error == b.error;
 }
 
+std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {
+    if (scene.opened) {
+        return scene.opened->machine;
+    }
+    return scene.workpiece
+               ? std::shared_ptr<const kinematics::MachineModel>(scene.workpiece, &scene.workpiece->machine)
+               : nullptr;
+}
+
 kinematics::AxisPositions axes_now(const Scene& scene) {
-    if (!scene.workpiece) {
+    const auto machine = machine_of(scene);
+    if (!machine) {
         return {};
     }
-    const int count = scene.workpiece->machine.axis_count();
+    const int count = machine->axis_count();
     if (scene.now && scene.now->axes.size() == count) {
         return scene.now->axes;
     }
@@ -112,9 +123,14 @@ kinematics::AxisPositions axes_now(const Scene& scene) {
 }
 
 Frame scene_from_workpiece(const Scene& scene) {
-    return scene.layers.machine && scene.workpiece
-               ? kinematics::m_T_w(scene.workpiece->machine, axes_now(scene))
-               : Frame::Identity();
+    const auto machine = scene.layers.machine ? machine_of(scene) : nullptr;
+    return machine ? kinematics::m_T_w(*machine, axes_now(scene)) : Frame::Identity();
+}
+
+render::View path_view(const render::View& view, const Scene& scene) {
+    render::View moved = view;
+    moved.view = view.view * render::to_glm(scene_from_workpiece(scene));
+    return moved;
 }
 
 SurfaceColors surface_colors(const Scene& scene) {

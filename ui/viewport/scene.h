@@ -12,6 +12,7 @@
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
 #include "ui/render/color_map.h"
+#include "ui/render/view.h"
 
 #include <memory>
 #include <optional>
@@ -112,11 +113,17 @@ struct Scene {
 /// Whether both look the same.
 [[nodiscard]] bool operator==(const Scene& a, const Scene& b);
 
-/// Where the axes stand: at `now`, else at the start of the path, else at zero. Empty without a workpiece.
+/// Of the opened program, else of the workpiece; null without either.
+[[nodiscard]] std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene);
+
+/// Where the axes stand: at `now`, else at the start of the path, else at zero. Empty without a machine.
 [[nodiscard]] kinematics::AxisPositions axes_now(const Scene& scene);
 
 /// Workpiece to machine coordinates with axes_now() where the machine is shown, else the identity.
 [[nodiscard]] Frame scene_from_workpiece(const Scene& scene);
+
+/// The same look, with the workpiece's coordinates in place of the scene's: an opened path is kept in those.
+[[nodiscard]] render::View path_view(const render::View& view, const Scene& scene);
 
 /// What gives the surface its colours: the topmost of the layers that are on and have their results.
 enum class SurfaceColors { plain, error, weight };

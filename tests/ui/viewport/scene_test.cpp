@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/kinematics/forward.h"
 #include "tests/ui/viewport/scenes.h"
+#include "ui/render/convert.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,21 @@ TEST(SceneFrame, IsTheWorkpiecesUnlessTheMachineIsShown) {
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(expected));
     scene.workpiece = nullptr;
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(Frame::Identity()));
+}
+
+TEST(PathView, ShowsAPlaceOnThePartWhereTheMachineHasBroughtIt) {
+    Scene scene = test::scene_of(test::dome, ViewKind::machine);
+    scene.now = test::half_way(scene);
+    render::View view;
+    view.view[3] = {0.0, 0.0, -500.0, 1.0};
+    view.size = {640, 480};
+    const Vec3 on_part(3.0, -4.0, 5.0);
+    const Vec3 in_scene = kinematics::m_T_w(scene.workpiece->machine, scene.now->axes) * on_part;
+    const auto expected = render::project(view, render::to_glm(in_scene));
+    const auto found = render::project(path_view(view, scene), render::to_glm(on_part));
+    ASSERT_TRUE(expected && found);
+    EXPECT_NEAR(found->pixel.x, expected->pixel.x, 1e-9);
+    EXPECT_NEAR(found->pixel.y, expected->pixel.y, 1e-9);
 }
 
 TEST(SceneAxes, StandAtTheStartOfThePathBeforeAnyMotion) {

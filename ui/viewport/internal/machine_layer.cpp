@@ -20,38 +20,38 @@ Solid solid_of(const kinematics::MachineBody& body) {
 class MachineLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.machine || scene.workpiece == workpiece_) {
+        const auto machine = machine_of(scene);
+        if (!scene.layers.machine || machine == machine_) {
             return;
         }
-        workpiece_ = scene.workpiece;
+        machine_ = machine;
         bodies_.clear();
-        if (workpiece_) {
-            for (const kinematics::MachineBody& body : workpiece_->machine.description().bodies) {
+        if (machine_) {
+            for (const kinematics::MachineBody& body : machine_->description().bodies) {
                 bodies_.emplace_back(solid_of(body));
             }
         }
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.machine || !workpiece_) {
+        if (!scene.layers.machine || !machine_) {
             return;
         }
-        const kinematics::MachineModel& machine = workpiece_->machine;
-        const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
+        const std::vector<Frame> poses = body_poses(*machine_, axes_now(scene));
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
-            const kinematics::MachineBody& body = machine.description().bodies[k];
+            const kinematics::MachineBody& body = machine_->description().bodies[k];
             bodies_[k].draw(
-                canvas, glm::mat4(render::to_glm(poses[k])), color_of(machine, body, canvas.colors));
+                canvas, glm::mat4(render::to_glm(poses[k])), color_of(*machine_, body, canvas.colors));
         }
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
         std::vector<glm::dvec3> all;
-        if (scene.layers.machine && scene.workpiece) {
-            const kinematics::MachineModel& machine = scene.workpiece->machine;
-            const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
+        const auto machine = scene.layers.machine ? machine_of(scene) : nullptr;
+        if (machine) {
+            const std::vector<Frame> poses = body_poses(*machine, axes_now(scene));
             for (std::size_t k = 0; k < poses.size(); ++k) {
-                const Box3 box = body_box(machine.description().bodies[k]);
+                const Box3 box = body_box(machine->description().bodies[k]);
                 const std::vector<glm::dvec3> corners = moved_corners(box, poses[k]);
                 all.insert(all.end(), corners.begin(), corners.end());
             }
@@ -69,7 +69,7 @@ private:
         return body.carried_by == '\0' ? colors.machine : colors.machine_moving;
     }
 
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const kinematics::MachineModel> machine_;
     std::vector<SolidBuffers> bodies_;
 };
 

@@ -73,7 +73,7 @@ public:
         if (!scene.opened || scene.opened->path.empty()) {
             return {};
         }
-        return moved_corners(scene.opened->path.bounds(), Frame::Identity());
+        return moved_corners(scene.opened->path.bounds(), scene_from_workpiece(scene));
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
@@ -89,7 +89,8 @@ public:
         }
         if (scene.opened_now) {
             draw_thick(canvas, current_, canvas.colors.selected);
-            if (scene.layers.tool) {
+            const bool has_its_own = scene.layers.machine && scene.opened->machine;
+            if (scene.layers.tool && !has_its_own) {
                 draw_tool(*scene.opened_now, canvas);
             }
         }
@@ -129,8 +130,8 @@ private:
         style.done_color = kind_colors(colors.selected, colors.rapid, colors.selected);
         style.model = canvas.s_T_w;
         const bool moving = canvas.edges == render::Edges::rough || !scene.opened->finished;
-        const auto chosen =
-            pieces_in_sight(shown_, canvas.view, moving ? points_while_moving : points_at_rest);
+        const auto chosen = pieces_in_sight(
+            shown_, path_view(canvas.view, scene), moving ? points_while_moving : points_at_rest);
         const std::int64_t done =
             scene.opened_now && scene.layers.trace ? scene.opened_now->place.point - 1 : 0;
         for (std::size_t k = 0; k < shown_.size(); ++k) {

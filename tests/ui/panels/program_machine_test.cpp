@@ -1,0 +1,154 @@
+// A G-code file and the machine that executes it: every axis in step with the cursor, bodies and figures
+// alike.
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "tests/ui/panels/person.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using actions::Workspace;
+using test::Person;
+
+constexpr const char* five_axes = "G21 G90 G94\n"
+                                  "G0 X0 Y0 Z50 A0 C0\n"
+                                  "G1 X10 Y5 A-20 C30 F1000\n"
+                                  "X30 Z60 A-40 C-60\n"
+                                  "M2\n";
+
+void open_for(Person& person, const std::string& machine, const std::string& text) {
+    const auto file = person.folder() / "part.ngc";
+    write_file(file, text);
+    person.workshop().session().file.reading.machine = machine;
+    person.open(file);
+    ASSERT_TRUE(person.workshop().look().opened->errors.empty());
+}
+
+/// To the beginning of `line` (from 1).
+void stand_at(Person& person, int line) {
+    const auto& opened = *person.workshop().look().opened;
+    person.workshop().session().playback.time =
+        actions::time_of(opened, opened.execution->step_at_or_after(line));
+    person.frames(3);
+}
+
+std::vector<double> axes(Person& person) {
+    const auto now = person.workshop().look();
+    const auto moment = now.moment();
+    std::vector<double> values;
+    for (int n = 0; moment && n < moment->axes.size(); ++n) {
+        const bool turns = now.machine()->axis(n).kind == kinematics::AxisKind::rotary;
+        values.push_back(turns ? to_degrees(moment->axes[n]) : moment->axes[n]);
+    }
+    return values;
+}
+
+void expect_axes(Person& person, const std::vector<double>& wanted, double within) {
+    const std::vector<double> found = axes(person);
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+        EXPECT_NEAR(found[n], wanted[n], within) << "axis " << n;
+    }
+}
+
+/// Pixels of the 3D view that differ, as a share of all.
+double difference(Person& person, const render::Picture& a, const render::Picture& b) {
+    const widgets::Rect view = person.place("view/iso");
+    int different = 0;
+    int all = 0;
+    for (int y = static_cast<int>(view.y); y < static_cast<int>(view.bottom()); ++y) {
+        for (int x = static_cast<int>(view.x); x < static_cast<int>(view.right()); ++x) {
+            const auto at = static_cast<std::size_t>(y * a.size.width + x);
+            different += a.pixels[at] == b.pixels[at] ? 0 : 1;
+            ++all;
+        }
+    }
+    return static_cast<double>(different) / all;
+}
+
+TEST(ProgramOnItsMachine, ShowsEveryAxisWhereTheCursorIs) {
+    Person person;
+    open_for(person, "ac-table", five_axes);
+    stand_at(person, 4);
+    expect_axes(person, {10.0, 5.0, 50.0, -20.0, 30.0}, 1e-6);
+    person.workshop().session().playback.time = person.workshop().look().duration();
+    person.frames(3);
+    expect_axes(person, {30.0, 5.0, 60.0, -40.0, -60.0}, 1e-6);
+    for (const char* axis : {"X", "Y", "Z", "A", "C"}) {
+        EXPECT_TRUE(person.sees(std::string("inspector/position/axes/") + axis)) << axis;
+    }
+}
+
+TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
+    Person person;
+    open_for(person, "ac-table", five_axes);
+    auto& layers = person.workshop().session().layers_now();
+    layers = {};
+    layers.surface = layers.floor = layers.origin = false;
+    layers.machine = true;
+    person.workshop().session().fit_wanted = true;
+    stand_at(person, 3);
+    const render::Picture before = person.picture();
+    person.keep("program-machine");
+    stand_at(person, 4);
+    const render::Picture after = person.picture();
+    EXPECT_GT(difference(person, before, after), 0.005); // the table turned, the column went sideways
+    stand_at(person, 3);
+    EXPECT_LT(difference(person, before, person.picture()), 1e-9);
+
+    person.workshop().run("view.machine");
+    person.frames(4);
+    EXPECT_TRUE(person.sees("hand/position/axes/C"));
+    person.keep("program-machine-workspace");
+}
+
+TEST(ProgramOnItsMachine, KnowsTheAxesOfLongProgramsWithoutRotaryAxes) {
+    Person person;
+    std::string text = "G21 G90 G1 F3000\n";
+    const auto count = static_cast<int>(project::most_planned_points) + 10;
+    for (int n = 0; n < count; ++n) {
+        fmt::format_to(std::back_inserter(text), "X{:.3f} Y{:.2f}\n", 0.1 * (n % 1000), 0.01 * (n / 1000));
+    }
+    open_for(person, "router-xyz", text + "M2\n");
+    ASSERT_FALSE(person.workshop().look().opened->motion);
+    constexpr int line = 123'457; // stands at the end of the line before, which is move number line - 3
+    stand_at(person, line);
+    const int n = line - 3;
+    expect_axes(person, {0.1 * (n % 1000), 0.01 * (n / 1000), 0.0}, 1e-2);
+    EXPECT_TRUE(person.sees("inspector/position/axes/X"));
+    open_for(person, "ac-table", text + "M2\n");
+    EXPECT_TRUE(axes(person).empty()); // nobody kept where its tables stand
+}
+
+TEST(ProgramOnItsMachine, ShowsTheConnectedMachineInTheMachineWorkspace) {
+    Person person;
+    open_for(person, "ac-table", five_axes);
+    person.workshop().run("view.machine");
+    person.frames(2);
+    person.workshop().run("machine.connect");
+    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
+    person.workshop().controller().tell(
+        [](machine::Driver& driver) { (void)driver.command("G21 G90 G0 X12 Z34 A-7"); });
+    ASSERT_TRUE(person.live_until([&] {
+        const auto found = axes(person);
+        return found.size() == 5 && std::abs(found[3] + 7.0) < 1e-6 && std::abs(found[2] - 34.0) < 1e-6;
+    }));
+    expect_axes(person, {12.0, 0.0, 34.0, -7.0, 0.0}, 1e-6);
+    EXPECT_TRUE(person.workshop().look().at_machine());
+    person.keep("machine-connected-file");
+    person.workshop().run("view.program"); // there the cursor is shown
+    person.workshop().session().playback.time = 0.0;
+    person.frames(3);
+    expect_axes(person, {0.0, 0.0, 0.0, 0.0, 0.0}, 1e-6);
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,85 @@
+#include "ui/panels/axis_positions.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/forward.h"
+#include "ui/widgets/readout.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+using kinematics::AxisKind;
+
+/// Near a limit means within a twentieth of the travel.
+widgets::AxisState state_of(const kinematics::MachineAxis& axis, double position) {
+    const double margin = 0.05 * (axis.max - axis.min);
+    if (position <= axis.min || position >= axis.max) {
+        return widgets::AxisState::at_limit;
+    }
+    const bool near = std::isfinite(margin) && (position < axis.min + margin || position > axis.max - margin);
+    return near ? widgets::AxisState::near_limit : widgets::AxisState::normal;
+}
+
+std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machine,
+                                           const kinematics::AxisPositions& position,
+                                           std::vector<std::string>& letters) {
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        letters.emplace_back(1, axis.letter);
+    }
+    std::vector<widgets::AxisReading> result;
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        const kinematics::MachineAxis& axis = machine.axis(n);
+        const bool rotary = axis.kind == AxisKind::rotary;
+        widgets::AxisReading reading;
+        reading.letter = letters[static_cast<std::size_t>(n)];
+        reading.value = rotary ? to_degrees(position[n]) : position[n];
+        reading.unit = rotary ? "\u00b0" : "mm";
+        reading.state = state_of(axis, position[n]);
+        result.push_back(reading);
+    }
+    return result;
+}
+
+std::string why_not_known(const Workbench& now) {
+    if (!now.in_file() || !now.opened->finished) {
+        return "No program yet.";
+    }
+    return "Where the rotary axes stand is known of planned programs only. " + now.opened->no_motion;
+}
+
+} // namespace
+
+void axis_positions(Ui& ui, const Workbench& now) {
+    const auto machine = now.machine();
+    if (!machine) {
+        return;
+    }
+    const auto moment = now.moment();
+    if (!moment || moment->axes.size() != machine->axis_count()) {
+        ui.note(why_not_known(now));
+        return;
+    }
+    std::vector<std::string> letters;
+    const auto axes = readings(*machine, moment->axes, letters);
+    widgets::readout(ui, "axes", axes);
+    const geometry::ToolPose pose = kinematics::forward(*machine, moment->axes);
+    const auto labels = ui.label_share(0.36F);
+    ui.value(
+        "tip",
+        "Tip on the part",
+        fmt::format("{}  {}  {}", fixed(pose.tip.x(), 1), fixed(pose.tip.y(), 1), fixed(pose.tip.z(), 1)),
+        "mm");
+    ui.value(
+        "axis",
+        "Tool axis",
+        fmt::format("{}  {}  {}", fixed(pose.axis.x(), 3), fixed(pose.axis.y(), 3), fixed(pose.axis.z(), 3)));
+}
+
+} // namespace millwright::panels
