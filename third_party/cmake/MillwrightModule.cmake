@@ -16,15 +16,16 @@ function(millwright_module name)
         PRIVATE $<BUILD_INTERFACE:millwright_options> ${ARG_PRIVATE})
 endfunction()
 
-# millwright_test(NAME SOURCES ... LINK ...)
+# millwright_test(NAME SOURCES ... LINK ... [ON_DISPLAY pattern])
 #   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
-#   checked build (outside parts of the user interface calculate with infinities).
+#   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
+#   windows; a window is told when another one covers it, so they have the display to themselves.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY" "SOURCES;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
@@ -32,11 +33,21 @@ function(millwright_test name)
     add_executable(${name}_test ${ARG_SOURCES})
     target_link_libraries(${name}_test PRIVATE millwright_options ${ARG_LINK} ${main} GTest::gmock)
     set_target_properties(${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    gtest_discover_tests(${name}_test
+    set(discovery
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
         NO_PRETTY_VALUES # ctest and --gtest_filter call a test the same
-        DISCOVERY_TIMEOUT 120
-        PROPERTIES TIMEOUT 600)
+        DISCOVERY_TIMEOUT 120)
+    if(ARG_ON_DISPLAY)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "${ARG_ON_DISPLAY}"
+            TEST_LIST ${name}_test_on_display
+            PROPERTIES TIMEOUT 600 RESOURCE_LOCK display)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "-${ARG_ON_DISPLAY}"
+            PROPERTIES TIMEOUT 600)
+    else()
+        gtest_discover_tests(${name}_test ${discovery} PROPERTIES TIMEOUT 600)
+    endif()
 endfunction()
 
 # millwright_fuzz(NAME SOURCES ... LINK ... [CORPUS folder])

@@ -54,9 +54,15 @@ Ball ball_around(const PathBlock& block) {
     return {0.5 * (min + max), 0.5 * glm::length(max - min)};
 }
 
-bool in_sight(const Ball& ball, const std::array<glm::dvec4, 6>& planes) {
+/// False only if all of the block's box is on the outer side of one of the planes.
+bool in_sight(const PathBlock& block, const std::array<glm::dvec4, 6>& planes) {
+    const std::array<std::array<float, 3>, 2> corners{block.min, block.max};
     return std::ranges::all_of(planes, [&](const glm::dvec4& plane) {
-        return glm::dot(plane, glm::dvec4(ball.middle, 1.0)) >= -ball.radius;
+        glm::dvec4 innermost(0.0, 0.0, 0.0, 1.0); // the corner furthest along the plane's normal
+        for (int axis = 0; axis < 3; ++axis) {
+            innermost[axis] = corners[plane[axis] > 0.0 ? 1 : 0][static_cast<std::size_t>(axis)];
+        }
+        return glm::dot(plane, innermost) >= 0.0;
     });
 }
 
@@ -101,9 +107,8 @@ pieces_in_sight(std::span<const std::shared_ptr<const PathChunk>> chunks,
     for (std::uint32_t c = 0; c < chunks.size(); ++c) {
         for (std::uint32_t b = 0; b < chunks[c]->blocks.size(); ++b) {
             const PathBlock& block = chunks[c]->blocks[b];
-            const Ball ball = ball_around(block);
-            if (in_sight(ball, planes)) {
-                open.push({error_px(block, coarsest, ball, view), c, b, coarsest});
+            if (in_sight(block, planes)) {
+                open.push({error_px(block, coarsest, ball_around(block), view), c, b, coarsest});
                 points += points_of(block, coarsest);
             }
         }

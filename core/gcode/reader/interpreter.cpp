@@ -305,7 +305,7 @@ double Interpreter::parameter(int number) const {
 }
 
 SourcePlace Interpreter::place() const {
-    return parts_->files.place();
+    return parts_->run.out.place();
 }
 
 int Interpreter::line_count() const {

@@ -74,7 +74,7 @@ TEST_F(ProgramReaderTest, ReadsByTheChosenRules) {
     EXPECT_FALSE(read("G21 G90 F100\nG1 X1\n")->errors.empty()); // LinuxCNC wants M2
 }
 
-TEST_F(ProgramReaderTest, DISABLED_FindsSubroutinesBesideTheFile) {
+TEST_F(ProgramReaderTest, FindsSubroutinesBesideTheFile) {
     write_file(folder_ / "part.ngc", "o<part> sub\nG1 X5\no<part> endsub\nM2\n");
     const auto opened = read("G21 F100\no<part> call\nM2\n");
     ASSERT_TRUE(opened->errors.empty()) << to_text(opened->errors.front());

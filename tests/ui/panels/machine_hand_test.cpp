@@ -63,6 +63,11 @@ protected:
         return machine().connected() && machine().status.state == state;
     }
 
+    /// As the controller itself reported it: place and state in one report.
+    [[nodiscard]] bool rests_at(std::size_t axis, double mm) {
+        return is(DriverState::idle) && std::abs(machine().status.position[axis] - mm) < 0.01;
+    }
+
     void connect() {
         person.workshop().run("view.machine");
         person.workshop().session().hand.choice = {DriverKind::grbl, grbl.port()};
@@ -313,13 +318,14 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
     live(0.3);
     EXPECT_DOUBLE_EQ(grbl.position()[0], 0.0);
     person.fill_in("lower/command", "G1 X2 F600");
-    ASSERT_TRUE(
-        live_until([this] { return std::abs(grbl.position()[0] - 2.0) < 0.01 && is(DriverState::idle); }));
+    ASSERT_TRUE(live_until([this] { return rests_at(0, 2.0); }));
     person.fill_in("lower/command", "G1 X5 F0");
     ASSERT_TRUE(live_until(
         [this] { return machine().status.answer.state == machine::CommandAnswer::State::refused; }));
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
     person.keep("machine-refused");
+    ASSERT_TRUE(live_until([this] { return is(DriverState::idle); })); // the field takes lines again
+    person.frames(2);
     // The arrow brings the last line back.
     person.click("lower/command");
     person.press_key(render::Key::up);
@@ -331,8 +337,7 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
 TEST_F(MachineByHand, MakesThisPlaceTheZero) {
     connect();
     person.fill_in("lower/command", "G1 X3 Y4 F1200");
-    ASSERT_TRUE(
-        live_until([this] { return std::abs(grbl.position()[1] - 4.0) < 0.01 && is(DriverState::idle); }));
+    ASSERT_TRUE(live_until([this] { return rests_at(1, 4.0); }));
     person.click("hand/position/zero_X");
     ASSERT_TRUE(live_until([this] { return std::abs(machine().status.work_position()[0]) < 0.01; }));
     EXPECT_NEAR(machine().status.work_position()[1], 4.0, 0.01);
