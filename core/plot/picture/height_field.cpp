@@ -1,0 +1,25 @@
+#include "core/plot/picture/height_field.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::plot {
+
+HeightField height_field(const Picture& picture, double pitch, double depth) {
+    constexpr double largest = 1e6;
+    if (!(pitch > 0.0 && pitch < largest)) {
+        throw Error(fmt::format("pixels of {} mm; they have to be above 0", pitch));
+    }
+    if (!(depth > 0.0 && depth < largest)) {
+        throw Error(fmt::format("a depth of {} mm; it has to be above 0", depth));
+    }
+    HeightField field{picture.width, picture.height, pitch, {}};
+    field.z.reserve(picture.gray.size());
+    for (const std::uint16_t gray : picture.gray) {
+        field.z.push_back(static_cast<float>(-depth * gray / white));
+    }
+    return field;
+}
+
+} // namespace millwright::plot
