@@ -4,6 +4,7 @@
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
 #include "app/commands/jobs_command.h"
+#include "app/commands/picture_command.h"
 #include "app/commands/plan_command.h"
 #include "app/commands/plot_command.h"
 #include "app/commands/ports_command.h"
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
     add_gcode_command(app, chosen);
     add_cordic_command(app, chosen);
     add_plot_command(app, chosen);
+    add_picture_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {

@@ -127,6 +127,15 @@ private:
 
 } // namespace
 
+PathLengths lengths(const CutPath& path) {
+    PathLengths lengths;
+    for (std::size_t n = 1; n < path.size(); ++n) {
+        const double distance = (path[n].at - path[n - 1].at).norm();
+        (path[n].speed > 0.0 ? lengths.cut : lengths.travel) += distance;
+    }
+    return lengths;
+}
+
 std::vector<Level> levels_for(const Strokes& strokes, const Level& like) {
     std::vector<Level> levels;
     std::set<int> known;

@@ -59,6 +59,14 @@ struct CutPoint {
 
 using CutPath = std::vector<CutPoint>;
 
+struct PathLengths {
+    double cut = 0.0;    ///< at a speed, plunges too
+    double travel = 0.0; ///< as fast as the machine can
+};
+
+/// In space, mm.
+[[nodiscard]] PathLengths lengths(const CutPath& path);
+
 /// A level for each pen that draws, in the order in which they first do, each as `like` but for pen and
 /// order.
 [[nodiscard]] std::vector<Level> levels_for(const Strokes& strokes, const Level& like = {});

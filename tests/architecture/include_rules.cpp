@@ -148,6 +148,8 @@ constexpr std::array<std::string_view, 1> clipper = {"polyclipping/"};
 constexpr std::array<std::string_view, 1> clipper_home = {"core/plot"};
 constexpr std::array<std::string_view, 2> pictures = {"png.h", "jpeglib.h"};
 constexpr std::array<std::string_view, 2> pictures_home = {"core/plot/picture", "tests/core/plot/picture"};
+constexpr std::array<std::string_view, 1> potrace = {"potracelib.h"};
+constexpr std::array<std::string_view, 1> potrace_home = {"core/plot/picture"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
@@ -157,6 +159,7 @@ constexpr std::array homes = {
     Home{"Boost.Asio", asio, asio_home},
     Home{"Clipper", clipper, clipper_home},
     Home{"libpng or libjpeg", pictures, pictures_home},
+    Home{"potrace", potrace, potrace_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {

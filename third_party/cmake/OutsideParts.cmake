@@ -9,6 +9,12 @@ find_package(TBB REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
+# potrace has neither a pkg-config file nor a CMake package.
+find_path(POTRACE_INCLUDE_DIR potracelib.h REQUIRED)
+find_library(POTRACE_LIBRARY potrace REQUIRED)
+add_library(Potrace::Potrace UNKNOWN IMPORTED)
+set_target_properties(Potrace::Potrace PROPERTIES
+    IMPORTED_LOCATION ${POTRACE_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${POTRACE_INCLUDE_DIR})
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)

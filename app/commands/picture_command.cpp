@@ -1,0 +1,17 @@
+#include "app/commands/picture_command.h"
+
+#include "app/commands/picture_relief.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace millwright::app {
+
+void add_picture_command(CLI::App& app, Command& chosen) {
+    CLI::App& group = *app.add_subcommand("picture", "Make something to cut of a picture");
+    group.require_subcommand(1);
+    add_picture_relief(group, chosen);
+}
+
+} // namespace millwright::app

@@ -1,0 +1,55 @@
+#include "app/cutting.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/gcode/plot_program.h"
+#include "core/kinematics/machine_file.h"
+#include "core/motion/planner.h"
+#include "core/plot/work_time.h"
+#include "core/project/assets.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace millwright::app {
+
+void add_cutting_options(CLI::App& command, CuttingOptions& options) {
+    command.add_option("--machine", options.machine, "Shipped machine or machine file")
+        ->capture_default_str();
+    command.add_option("--feed", options.feed_mm_per_min, "Cutting, mm/min")->capture_default_str();
+    command.add_option("--plunge", options.plunge_mm_per_min, "Into the work, mm/min")->capture_default_str();
+    command.add_option("--safe-height", options.safe_height, "Above the top, mm")->capture_default_str();
+    command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")->capture_default_str();
+    add_post_options(command, options.post).capture_default_str();
+}
+
+kinematics::MachineModel machine_of(const CuttingOptions& options) {
+    return kinematics::read_machine(
+        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
+}
+
+void write_program(const plot::CutPath& path,
+                   const CuttingOptions& options,
+                   const std::vector<std::string>& header) {
+    const kinematics::MachineModel machine = machine_of(options);
+    gcode::PlotProgramSettings settings;
+    settings.machine = machine.name();
+    settings.spindle_rpm = options.spindle_rpm;
+    settings.header = header;
+    const gcode::Program program = gcode::plot_program(path, settings);
+    const PostedText text =
+        posted(program, machine, options.post, std::filesystem::path(options.out).stem().string());
+    write_file(options.out, text.text.listing.text);
+    print_notes(text);
+    const double seconds = motion::plan(text.text.program, machine, {}, Progress()).duration();
+    fmt::print("{} lines, {} min on {}\n",
+               text.text.listing.line_count(),
+               plot::minutes_and_seconds(seconds),
+               machine.name());
+}
+
+} // namespace millwright::app

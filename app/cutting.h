@@ -1,0 +1,38 @@
+// What commands that make programs for a machine with a spindle and X, Y, Z have in common.
+#pragma once
+
+#include "app/posting.h"
+#include "core/kinematics/machine_model.h"
+#include "core/plot/cut_path.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+struct CuttingOptions {
+    std::string out;
+    std::string machine = "router-xyz";
+    PostChoice post = {.post = "linuxcnc-xyz"};
+    double feed_mm_per_min = 600.0;
+    double plunge_mm_per_min = 120.0;
+    double safe_height = 5.0;
+    double spindle_rpm = 10'000.0;
+};
+
+/// Adds --machine, the options of posts, feeds, safe height and spindle to `command`.
+void add_cutting_options(CLI::App& command, CuttingOptions& options);
+
+[[nodiscard]] kinematics::MachineModel machine_of(const CuttingOptions& options);
+
+/// Writes the program to `options.out`, after it was read back; says how many lines it has and how long the
+/// machine takes by the planner. `header` stands on its top. Throws Error.
+void write_program(const plot::CutPath& path,
+                   const CuttingOptions& options,
+                   const std::vector<std::string>& header);
+
+} // namespace millwright::app
