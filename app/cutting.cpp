@@ -32,17 +32,34 @@ kinematics::MachineModel machine_of(const CuttingOptions& options) {
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
 }
 
-void write_program(const plot::CutPath& path,
-                   const CuttingOptions& options,
-                   const std::vector<std::string>& header) {
-    const kinematics::MachineModel machine = machine_of(options);
+namespace {
+
+gcode::Program program_of(const plot::CutPath& path,
+                          const kinematics::MachineModel& machine,
+                          const CuttingOptions& options,
+                          const std::vector<std::string>& header) {
     gcode::PlotProgramSettings settings;
     settings.machine = machine.name();
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
-    const gcode::Program program = gcode::plot_program(path, settings);
-    const PostedText text =
-        posted(program, machine, options.post, std::filesystem::path(options.out).stem().string());
+    return gcode::plot_program(path, settings);
+}
+
+} // namespace
+
+double planned_seconds(const plot::CutPath& path, const CuttingOptions& options) {
+    const kinematics::MachineModel machine = machine_of(options);
+    return motion::plan(program_of(path, machine, options, {}), machine, {}, Progress()).duration();
+}
+
+void write_program(const plot::CutPath& path,
+                   const CuttingOptions& options,
+                   const std::vector<std::string>& header) {
+    const kinematics::MachineModel machine = machine_of(options);
+    const PostedText text = posted(program_of(path, machine, options, header),
+                                   machine,
+                                   options.post,
+                                   std::filesystem::path(options.out).stem().string());
     write_file(options.out, text.text.listing.text);
     print_notes(text);
     const double seconds = motion::plan(text.text.program, machine, {}, Progress()).duration();

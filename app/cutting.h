@@ -29,6 +29,9 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options);
 
 [[nodiscard]] kinematics::MachineModel machine_of(const CuttingOptions& options);
 
+/// How long the machine takes for it by the planner, s. Throws Error.
+[[nodiscard]] double planned_seconds(const plot::CutPath& path, const CuttingOptions& options);
+
 /// Writes the program to `options.out`, after it was read back; says how many lines it has and how long the
 /// machine takes by the planner. `header` stands on its top. Throws Error.
 void write_program(const plot::CutPath& path,

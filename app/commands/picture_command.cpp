@@ -1,6 +1,7 @@
 #include "app/commands/picture_command.h"
 
 #include "app/commands/picture_relief.h"
+#include "app/commands/picture_trace.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -12,6 +13,7 @@ void add_picture_command(CLI::App& app, Command& chosen) {
     CLI::App& group = *app.add_subcommand("picture", "Make something to cut of a picture");
     group.require_subcommand(1);
     add_picture_relief(group, chosen);
+    add_picture_trace(group, chosen);
 }
 
 } // namespace millwright::app

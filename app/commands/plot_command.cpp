@@ -1,16 +1,12 @@
 #include "app/commands/plot_command.h"
 
+#include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
-#include "core/gcode/plot_program.h"
-#include "core/gcode/writer.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/decode.h"
 #include "core/plot/hpgl/reader.h"
-#include "core/plot/linking.h"
-#include "core/plot/ordering.h"
 #include "core/plot/point_file.h"
 #include "core/plot/work_time.h"
 
@@ -19,6 +15,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -43,29 +41,33 @@ const std::map<std::string, DecodeMode> modes = {{"segments", DecodeMode::segmen
 struct Options {
     std::string file;
     std::string out;
-    double unit = plot::nominal_unit.x;
+    std::string unit = "nominal";
     bool strict = false;
     bool json = false;
     std::optional<double> arc_tolerance;
     plot::DecodeSettings decode;
     int decimals = 2;
-    double link = 0.0;
-    bool inside = false;
-    bool order = false;
-    double depth = 1.0;
-    int passes = 1;
-    double feed_mm_per_min = 600.0;
-    double plunge_mm_per_min = 120.0;
-    double safe_height = 5.0;
-    double spindle_rpm = 10'000.0;
+    StrokeCutting cutting;
 };
 
-Plot read(const Options& options) {
-    if (!(options.unit > 0.0)) {
-        throw Error(fmt::format("a plotter unit of {} mm; it has to be above 0", options.unit));
+plot::PlotterUnit unit_of(const std::string& text) {
+    if (text == "nominal") {
+        return plot::nominal_unit;
     }
+    if (text == "table") {
+        return plot::table_unit;
+    }
+    double unit = 0.0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), unit);
+    if (fault != std::errc() || end != text.data() + text.size() || !(unit > 0.0 && std::isfinite(unit))) {
+        throw Error(fmt::format("a plotter unit of '{}'; it has to be nominal, table, or mm above 0", text));
+    }
+    return {.x = unit, .y = unit};
+}
+
+Plot read(const Options& options) {
     plot::ReaderSettings settings;
-    settings.unit = {.x = options.unit, .y = options.unit};
+    settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
     settings.arc_tolerance = options.arc_tolerance;
     return plot::read_hpgl_file(options.file, settings);
@@ -91,10 +93,6 @@ Plot read_to_use(const Options& options) {
         throw Error("there is nothing to draw in it", options.file);
     }
     return plot;
-}
-
-plot::WorkTime time_of(const Strokes& strokes) {
-    return plot::work_time(strokes, {}, Vec2::Zero(), Vec2::Zero());
 }
 
 nlohmann::ordered_json json_of(const Plot& plot) {
@@ -172,45 +170,10 @@ int decode(const Options& options) {
     return 0;
 }
 
-void print_time(const char* what, const plot::WorkTime& time) {
-    fmt::print("{}: {:.3f} m, {} min, {} times down\n",
-               what,
-               time.distance() / 1000.0,
-               plot::minutes_and_seconds(time.seconds),
-               time.runs);
-}
-
 int toolpath(const Options& options) {
-    const Plot plot = read_to_use(options);
-    print_time("as drawn", time_of(plot.strokes));
-    Strokes strokes = options.order ? plot::ordered(plot.strokes) : plot.strokes;
-    if (options.order) {
-        print_time("ordered", time_of(strokes));
-    }
-    if (options.link > 0.0) {
-        plot::LinkSettings settings;
-        settings.distance = options.link;
-        if (options.inside) {
-            settings.outlines = plot::closed_outlines(plot.strokes);
-        }
-        strokes = plot::link(strokes, settings).strokes;
-        print_time("linked", time_of(strokes));
-    }
-    plot::Level like;
-    like.depth = options.depth;
-    like.passes = options.passes;
-    like.cutting = from_mm_per_min(options.feed_mm_per_min);
-    like.plunging = from_mm_per_min(options.plunge_mm_per_min);
-    plot::CutSettings cut;
-    cut.levels = plot::levels_for(strokes, like);
-    cut.safe_height = options.safe_height;
-    gcode::PlotProgramSettings program_settings;
-    program_settings.spindle_rpm = options.spindle_rpm;
-    program_settings.header = {"plot: " + std::filesystem::path(options.file).filename().string()};
-    const gcode::Program program = gcode::plot_program(plot::cut_path(strokes, cut), program_settings);
-    const gcode::Listing listing = gcode::write_gcode(program, {});
-    write_file(options.out, listing.text);
-    fmt::print("{} lines\n", listing.line_count());
+    cut_strokes(read_to_use(options).strokes,
+                options.cutting,
+                {"plot: " + std::filesystem::path(options.file).filename().string()});
     return 0;
 }
 
@@ -218,7 +181,9 @@ CLI::App&
 add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("FILE", options->file, "HPGL plot file")->required();
-    command.add_option("--unit", options->unit, "Length of a plotter unit, mm")->capture_default_str();
+    command
+        .add_option("--unit", options->unit, "Plotter unit: nominal (0.025 mm), table (0.02488 mm), or mm")
+        ->capture_default_str();
     command.add_option("--arc-tolerance", options->arc_tolerance, "Finer arcs: within so many mm");
     command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
     return command;
@@ -257,18 +222,8 @@ void add_info(CLI::App& group, const std::shared_ptr<Options>& options, Command&
 
 void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
-    command.add_option("--out", options->out, "G-code file")->required();
-    command.add_option("--link", options->link, "Join strokes over gaps shorter than so many mm");
-    command.add_flag("--inside", options->inside, "Links keep to their side of closed strokes");
-    command.add_flag("--order", options->order, "Reorder and reverse strokes for less travel");
-    command.add_option("--depth", options->depth, "Below the top, mm")->capture_default_str();
-    command.add_option("--passes", options->passes, "Cuts to the depth")->capture_default_str();
-    command.add_option("--feed", options->feed_mm_per_min, "Cutting, mm/min")->capture_default_str();
-    command.add_option("--plunge", options->plunge_mm_per_min, "Into the work, mm/min")
-        ->capture_default_str();
-    command.add_option("--safe-height", options->safe_height, "Above the top, mm")->capture_default_str();
-    command.add_option("--spindle", options->spindle_rpm, "Turns a minute, 0 for none")
-        ->capture_default_str();
+    command.add_option("--out", options->cutting.cutting.out, "G-code file")->required();
+    add_stroke_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return toolpath(*options); }; });
 }
 

@@ -62,6 +62,68 @@ TEST(PlotCommand, ToolpathIsAProgramWithoutErrors) {
     EXPECT_EQ(run({"gcode", "time", file, "--machine", "router-xyz"}).exit_code, 0);
 }
 
+// A square of 100 mm and a tool of 3 mm: 412 mm around, as in the thesis.
+TEST(PlotCommand, ToolpathGoesAroundItsPartWithTheToolOutside) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "square.ngc").string();
+    write_content(folder / "square.plt", "IN;SP1;PU400,400;PD4400,400,4400,4400,400,4400,400,400;PU;SP;");
+    const Ended ended = run({"plot",
+                             "toolpath",
+                             (folder / "square.plt").string(),
+                             "--side",
+                             "outside",
+                             "--tool-diameter",
+                             "3",
+                             "--level",
+                             "1:depth=2,passes=2",
+                             "--out",
+                             file});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("by the planner"));
+    const std::string text = content_of(file);
+    for (const char* word :
+         {"X8.5000", "X111.5000", "Y8.5000", "Y111.5000", "Z-1.0000", "Z-2.0000", "F600.0000"}) {
+        EXPECT_THAT(text, HasSubstr(word));
+    }
+    EXPECT_THAT(
+        run({"plot", "toolpath", (folder / "square.plt").string(), "--level", "7:depth=2", "--out", file})
+            .err,
+        HasSubstr("pen 7 draws nothing"));
+}
+
+TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "square.ngc").string();
+    write_content(folder / "square.plt", "IN;SP1;PU40,40;PD440,40,440,440,40,440,40,40;PU;SP;");
+    const auto runs = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {
+            "plot", "toolpath", (folder / "square.plt").string(), "--out", file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments).out;
+    };
+    EXPECT_THAT(runs({}), HasSubstr("0.043 m, 1 times down"));
+    EXPECT_THAT(runs({"--hatch", "1.5"}),
+                HasSubstr(", 8 times down")); // the square, lines at 1.5, 3, ... 10.5
+    EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 times down"));
+    EXPECT_THAT(runs({"--contours", "2"}), HasSubstr("times down"));
+    EXPECT_THAT(runs({"--hatch", "1.5", "--link", "3"}), HasSubstr("linked: "));
+}
+
+TEST(PlotCommand, UnitsHaveNames) {
+    const ScratchFolder folder;
+    write_content(folder / "line.plt", "IN;SP1;PU0,0;PD40000,0;PU;SP;");
+    const auto width = [&](const std::string& unit) {
+        const Ended ended = run({"plot", "info", (folder / "line.plt").string(), "--json", "--unit", unit});
+        return ended.exit_code == 0 ? nlohmann::json::parse(ended.out).at("extents_mm")[2].get<double>()
+                                    : -1.0;
+    };
+    EXPECT_DOUBLE_EQ(width("nominal"), 1000.0);
+    EXPECT_NEAR(width("table"), 995.2, 1e-9);
+    EXPECT_NEAR(width("0.0254"), 1016.0, 1e-9);
+    EXPECT_DOUBLE_EQ(width("inch"), -1.0);
+    EXPECT_DOUBLE_EQ(width("-1"), -1.0);
+}
+
 TEST(PlotCommand, StrictReadingEndsAtTheFirstFault) {
     const ScratchFolder folder;
     const std::string file = (folder / "bad.plt").string();

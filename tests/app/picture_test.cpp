@@ -1,0 +1,196 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <vector>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A BMP of gray pixels, rows from the top.
+std::string bmp(int width, int height, const std::vector<int>& gray) {
+    std::string bytes = "BM";
+    const auto put = [&](std::uint32_t value, int count) {
+        for (int n = 0; n < count; ++n) {
+            bytes.push_back(static_cast<char>(value >> (8 * n)));
+        }
+    };
+    for (const std::uint32_t word : {0U, 0U, 54U, 40U}) {
+        put(word, 4);
+    }
+    put(static_cast<std::uint32_t>(width), 4);
+    put(static_cast<std::uint32_t>(-height), 4);
+    put(1 + (32U << 16U), 4);
+    for (int n = 0; n < 6; ++n) {
+        put(0, 4);
+    }
+    for (const int level : gray) {
+        put(static_cast<std::uint32_t>(level) * 0x010101U, 4);
+    }
+    return bytes;
+}
+
+struct Place {
+    double x = 0.0, y = 0.0, z = 0.0;
+};
+
+/// Where the tool goes, in a program that names axes where they change.
+std::vector<Place> places(const std::string& program) {
+    std::vector<Place> found;
+    Place at;
+    std::istringstream lines(program);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        bool moves = false;
+        for (std::string word; line.front() != '(' && words >> word;) {
+            const double value = std::strtod(word.c_str() + 1, nullptr);
+            double* axis = word[0] == 'X' ? &at.x : word[0] == 'Y' ? &at.y : word[0] == 'Z' ? &at.z : nullptr;
+            if (axis != nullptr) {
+                *axis = value;
+                moves = true;
+            }
+        }
+        if (moves) {
+            found.push_back(at);
+        }
+    }
+    return found;
+}
+
+// Every pixel is looked at from many places of every move of the program that was written.
+TEST(PictureCommand, ReliefOverCutsNoPixelOfItsProgram) {
+    const ScratchFolder folder;
+    constexpr int side = 12;
+    constexpr double pitch = 0.25;
+    std::vector<int> gray;
+    for (int n = 0; n < side * side; ++n) {
+        gray.push_back(n * 7919 % 256);
+    }
+    write_content(folder / "noise.bmp", bmp(side, side, gray));
+    const std::string file = (folder / "noise.ngc").string();
+    const Ended ended = run({"picture",
+                             "relief",
+                             (folder / "noise.bmp").string(),
+                             "--width",
+                             "3",
+                             "--depth",
+                             "0.8",
+                             "--tool",
+                             "ball:1.0",
+                             "--depth-per-pass",
+                             "0.3",
+                             "--out",
+                             file});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("12 x 12 pixels of 0.25 mm: 3.00 x 3.00 mm"));
+    EXPECT_EQ(run({"gcode", "check", file}).exit_code, 0);
+    const std::vector<Place> way = places(content_of(file));
+    ASSERT_GT(way.size(), 100U);
+    double worst = -1.0;
+    for (std::size_t n = 2; n < way.size(); ++n) {
+        for (int k = 0; k <= 10; ++k) {
+            const double t = 0.1 * k;
+            const Place& a = way[n - 1];
+            const Place& b = way[n];
+            const Place at{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+            for (int pixel = 0; pixel < side * side; ++pixel) {
+                const double r = std::hypot(at.x - pixel % side * pitch,
+                                            at.y - (side - 1 - pixel / side) * pitch); // NOLINT
+                if (r <= 0.5) {
+                    const double tool = at.z + 0.5 - std::sqrt(0.25 - r * r);
+                    worst = std::max(worst, -0.8 * gray[static_cast<std::size_t>(pixel)] / 255.0 - tool);
+                }
+            }
+        }
+    }
+    EXPECT_LT(worst, 1e-4);  // the last digit
+    EXPECT_GT(worst, -0.01); // and it does touch
+}
+
+TEST(PictureCommand, ReliefIsCutOutOfItsPlateWithTabs) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "frame.ngc").string();
+    const Ended ended = run({"picture",
+                             "relief",
+                             "assets/samples/pictures/snail.png",
+                             "--width",
+                             "40",
+                             "--depth",
+                             "1",
+                             "--tool",
+                             "ball:2",
+                             "--step-over",
+                             "1",
+                             "--frame",
+                             "3",
+                             "--tabs",
+                             "3",
+                             "--out",
+                             file});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const std::vector<Place> way = places(content_of(file));
+    EXPECT_NEAR(std::ranges::min(way, {}, &Place::z).z, -3.0, 1e-9);
+    EXPECT_NEAR(std::ranges::min(way, {}, &Place::x).x, -0.1 - 1.0 - 1.0, 1e-9);
+    const auto on_tabs =
+        std::ranges::count_if(way, [](const Place& p) { return std::abs(p.z + 2.0) < 1e-9; });
+    EXPECT_GE(on_tabs, 6);
+}
+
+TEST(PictureCommand, TraceWritesCurvesOrAProgram) {
+    const ScratchFolder folder;
+    const std::string boat = "assets/samples/pictures/boat.png";
+    const std::string svg = (folder / "boat.svg").string();
+    const Ended ended = run({"picture", "trace", boat, "--width", "120", "--out", svg});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("14 outlines of"));
+    const std::string text = content_of(svg);
+    EXPECT_THAT(text, HasSubstr("viewBox=\"0 0 120.0000 81.0000\""));
+    EXPECT_EQ(std::ranges::count(text, 'M'), 14);
+    EXPECT_EQ(std::ranges::count(text, 'Z'), 14);
+    const std::string file = (folder / "boat.ngc").string();
+    ASSERT_EQ(run({"picture", "trace", boat, "--width", "120", "--out", file}).exit_code, 0);
+    EXPECT_EQ(run({"gcode", "check", file}).exit_code, 0);
+    // The sun: a circle of 28 pixels around (340.5, 210), 0.3 mm each.
+    int on_the_sun = 0;
+    for (const Place& p : places(content_of(file))) {
+        on_the_sun += std::abs(std::hypot(p.x - 102.15, p.y - 62.85) - 8.4) < 0.15 ? 1 : 0;
+    }
+    EXPECT_GT(on_the_sun, 20);
+}
+
+TEST(PictureCommand, SaysWhatIsWrong) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.ngc").string();
+    const auto relief = [&](const std::string& name, std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"picture", "relief", (folder / name).string(), "--out", out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    write_content(folder / "junk.png", std::string(1000, '\xff'));
+    write_content(folder / "pixel.bmp", bmp(1, 1, {255}));
+    write_content(folder / "wide.bmp", bmp(2, 1, {255, 0}));
+    EXPECT_THAT(relief("junk.png", {"--depth", "1"}).err, HasSubstr("this is no picture that can be read"));
+    EXPECT_THAT(relief("none.png", {"--depth", "1"}).err, HasSubstr("none.png"));
+    EXPECT_THAT(relief("pixel.bmp", {"--depth", "1", "--tool", "drill:3"}).err,
+                HasSubstr("'drill:3' is no tool"));
+    EXPECT_THAT(relief("pixel.bmp", {"--depth", "-1"}).err, HasSubstr("a depth of -1 mm"));
+    EXPECT_EQ(relief("pixel.bmp", {}).exit_code, 2);
+    EXPECT_EQ(relief("pixel.bmp", {"--depth", "1", "--width", "3", "--dpi", "96"}).exit_code, 2);
+    EXPECT_THAT(relief("wide.bmp", {"--depth", "1", "--pixel", "1000"}).err, HasSubstr("X"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_EQ(relief("pixel.bmp", {"--depth", "1"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(out));
+    EXPECT_THAT(run({"picture", "trace", (folder / "pixel.bmp").string(), "--out", out}).err,
+                HasSubstr("nothing in it is dark enough"));
+}
+
+} // namespace
+} // namespace millwright::test
