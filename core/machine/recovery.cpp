@@ -1,5 +1,6 @@
 #include "core/machine/recovery.h"
 
+#include "core/base/files.h"
 #include "core/base/text.h"
 
 #include <fmt/format.h>
@@ -45,13 +46,23 @@ std::string sentence_of(const JobStory& story) {
         story.allowed_blocks < blocks ? "; the others were never sent" : "");
 }
 
+fs::path mark_of(fs::path log_file) {
+    return log_file += ".seen";
+}
+
 } // namespace
+
+void mark_seen(const fs::path& log_file) {
+    write_file(mark_of(log_file), "");
+}
 
 JobStory job_story(const fs::path& log_file) {
     JobStory story;
     story.running = is_being_written(log_file); // before it is read, so that an end is never overlooked
     const ReadLog log = read_job_log(log_file);
     story.log_file = log_file;
+    std::error_code none;
+    story.seen = fs::exists(mark_of(log_file), none);
     story.start = log.start;
     story.end = log.end();
     story.running = story.running && !story.end;

@@ -16,6 +16,7 @@ struct JobStory {
     LogStart start;
     std::optional<JobEnd> end; ///< nothing: it runs, or its program ended before the job did
     bool running = false;      ///< a program is still writing this log
+    bool seen = false;         ///< a person knows of it, see mark_seen()
     int executed_blocks = 0;   ///< for certain
     int allowed_blocks = 0;    ///< none from this one on was given to the controller
     double time = 0.0;         ///< of the last record, s since the start
@@ -30,6 +31,10 @@ struct JobStory {
 
 /// Throws Error as read_job_log() does.
 [[nodiscard]] JobStory job_story(const std::filesystem::path& log_file);
+
+/// A person has read what became of that job: an empty file LOG.seen beside the log says so; the log itself
+/// is never touched. Throws Error with the system's reason.
+void mark_seen(const std::filesystem::path& log_file);
 
 struct JobFolder {
     std::vector<JobStory> jobs; ///< newest first, as their files were last written

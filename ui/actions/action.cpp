@@ -60,6 +60,16 @@ void ActionQueue::tell(std::function<void(machine::Driver&)> what) {
         [what = std::move(what)](Workshop& workshop) { workshop.controller().tell(what); });
 }
 
+void ActionQueue::set_overrides(const machine::Overrides& wanted) {
+    requests_.emplace_back([wanted](Workshop& workshop) {
+        if (workshop.look().job.running) {
+            workshop.jobs().set_overrides(wanted);
+        } else {
+            workshop.controller().tell([&](machine::Driver& driver) { driver.set_overrides(wanted); });
+        }
+    });
+}
+
 std::vector<ActionQueue::Request> ActionQueue::take() {
     return std::exchange(requests_, {});
 }

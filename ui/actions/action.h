@@ -87,6 +87,8 @@ public:
 
     /// What the connected machine is to do, at once.
     void tell(std::function<void(machine::Driver&)> what);
+    /// At once, of the running job or of what the machine does next.
+    void set_overrides(const machine::Overrides& wanted);
     /// Wanted in this frame alone: the machine moves while every frame says so.
     void jog(JogWish wish) { jog_ = std::move(wish); }
     [[nodiscard]] std::optional<JogWish> take_jog() { return std::exchange(jog_, std::nullopt); }

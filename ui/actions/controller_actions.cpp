@@ -148,7 +148,12 @@ void add_controller_actions(Actions& actions) {
         can_single,
         [](Hands& hands) {
             const bool on = !hands.session.hand.single_block;
-            hands.workshop.controller().tell([on](machine::Driver& driver) { driver.set_single_block(on); });
+            if (hands.now.job.running) {
+                hands.jobs.set_single_block(on);
+            } else {
+                hands.workshop.controller().tell(
+                    [on](machine::Driver& driver) { driver.set_single_block(on); });
+            }
             hands.session.hand.single_block = on;
         },
         [](const Workbench& now) { return now.session.hand.single_block; });

@@ -22,6 +22,24 @@ Permission can_recover(const Workbench& now) {
     return now.left_behind.front().work() ? Permission{} : Permission::refused("The copy cannot be read.");
 }
 
+Permission has_broken_job(const Workbench& now) {
+    return now.broken_jobs->empty() ? Permission::refused("No job was broken off.") : Permission{};
+}
+
+Permission can_continue(const Workbench& now) {
+    if (const Permission found = has_broken_job(now); !found.allowed) {
+        return found;
+    }
+    const machine::JobStory& story = now.broken_jobs->front();
+    if (story.next_line <= 1 || story.executed_blocks >= story.start.blocks) {
+        return Permission::refused("There is no line to begin at.");
+    }
+    std::error_code none;
+    return std::filesystem::is_regular_file(story.start.project, none)
+               ? Permission{}
+               : Permission::refused("Its program is no file any more.");
+}
+
 } // namespace
 
 void add_dialog_actions(Actions& actions) {
@@ -54,6 +72,23 @@ void add_dialog_actions(Actions& actions) {
         {"recovery.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
         has_left_behind,
         [](Hands& hands) { hands.workshop.leave_left_behind(); });
+    add(actions,
+        {"broken_job.continue",
+         dialog_menu,
+         "Run from line",
+         "Opens the program and shows the approach to the first line that is not certain. Nothing moves yet.",
+         "",
+         ""},
+        can_continue,
+        [](Hands& hands) { hands.workshop.continue_broken_job(); });
+    add(actions,
+        {"broken_job.dismiss", dialog_menu, "Dismiss", "It is not asked again; the log stays.", "", ""},
+        has_broken_job,
+        [](Hands& hands) { hands.workshop.job_recovery().dismiss(); });
+    add(actions,
+        {"broken_job.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
+        has_broken_job,
+        [](Hands& hands) { hands.workshop.job_recovery().later(); });
 }
 
 } // namespace millwright::actions

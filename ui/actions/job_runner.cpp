@@ -38,6 +38,8 @@ public:
             own_->set_speed(machine::VirtualSpeed{speed});
         }
     }
+    void set_overrides(const machine::Overrides& wanted) { dispatcher_.set_overrides(wanted); }
+    void set_single_block(bool on) { dispatcher_.set_single_block(on); }
     void wait() {
         if (thread_.joinable()) {
             thread_.join();
@@ -133,6 +135,18 @@ void JobRunner::emergency_stop() {
 void JobRunner::set_speed(double speed) {
     if (run_) {
         run_->set_speed(speed);
+    }
+}
+
+void JobRunner::set_overrides(const machine::Overrides& wanted) {
+    if (run_) {
+        run_->set_overrides(wanted);
+    }
+}
+
+void JobRunner::set_single_block(bool on) {
+    if (run_) {
+        run_->set_single_block(on);
     }
 }
 

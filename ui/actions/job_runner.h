@@ -43,6 +43,9 @@ public:
     void stop();
     void emergency_stop();
     void set_speed(double speed);
+    /// Of the running job, and entered in its log; nothing without one. Throw Error if its machine cannot.
+    void set_overrides(const machine::Overrides& wanted);
+    void set_single_block(bool on);
 
     [[nodiscard]] JobView view() const;
     /// Blocks until no job is running.

@@ -1,5 +1,6 @@
 #include "core/machine/driver.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/job_source.h"
 #include "ui/actions/workshop.h"
 
 #include <fmt/chrono.h>
@@ -15,11 +16,6 @@ namespace {
 
 using machine::DriverState;
 using widgets::Permission;
-
-/// Nothing but the text is needed where the controller plans for itself.
-bool sends_text(const Workbench& now) {
-    return now.controller.connected() && now.controller.can.plans;
-}
 
 Permission machine_ready(const Workbench& now) {
     switch (now.controller.link) {
@@ -40,29 +36,27 @@ Permission machine_ready(const Workbench& now) {
                : Permission::refused("The machine is moving.");
 }
 
-Permission program_ready(const Workbench& now) {
-    if (now.in_file()) {
-        if (!now.opened->finished || !now.opened->text) {
-            return Permission::refused("The program is being read.");
-        }
-        if (!now.opened->errors.empty()) {
-            return Permission::refused("The program has errors.");
-        }
-        return sends_text(now) || now.opened->motion ? Permission{}
-                                                     : Permission::refused(now.opened->no_motion);
+/// Where it is to begin at a line, what comes before is known and was shown.
+Permission approach_ready(const Workbench& now) {
+    if (!now.session.begin.on) {
+        return {};
     }
-    if (!now.program() || !now.trajectory() || !now.listing()) {
-        return Permission::refused("There is no program yet.");
+    if (!now.approach || !(now.approach->wish.begin == now.session.begin)) {
+        return Permission::refused("The approach to the line is being worked out.");
     }
-    return now.plan->exact ? Permission{} : Permission::refused("The program is still being computed.");
+    return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
 }
 
 Permission can_run(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
-    const Permission program = program_ready(now);
-    return program.allowed ? machine_ready(now) : program;
+    for (const Permission& permission : {program_ready(now), approach_ready(now)}) {
+        if (!permission.allowed) {
+            return permission;
+        }
+    }
+    return machine_ready(now);
 }
 
 template <DriverState state> Permission driver_is(const Workbench& now) {
@@ -76,42 +70,16 @@ Permission job_runs(const Workbench& now) {
     return now.job.running ? Permission{} : Permission::refused("No job is running.");
 }
 
-machine::Job file_job(const Workbench& now) {
-    const project::OpenedProgram& opened = *now.opened;
-    if (sends_text(now)) {
-        return machine::text_job(std::string(opened.text->bytes.text()), opened.file);
-    }
-    machine::Job job;
-    job.machine = opened.machine;
-    job.program = opened.motion->program;
-    job.listing = opened.motion->listing;
-    return job;
-}
-
-machine::Job project_job(const Workbench& now) {
-    const project::Plan& plan = now.plan->plan;
-    if (sends_text(now)) {
-        return machine::text_job(plan.listing->text, now.project.name + ".ngc");
-    }
-    machine::Job job;
-    job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
-    job.program = plan.program;
-    job.listing = plan.listing;
-    return job;
-}
-
 void run_job(Hands& hands) {
     const Workbench& now = hands.now;
-    machine::Job job = now.in_file() ? file_job(now) : project_job(now);
-    const std::filesystem::path& file = now.in_file() ? now.opened->file : hands.document.file;
-    job.name = file.empty() ? now.project.name : file.stem().string();
-    job.project = file.empty() ? now.project.name : file.string();
+    machine::Job job = hands.session.begin.on ? *now.approach->job : make_job(job_source(now));
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
     hands.session.playback.playing = false;
     hands.session.file.step.reset();
+    hands.session.begin = {};
     hands.session.workspace = Workspace::machine;
     if (auto driver = hands.workshop.controller().driver()) {
-        driver->check(*job.listing, file);
+        driver->check(*job.listing, job.project);
         hands.jobs.start(std::move(job), std::move(driver));
     } else {
         hands.jobs.start(std::move(job), hands.session.machine_speed);

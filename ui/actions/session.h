@@ -4,6 +4,7 @@
 
 #include "core/project/opened_program.h"
 #include "core/project/project.h"
+#include "ui/actions/approach.h"
 #include "ui/actions/hand_settings.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
@@ -64,6 +65,7 @@ struct Session {
     Playback playback;
     FileView file;
     HandSettings hand;
+    BeginAt begin; ///< of the next job
     std::array<LowerTab, workspace_count> lower_tabs{
         LowerTab::plots, LowerTab::plots, LowerTab::plots, LowerTab::motion, LowerTab::console};
     PaneSizes panes;

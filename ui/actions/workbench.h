@@ -4,9 +4,11 @@
 #include "core/project/pipeline.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
+#include "ui/actions/approach.h"
 #include "ui/actions/controller.h"
 #include "ui/actions/document.h"
 #include "ui/actions/file_place.h"
+#include "ui/actions/job_recovery.h"
 #include "ui/actions/job_runner.h"
 #include "ui/actions/session.h"
 
@@ -25,6 +27,7 @@ struct Workbench {
     project::Activity activity;                                ///< of whatever works in the background
     std::shared_ptr<const project::OpenedProgram> opened;      ///< a G-code file; null while none is open
     JobView job;
+    std::shared_ptr<const Approach> approach; ///< of Session::begin; null while it is not worked out
     ControllerView controller;
     std::shared_ptr<machine::Console> console; ///< of the connected machine; null without one
     std::string undo_title, redo_title;        ///< empty if there is nothing
@@ -33,7 +36,8 @@ struct Workbench {
     /// "open sine.json": waits until the person has said what becomes of unsaved changes; empty: nothing
     /// does.
     std::string leaving_to;
-    const std::vector<project::LeftBehind>& left_behind; ///< by programs that crashed; to be asked about
+    const std::vector<project::LeftBehind>& left_behind;     ///< by programs that crashed; to be asked about
+    std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;
@@ -53,7 +57,8 @@ struct Workbench {
     [[nodiscard]] std::string failure() const;
     /// Something is asked over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
-        return session.question != FileQuestion::none || !leaving_to.empty() || !left_behind.empty();
+        return session.question != FileQuestion::none || !leaving_to.empty() || !left_behind.empty() ||
+               !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.

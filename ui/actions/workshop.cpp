@@ -1,6 +1,7 @@
 #include "ui/actions/workshop.h"
 
 #include "core/base/error.h"
+#include "ui/actions/job_source.h"
 
 #include <algorithm>
 #include <utility>
@@ -36,6 +37,8 @@ Workshop::Workshop(WorkshopOptions options)
     controller_ = std::make_unique<Controller>(wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
+    approach_ = std::make_unique<ApproachFinder>(wake);
+    job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     request_plan();
 }
 
@@ -50,6 +53,7 @@ Workbench Workshop::look() const {
             reader_->activity().busy ? reader_->activity() : pipeline_->activity(),
             reader_->latest(),
             jobs_->view(),
+            approach_->answer(),
             controller_->view(),
             controller_->console(),
             history_.undo_title(),
@@ -57,7 +61,8 @@ Workbench Workshop::look() const {
             options_.assets,
             recent_,
             leaving_ ? leaving_->to : std::string(),
-            left_behind_};
+            left_behind_,
+            job_recovery_->broken()};
 }
 
 void Workshop::request_plan() {
@@ -129,6 +134,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 
 bool Workshop::advance(double seconds) {
     follow_file();
+    follow_begin();
     Playback& playback = session_.playback;
     const double duration = look().duration();
     if (!(duration > 0.0)) {
@@ -144,6 +150,16 @@ bool Workshop::advance(double seconds) {
         playback.playing = playback.time < duration;
     }
     return playback.time < before || playback.time > before;
+}
+
+void Workshop::follow_begin() {
+    const Workbench now = look();
+    if (!session_.begin.on || now.job.running || !program_ready(now).allowed) {
+        approach_->want(std::nullopt);
+        return;
+    }
+    const auto dialect = now.controller.can.dialect.value_or(gcode::Dialect::linuxcnc);
+    approach_->want(ApproachWish{job_source(now), session_.begin, dialect});
 }
 
 /// So that the timeline stays where the machine came to rest.
@@ -174,6 +190,9 @@ void Workshop::wait_idle() {
     pipeline_->wait_idle();
     reader_->wait_idle();
     jobs_->wait();
+    follow_begin();
+    approach_->wait_idle();
+    job_recovery_->wait_idle();
 }
 
 } // namespace millwright::actions

@@ -57,6 +57,7 @@ public:
     void new_from_preset(std::string_view preset_id);
 
     /// The machine that is connected, or not.
+    [[nodiscard]] JobRunner& jobs() { return *jobs_; }
     [[nodiscard]] Controller& controller() { return *controller_; }
     /// To what the session names.
     void connect();
@@ -80,6 +81,11 @@ public:
     void discard_left_behind();
     /// Keeps it for the next start.
     void leave_left_behind();
+
+    /// Of the newest job that was broken off: opens its program and sets up a run from the line that comes
+    /// next. Nothing moves. Throws Error if it cannot be opened.
+    void continue_broken_job();
+    [[nodiscard]] JobRecovery& job_recovery() { return *job_recovery_; }
 
     /// The good end: no copy of unsaved work stays.
     void close();
@@ -116,6 +122,7 @@ private:
     void follow_autosave();
     void request_plan();
     void follow_job();
+    void follow_begin();
     void guarded(const std::function<void()>& action);
 
     WorkshopOptions options_;
@@ -133,6 +140,8 @@ private:
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
     std::unique_ptr<JobRunner> jobs_;
+    std::unique_ptr<ApproachFinder> approach_;
+    std::unique_ptr<JobRecovery> job_recovery_;
     bool tells_of_file_ = false; ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;   ///< a job was running when it was last looked at
 };

@@ -51,6 +51,7 @@ void Workshop::open_gcode(const fs::path& file) {
     session_.question = FileQuestion::none;
     session_.fit_wanted = true;
     session_.file.step.reset();
+    session_.begin = {};
     follow_file();
     session_.playback = {};
     tells_of_file_ = true;
@@ -131,6 +132,7 @@ void Workshop::begin(project::Project other, const std::string& title, Document 
 }
 
 void Workshop::look_at_another() {
+    session_.begin = {};
     session_.selected.clear();
     session_.fit_wanted = true;
     session_.playback = {};
@@ -221,6 +223,20 @@ void Workshop::discard_left_behind() {
 
 void Workshop::leave_left_behind() {
     left_behind_.clear();
+}
+
+void Workshop::continue_broken_job() {
+    const auto stories = job_recovery_->broken();
+    expects(!stories->empty(), "a job was broken off");
+    const machine::JobStory story = stories->front();
+    const fs::path file(story.start.project);
+    if (is_project_file(file)) {
+        close_file();
+    }
+    open(file);
+    session_.workspace = Workspace::machine;
+    session_.begin = {true, story.next_line, std::nullopt, story.start.program_hash};
+    job_recovery_->dismiss();
 }
 
 void Workshop::close() {

@@ -46,7 +46,7 @@ void override_row(Ui& ui,
     const auto set = [&](int percent) {
         machine::Overrides wanted = all;
         wanted.*which = std::clamp(percent, least, most);
-        ask.tell([wanted](machine::Driver& driver) { driver.set_overrides(wanted); });
+        ask.set_overrides(wanted);
     };
     ui.value(id, label, fmt::format("{}", all.*which), "%");
     const auto row = ui.row(3);

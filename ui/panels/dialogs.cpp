@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace millwright::panels {
 
 namespace {
@@ -16,6 +18,16 @@ constexpr float width = 500.0F;
 
 std::string where(const std::filesystem::path& file) {
     return file.empty() ? "never saved" : file.string();
+}
+
+/// The end of a long path, which tells more than its beginning.
+std::string shortened(const std::string& path) {
+    constexpr std::size_t most = 52;
+    std::size_t from = path.size() - std::min(path.size(), most);
+    while (from < path.size() && (static_cast<unsigned char>(path[from]) & 0xC0U) == 0x80U) {
+        ++from; // the middle of a letter in UTF-8
+    }
+    return from == 0 ? path : "\u2026" + path.substr(from);
 }
 
 } // namespace
@@ -30,6 +42,8 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_unsaved(ui, now, ask);
     } else if (!now.left_behind.empty()) {
         draw_left_behind(ui, now, ask);
+    } else if (!now.broken_jobs->empty()) {
+        draw_broken_job(ui, now, ask);
     }
 }
 
@@ -79,6 +93,46 @@ void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) c
     action_button(ui, now, ask, catalogue_, "recovery.later");
     action_button(ui, now, ask, catalogue_, "recovery.discard");
     action_button(ui, now, ask, catalogue_, "recovery.recover", Rank::primary);
+}
+
+void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto dialog = ui.dialog("broken_job", "A job was broken off", ui.px(width));
+    if (!dialog) {
+        return;
+    }
+    const machine::JobStory& story = now.broken_jobs->front();
+    ui.text(story.sentence);
+    ui.gap();
+    {
+        const auto labels = ui.label_share(0.2F);
+        ui.value("program", "Program", shortened(story.start.project));
+        ui.value("machine", "Machine", story.start.driver);
+        if (!story.start.started_at.empty()) {
+            ui.value("started", "Started", story.start.started_at);
+        }
+        ui.value("log", "Log", shortened(story.log_file.string()));
+    }
+    ui.gap();
+    (void)widgets::banner(ui,
+                          "look",
+                          {widgets::Severity::warning,
+                           "Look at the machine and the part before anything else. Nothing moves by itself.",
+                           {}});
+    if (now.broken_jobs->size() > 1) {
+        ui.note(fmt::format("{} more after this one.", now.broken_jobs->size() - 1));
+    }
+    ui.gap();
+    const auto row = ui.row(3);
+    action_button(ui, now, ask, catalogue_, "broken_job.later");
+    action_button(ui, now, ask, catalogue_, "broken_job.dismiss");
+    action_button(ui,
+                  now,
+                  ask,
+                  catalogue_,
+                  "broken_job.continue",
+                  Rank::primary,
+                  story.next_line > 1 ? fmt::format("From line {} \u2026", story.next_line)
+                                      : std::string("From a line \u2026"));
 }
 
 } // namespace millwright::panels

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/panels/axis_positions.h"
+#include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 
@@ -104,7 +105,15 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
             ask.run("machine.single_block");
         }
     }
-    action_button(ui, now, ask, catalogue_, "machine.run", widgets::Rank::primary, "Run");
+    begin_fields(ui, now, ask);
+    const actions::BeginAt& begin = now.session.begin;
+    action_button(ui,
+                  now,
+                  ask,
+                  catalogue_,
+                  "machine.run",
+                  widgets::Rank::primary,
+                  begin.on ? fmt::format("Run from line {}", begin.line) : std::string("Run"));
     {
         const auto row = ui.row(3);
         action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");

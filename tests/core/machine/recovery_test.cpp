@@ -63,6 +63,18 @@ TEST(Recovery, TellsARunningJobFromOneWhoseProgramWasKilled) {
                           "next 48 nobody knows; the others were never sent"));
 }
 
+TEST(Recovery, RemembersThatAPersonHasSeenWhatBecameOfAJob) {
+    Bench bench;
+    bench.log.reset();
+    const std::string before = read_file(bench.file);
+    EXPECT_FALSE(bench.story().seen);
+    mark_seen(bench.file);
+    EXPECT_TRUE(bench.story().seen);
+    EXPECT_TRUE(bench.story().broken_off());
+    EXPECT_EQ(read_file(bench.file), before);
+    EXPECT_EQ(read_job_folder(bench.folder / "logs").jobs.size(), 1U); // the mark is no log
+}
+
 TEST(Recovery, TellsHowAJobEnded) {
     Bench bench;
     LogRecord end = record(LogEvent::end, 12, 15);

@@ -22,12 +22,15 @@ std::filesystem::path fresh_folder() {
 
 } // namespace
 
-Person::Person(const render::PixelSize& screen, const std::filesystem::path& recovery)
-    : folder_(fresh_folder()), context_(screen), workshop_({.assets = "assets",
-                                                            .log_folder = folder_ / "jobs",
-                                                            .settings = folder_ / "recent.json",
-                                                            .recovery = recovery,
-                                                            .wake = [] {}}) {
+Person::Person(const render::PixelSize& screen,
+               const std::filesystem::path& recovery,
+               const std::filesystem::path& jobs)
+    : folder_(fresh_folder()), context_(screen),
+      workshop_({.assets = "assets",
+                 .log_folder = jobs.empty() ? folder_ / "jobs" : jobs,
+                 .settings = folder_ / "recent.json",
+                 .recovery = recovery,
+                 .wake = [] {}}) {
     desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);
     wait_idle();
 }

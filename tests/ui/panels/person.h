@@ -16,9 +16,11 @@ namespace millwright::test {
 
 class Person {
 public:
-    /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty.
+    /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty. `jobs`: folder of the
+    /// job logs; one of their own if it is empty.
     explicit Person(const render::PixelSize& screen = {1280, 800},
-                    const std::filesystem::path& recovery = {});
+                    const std::filesystem::path& recovery = {},
+                    const std::filesystem::path& jobs = {});
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
     ~Person();

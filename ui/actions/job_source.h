@@ -1,0 +1,37 @@
+// What a job is made of: the opened file or the project's program, as a value that a thread may keep.
+#pragma once
+
+#include "core/machine/job.h"
+#include "core/project/opened_program.h"
+#include "core/project/pipeline.h"
+#include "ui/widgets/permission.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace millwright::actions {
+
+struct Workbench;
+
+struct JobSource {
+    std::shared_ptr<const project::OpenedProgram> opened;    ///< a G-code file; null: the project's program
+    std::shared_ptr<const project::PublishedPlan> plan;      ///< null with a file
+    std::shared_ptr<const kinematics::MachineModel> machine; ///< whose positions are sent; null with a text
+    bool as_text = false;                                    ///< the controller plans for itself
+    std::filesystem::path file;                              ///< empty: never saved
+    std::string name;                                        ///< of the job and its log
+
+    friend bool operator==(const JobSource&, const JobSource&) = default;
+};
+
+/// Whether there is a program that can be sent to what is connected, else to a virtual machine.
+[[nodiscard]] widgets::Permission program_ready(const Workbench& now);
+
+/// Of what is shown. Only where program_ready() says yes.
+[[nodiscard]] JobSource job_source(const Workbench& now);
+
+/// Takes the time to copy the text of a long program. Throws Error for a text without a block.
+[[nodiscard]] machine::Job make_job(const JobSource& source);
+
+} // namespace millwright::actions

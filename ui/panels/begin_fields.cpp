@@ -1,0 +1,130 @@
+#include "ui/panels/begin_fields.h"
+
+#include "core/base/text.h"
+#include "ui/panels/internal/lines.h"
+#include "ui/widgets/arithmetic.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::BeginAt;
+
+void set_begin(ActionQueue& ask, BeginAt begin) {
+    ask.show([begin = std::move(begin)](actions::Session& session) { session.begin = begin; });
+}
+
+int line_count(const Workbench& now) {
+    if (now.in_file()) {
+        return now.opened->text ? static_cast<int>(now.opened->text->lines.count()) : 1;
+    }
+    const auto listing = now.listing();
+    return listing ? listing->line_count() : 1;
+}
+
+std::optional<double> height(std::string_view text) {
+    const widgets::Evaluated read = widgets::evaluate(text);
+    return read.value && std::isfinite(*read.value) ? read.value : std::nullopt;
+}
+
+void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    BeginAt begin = now.session.begin;
+    const int last = std::max(line_count(now), 1);
+    const std::string of_all = fmt::format("of {}", last);
+    const widgets::FieldInfo info{"line",
+                                  "First line",
+                                  of_all,
+                                  "Of the program: the first that is executed",
+                                  1.0,
+                                  static_cast<double>(last),
+                                  std::numeric_limits<double>::quiet_NaN(),
+                                  0};
+    if (const auto line = ui.integer(begin.line, info)) {
+        begin.line = *line;
+        set_begin(ask, begin);
+    }
+    const auto check = [](std::string_view text) {
+        return text.empty() || height(text) ? std::string() : std::string("A height, or nothing");
+    };
+    if (const auto text = ui.expression("clearance",
+                                        "Clearance Z",
+                                        begin.clearance ? shortest(*begin.clearance) : std::string(),
+                                        check,
+                                        "In the program's unit and work coordinates: from here up the tool "
+                                        "can go anywhere. Empty: the highest rapid above the line")) {
+        begin.clearance = text->empty() ? std::nullopt : height(*text);
+        set_begin(ask, begin);
+    }
+    const auto here = current_line(now);
+    if (here >= 0 && ui.button("cursor",
+                               fmt::format("Line of the cursor ({})", here + 1),
+                               {},
+                               {{}, widgets::Rank::quiet, -1.0F, "Begins where the listing stands"})) {
+        begin.line = static_cast<int>(here) + 1;
+        set_begin(ask, begin);
+    }
+}
+
+void draw_approach(Ui& ui, const Workbench& now) {
+    if (!now.approach) {
+        ui.note("The approach is being worked out \u2026");
+        return;
+    }
+    const actions::Approach& approach = *now.approach;
+    if (approach.refusal) {
+        std::string text = approach.refusal->message;
+        if (!text.empty()) {
+            text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+        }
+        const std::string& hint = approach.refusal->hint;
+        const int line = approach.refusal->place.line;
+        (void)widgets::banner(ui,
+                              "refusal",
+                              {widgets::Severity::warning,
+                               text + (hint.empty() ? "" : " (" + hint + ")"),
+                               line > 0 ? fmt::format("line {}", line) : std::string()});
+        return;
+    }
+    ui.note(fmt::format("Before line {} the machine brings into force what the lines above would have, lifts "
+                        "the tool, goes over the place and comes down at the feed:",
+                        approach.wish.begin.line));
+    std::string lines;
+    for (const std::string& line : approach.lines) {
+        lines += (lines.empty() ? "" : "\n") + line;
+    }
+    ui.text(lines);
+}
+
+} // namespace
+
+void begin_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto scope = ui.scope("begin");
+    const BeginAt& begin = now.session.begin;
+    const widgets::Permission can =
+        now.job.running ? widgets::Permission::refused("A job is running.") : actions::program_ready(now);
+    if (const auto on = ui.toggle("on",
+                                  "Begin at a line",
+                                  begin.on,
+                                  "After a broken tool: everything above the line is brought into force, and "
+                                  "the tool comes from above",
+                                  can)) {
+        const auto here = std::max<std::ptrdiff_t>(current_line(now), 0);
+        set_begin(ask, *on ? BeginAt{true, static_cast<int>(here) + 1, std::nullopt, {}} : BeginAt{});
+    }
+    if (begin.on && can.allowed) {
+        draw_numbers(ui, now, ask);
+        draw_approach(ui, now);
+    }
+}
+
+} // namespace millwright::panels
