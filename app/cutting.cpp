@@ -5,6 +5,7 @@
 #include "core/gcode/plot_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/plot/picture/finished_look.h"
 #include "core/plot/work_time.h"
 #include "core/project/assets.h"
 
@@ -13,6 +14,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace millwright::app {
@@ -25,6 +27,18 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--safe-height", options.safe_height, "Above the top, mm")->capture_default_str();
     command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
+    PreviewOptions& preview = options.preview;
+    constexpr int most_pixels = 10'000;
+    command.add_option("--preview", preview.file, "PNG file: how the work looks when it is done")
+        ->type_name("FILE");
+    command.add_option("--preview-size", preview.pixels, "Pixels of its longer side")
+        ->check(CLI::Range(1, most_pixels))
+        ->capture_default_str();
+    command.add_flag(
+        "--against-light", preview.against_light, "Preview the light that goes through the plate");
+    command.add_option("--plate", preview.plate, "Thickness of the plate in the preview, mm");
+    command.add_option("--half-light", preview.half_light, "So much of the plate halves the light, mm")
+        ->capture_default_str();
 }
 
 kinematics::MachineModel machine_of(const CuttingOptions& options) {
@@ -45,6 +59,14 @@ gcode::Program program_of(const plot::CutPath& path,
     return gcode::plot_program(path, settings);
 }
 
+std::string preview_of(const plot::CutPath& path, const PreviewOptions& preview, const plot::ToolTip& tip) {
+    const plot::HeightField field = plot::finished(path, tip, preview.pixels);
+    constexpr double spare = 0.5;
+    const double plate = preview.plate.value_or(spare - static_cast<double>(std::ranges::min(field.z)));
+    return plot::png_bytes(preview.against_light ? plot::against_light(field, plate, preview.half_light)
+                                                 : plot::shaded(field, plate));
+}
+
 } // namespace
 
 double planned_seconds(const plot::CutPath& path, const CuttingOptions& options) {
@@ -54,13 +76,18 @@ double planned_seconds(const plot::CutPath& path, const CuttingOptions& options)
 
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
+                   const plot::ToolTip& tip,
                    const std::vector<std::string>& header) {
     const kinematics::MachineModel machine = machine_of(options);
     const PostedText text = posted(program_of(path, machine, options, header),
                                    machine,
                                    options.post,
                                    std::filesystem::path(options.out).stem().string());
+    const std::string preview = options.preview.file.empty() ? "" : preview_of(path, options.preview, tip);
     write_file(options.out, text.text.listing.text);
+    if (!preview.empty()) {
+        write_file(options.preview.file, preview);
+    }
     print_notes(text);
     const double seconds = motion::plan(text.text.program, machine, {}, Progress()).duration();
     fmt::print("{} lines, {} min on {}\n",

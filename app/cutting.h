@@ -4,7 +4,9 @@
 #include "app/posting.h"
 #include "core/kinematics/machine_model.h"
 #include "core/plot/cut_path.h"
+#include "core/plot/picture/tool_tip.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,18 @@ class App;
 
 namespace millwright::app {
 
+/// How the work looks when it is done, as a picture.
+struct PreviewOptions {
+    std::string file; ///< PNG; empty: none
+    int pixels = 800; ///< of the longer side
+    bool against_light = false;
+    std::optional<double> plate; ///< its thickness, mm; not given: the depth of the cut and half a millimetre
+    double half_light = 0.3;     ///< what halves the light that goes through the plate, mm
+};
+
 struct CuttingOptions {
-    std::string out;
+    std::string out = {};
+    PreviewOptions preview = {};
     std::string machine = "router-xyz";
     PostChoice post = {.post = "linuxcnc-xyz"};
     double feed_mm_per_min = 600.0;
@@ -24,7 +36,7 @@ struct CuttingOptions {
     double spindle_rpm = 10'000.0;
 };
 
-/// Adds --machine, the options of posts, feeds, safe height and spindle to `command`.
+/// Adds --machine, the options of posts and previews, feeds, safe height and spindle to `command`.
 void add_cutting_options(CLI::App& command, CuttingOptions& options);
 
 [[nodiscard]] kinematics::MachineModel machine_of(const CuttingOptions& options);
@@ -32,10 +44,12 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options);
 /// How long the machine takes for it by the planner, s. Throws Error.
 [[nodiscard]] double planned_seconds(const plot::CutPath& path, const CuttingOptions& options);
 
-/// Writes the program to `options.out`, after it was read back; says how many lines it has and how long the
-/// machine takes by the planner. `header` stands on its top. Throws Error.
+/// Writes the program to `options.out`, after it was read back, and the preview of what `tip` leaves; says
+/// how many lines it has and how long the machine takes by the planner. `header` stands on its top. Throws
+/// Error.
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
+                   const plot::ToolTip& tip,
                    const std::vector<std::string>& header);
 
 } // namespace millwright::app

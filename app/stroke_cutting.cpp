@@ -154,7 +154,9 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command.add_option("--side", options.side, "Of closed strokes: on-line, outside or inside")
         ->transform(CLI::CheckedTransformer(sides))
         ->default_str("on-line");
-    command.add_option("--tool-diameter", options.tool_diameter, "For --side, mm")->capture_default_str();
+    command
+        .add_option("--tool-diameter", options.tool_diameter, "Of an end mill, for --side and --preview, mm")
+        ->capture_default_str();
     command.add_option("--corners", options.corners, "For --side: sharp or round")
         ->transform(CLI::CheckedTransformer(corner_kinds))
         ->default_str("sharp");
@@ -197,7 +199,10 @@ void cut_strokes(const Strokes& drawn, const StrokeCutting& options, const std::
         strokes = plot::link(strokes, settings).strokes;
         say("linked", strokes, options);
     }
-    write_program(plot::cut_path(strokes, cut_settings(strokes, options)), options.cutting, header);
+    write_program(plot::cut_path(strokes, cut_settings(strokes, options)),
+                  options.cutting,
+                  {.kind = plot::TipKind::flat, .diameter = options.tool_diameter},
+                  header);
 }
 
 } // namespace millwright::app

@@ -95,6 +95,7 @@ int relief(const Options& options) {
                lengths.travel / 1000.0);
     write_program(path,
                   options.cutting,
+                  tip,
                   {"relief: " + std::filesystem::path(options.picture.file).filename().string(),
                    fmt::format("{:.3f} mm deep, tool {}", options.depth, plot::to_text(tip))});
     return 0;

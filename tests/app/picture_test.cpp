@@ -166,6 +166,70 @@ TEST(PictureCommand, TraceWritesCurvesOrAProgram) {
     EXPECT_GT(on_the_sun, 20);
 }
 
+TEST(PictureCommand, EngravesDotsAndShowsThem) {
+    const ScratchFolder folder;
+    const std::string snail = "assets/samples/pictures/snail.png";
+    for (const std::string mode : {"halftone", "dither"}) {
+        const std::string file = (folder / (mode + ".ngc")).string();
+        const std::string preview = (folder / (mode + ".png")).string();
+        const Ended ended = run({"picture",
+                                 "engrave",
+                                 snail,
+                                 "--width",
+                                 "40",
+                                 "--pitch",
+                                 "1",
+                                 "--mode",
+                                 mode,
+                                 "--out",
+                                 file,
+                                 "--preview",
+                                 preview,
+                                 "--preview-size",
+                                 "200"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_EQ(run({"gcode", "check", file}).exit_code, 0);
+        EXPECT_TRUE(content_of(preview).starts_with("\x89PNG"));
+        EXPECT_GT(places(content_of(file)).size(), 500U);
+    }
+}
+
+// A plate cut by the tool, as bright as the picture is: the preview is a picture that our reader takes.
+TEST(PictureCommand, PreviewAgainstTheLightIsBrightWhereThePictureIs) {
+    const ScratchFolder folder;
+    std::vector<int> gray(400, 0);
+    for (int n = 0; n < 400; ++n) {
+        gray[static_cast<std::size_t>(n)] = n % 20 < 10 ? 0 : 255;
+    }
+    write_content(folder / "halves.bmp", bmp(20, 20, gray));
+    const std::string preview = (folder / "light.png").string();
+    const Ended ended = run({"picture",
+                             "relief",
+                             (folder / "halves.bmp").string(),
+                             "--width",
+                             "20",
+                             "--depth",
+                             "2",
+                             "--tool",
+                             "flat:1",
+                             "--plate",
+                             "2",
+                             "--against-light",
+                             "--preview-size",
+                             "200",
+                             "--preview",
+                             preview,
+                             "--out",
+                             (folder / "halves.ngc").string()});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto traced = [&](const std::string& region) {
+        return run(
+            {"picture", "trace", preview, "--region", region, "--out", (folder / "dark.svg").string()});
+    };
+    EXPECT_THAT(traced("10,10,80,180").out, HasSubstr("1 outlines of")); // all of it is dark
+    EXPECT_THAT(traced("110,10,80,180").err, HasSubstr("nothing in it is dark enough"));
+}
+
 TEST(PictureCommand, SaysWhatIsWrong) {
     const ScratchFolder folder;
     const std::string out = (folder / "out.ngc").string();

@@ -78,6 +78,20 @@ double rise_slope(const ToolTip& tip, double distance) {
     return 0.0;
 }
 
+double mouth_radius(const ToolTip& tip, double depth) {
+    const double r = radius(tip);
+    switch (tip.kind) {
+    case TipKind::ball:
+        return depth < r ? std::sqrt(depth * (2.0 * r - depth)) : r;
+    case TipKind::v:
+        return std::min(r, depth * std::tan(tip.angle / 2.0));
+    case TipKind::point:
+    case TipKind::flat:
+        break;
+    }
+    return r;
+}
+
 ToolTip parse_tool_tip(std::string_view text) {
     constexpr double straight = 180.0;
     const std::vector<std::string_view> parts = parts_of(text);

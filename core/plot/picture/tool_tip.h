@@ -31,6 +31,9 @@ struct ToolTip {
 /// Its derivative by the distance, inside of the radius.
 [[nodiscard]] double rise_slope(const ToolTip& tip, double distance);
 
+/// Of the mouth of the hole that it makes, so deep below the top, >= 0.
+[[nodiscard]] double mouth_radius(const ToolTip& tip, double depth);
+
 /// `point`, `ball:DIAMETER`, `flat:DIAMETER`, `v:DEGREES` or `v:DEGREES:DIAMETER` (6 mm if not given). Throws
 /// Error quoting what is none of them or out of its range.
 [[nodiscard]] ToolTip parse_tool_tip(std::string_view text);

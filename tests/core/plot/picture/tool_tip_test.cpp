@@ -37,6 +37,16 @@ TEST(ToolTip, SlopesAsItRises) {
     }
 }
 
+TEST(ToolTip, OpensAMouthAsWideAsItRisesToTheTop) {
+    for (const ToolTip& tip : {ToolTip{TipKind::ball, 10.0}, ToolTip{TipKind::v, 10.0, 1.0}}) {
+        for (const double depth : {0.5, 1.0, 3.0}) {
+            EXPECT_NEAR(rise(tip, mouth_radius(tip, depth)), depth, 1e-9);
+        }
+        EXPECT_DOUBLE_EQ(mouth_radius(tip, 20.0), 5.0);
+    }
+    EXPECT_DOUBLE_EQ(mouth_radius({TipKind::flat, 3.0}, 0.1), 1.5);
+}
+
 TEST(ToolTip, IsReadFromText) {
     EXPECT_EQ(parse_tool_tip("ball:1.0"), (ToolTip{TipKind::ball, 1.0}));
     EXPECT_EQ(parse_tool_tip("flat:3.175"), (ToolTip{TipKind::flat, 3.175}));

@@ -1,0 +1,92 @@
+#include "app/commands/picture_engrave.h"
+
+#include "app/picture_choice.h"
+#include "app/stroke_cutting.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/plot/picture/engraving.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    PictureChoice picture;
+    CuttingOptions cutting = {.safe_height = 1.0};
+    std::string mode = "halftone";
+    double pitch = 1.0;
+    double angle_deg = 45.0;
+    std::string tool = "v:60";
+    double depth = 0.3;
+    bool join = false;
+};
+
+plot::CutPath dither_path(const Options& options, const SizedPicture& sized) {
+    const plot::Strokes dots =
+        plot::dithered(sized.picture, sized.pitch, {.pitch = options.pitch, .join = options.join});
+    plot::Level level;
+    level.depth = options.depth;
+    level.cutting = from_mm_per_min(options.cutting.feed_mm_per_min);
+    level.plunging = from_mm_per_min(options.cutting.plunge_mm_per_min);
+    plot::CutSettings settings;
+    settings.levels = {level};
+    settings.safe_height = options.cutting.safe_height;
+    return plot::cut_path(dots, settings);
+}
+
+plot::CutPath halftone_path(const Options& options, const SizedPicture& sized, const plot::ToolTip& tip) {
+    return plot::halftone(sized.picture,
+                          sized.pitch,
+                          {.pitch = options.pitch,
+                           .angle = from_degrees(options.angle_deg),
+                           .tip = tip,
+                           .plunging = from_mm_per_min(options.cutting.plunge_mm_per_min),
+                           .safe_height = options.cutting.safe_height});
+}
+
+int engrave(const Options& options) {
+    const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
+    const SizedPicture sized = read_chosen(options.picture);
+    const plot::CutPath path =
+        options.mode == "dither" ? dither_path(options, sized) : halftone_path(options, sized, tip);
+    if (path.empty()) {
+        throw Error("nothing in it is dark", options.picture.file, "--invert engraves what is bright");
+    }
+    write_program(path,
+                  options.cutting,
+                  tip,
+                  {"engraved: " + std::filesystem::path(options.picture.file).filename().string(),
+                   fmt::format("{}, {:.3f} mm, tool {}", options.mode, options.pitch, plot::to_text(tip))});
+    return 0;
+}
+
+} // namespace
+
+void add_picture_engrave(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *group.add_subcommand("engrave", "Engrave it as dots where it is dark");
+    add_picture_options(command, options->picture);
+    command.add_option("--out", options->cutting.out, "G-code file")->required();
+    command.add_option("--mode", options->mode, "halftone: dots as large as it is dark; dither: as many")
+        ->check(CLI::IsMember({"halftone", "dither"}))
+        ->capture_default_str();
+    command.add_option("--pitch", options->pitch, "Between dots, mm")->capture_default_str();
+    command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
+        ->capture_default_str();
+    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
+        ->capture_default_str();
+    command.add_option("--depth", options->depth, "Of dithered dots, mm")->capture_default_str();
+    command.add_flag("--join", options->join, "Dithered neighbours in a row become one cut");
+    add_cutting_options(command, options->cutting);
+    command.callback([&chosen, options] { chosen = [options] { return engrave(*options); }; });
+}
+
+} // namespace millwright::app
