@@ -182,7 +182,7 @@ CutPath relief(const HeightField& field, const ReliefSettings& settings, const P
     check(settings);
     expects(field.columns > 0 && field.rows > 0, "a height field has pixels");
     ReliefBuilder builder(field, settings);
-    const double lowest = std::ranges::min(field.z);
+    const auto lowest = static_cast<double>(std::ranges::min(field.z));
     constexpr double finishing_part = 0.5;
     if (settings.roughing) {
         const Roughing& roughing = *settings.roughing;

@@ -171,7 +171,7 @@ double TipSurface::highest_between(int column, double y_from, double y_to) const
     const int top = std::max(0, static_cast<int>(std::ceil(field_.rows - 1 - (high + r) / pitch - rim)));
     const int bottom =
         std::min(field_.rows - 1, static_cast<int>(std::floor(field_.rows - 1 - (low - r) / pitch + rim)));
-    double found = lowest_;
+    auto found = static_cast<double>(lowest_);
     for (int i = top; i <= bottom; ++i) {
         const double y = field_.y_of_row(i);
         const double dy = y - std::clamp(y, low, high);
