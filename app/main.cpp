@@ -1,5 +1,6 @@
 // The program: finds out which command is meant, runs it, and tells how it ended.
 // Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
+#include "app/commands/arm_command.h"
 #include "app/commands/cordic_command.h"
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
     add_ports_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
+    add_arm_command(app, chosen);
     add_cordic_command(app, chosen);
     add_plot_command(app, chosen);
     add_picture_command(app, chosen);

@@ -52,7 +52,7 @@ named_file(std::string_view kind, const std::string& name, const fs::path& folde
     std::error_code failure;
     if (!fs::is_regular_file(file, failure)) {
         const std::string known =
-            fmt::format("known: {}; or a path to a {} file", fmt::join(ids_in(shipped), ", "), kind);
+            fmt::format("known: {}; or the path of one", fmt::join(ids_in(shipped), ", "));
         throw is_id(name) ? Error(fmt::format("unknown {} '{}'", kind, name), {}, known)
                           : Error(fmt::format("no such {} file", kind), file, known);
     }
@@ -98,6 +98,10 @@ fs::path machine_path(const std::string& name, const fs::path& folder, const fs:
 
 fs::path post_path(const std::string& name, const fs::path& folder, const fs::path& assets) {
     return named_file("post", name, folder, assets / "posts");
+}
+
+fs::path arm_path(const std::string& name, const fs::path& folder, const fs::path& assets) {
+    return named_file("arm", name, folder, assets / "arms");
 }
 
 fs::path machine_path(const Project& project, const fs::path& project_folder, const fs::path& assets) {

@@ -39,6 +39,9 @@ struct AssetsSearch {
 /// relative to `folder`. Throws Error naming the known ids if there is none.
 [[nodiscard]] std::filesystem::path
 post_path(const std::string& name, const std::filesystem::path& folder, const std::filesystem::path& assets);
+/// The same for arms, shipped in `assets`/arms.
+[[nodiscard]] std::filesystem::path
+arm_path(const std::string& name, const std::filesystem::path& folder, const std::filesystem::path& assets);
 
 /// Ids of the shipped posts, in order.
 [[nodiscard]] std::vector<std::string> post_ids(const std::filesystem::path& assets);

@@ -38,3 +38,6 @@ endif()
 if(MILLWRIGHT_BENCH)
     find_package(benchmark REQUIRED)
 endif()
+if(MILLWRIGHT_TESTS OR MILLWRIGHT_BENCH)
+    pkg_check_modules(kdl REQUIRED IMPORTED_TARGET orocos-kdl) # compared with, never part of the program
+endif()

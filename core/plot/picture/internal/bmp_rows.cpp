@@ -29,7 +29,10 @@ public:
     [[nodiscard]] unsigned char of(std::uint32_t pixel) const {
         const std::uint64_t most = mask_ >> shift_;
         const std::uint64_t value = (pixel & mask_) >> shift_;
-        return most == 0 ? 0 : static_cast<unsigned char>((value * 255 + most / 2) / most);
+        if (most == 0) {
+            return 0;
+        }
+        return static_cast<unsigned char>((value * 255 + most / 2) / most);
     }
     [[nodiscard]] bool contiguous() const { return std::has_single_bit(std::uint64_t{mask_ >> shift_} + 1); }
 

@@ -1,0 +1,235 @@
+#include "app/commands/arm_command.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_file.h"
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_solver.h"
+#include "core/project/assets.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using kinematics::ArmModel;
+using kinematics::JointKind;
+using kinematics::JointPositions;
+
+constexpr int starting_points = 200; ///< for arms without a closed form
+
+/// A tool axis so little out of the plane of an arm with five joints was meant to be in it.
+constexpr double rounding_deg = 0.01;
+
+struct ArmOptions {
+    std::string arm = "motoman-l3";
+    std::vector<double> numbers;
+    bool project = false;
+    bool json = false;
+};
+
+ArmModel arm_of(const ArmOptions& options) {
+    return kinematics::read_arm(project::arm_path(options.arm, ".", project::assets_folder())).arm;
+}
+
+/// Degrees or mm to rad or mm, or back.
+double to_joint(const ArmModel& arm, int n, double shown) {
+    return arm.joint(n).kind == JointKind::revolute ? from_degrees(shown) : shown;
+}
+double from_joint(const ArmModel& arm, int n, double position) {
+    return arm.joint(n).kind == JointKind::revolute ? to_degrees(position) : position;
+}
+
+/// To a billionth, so that rounding does not show.
+double rounded(double value) {
+    return std::round(value * 1e9) / 1e9 + 0.0;
+}
+
+int forward(const ArmOptions& options) {
+    const ArmModel arm = arm_of(options);
+    if (static_cast<int>(options.numbers.size()) != arm.joint_count()) {
+        throw Error(fmt::format("{} has {} joints, {} positions were given",
+                                arm.name(),
+                                arm.joint_count(),
+                                options.numbers.size()));
+    }
+    JointPositions q(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        q[n] = to_joint(arm, n, options.numbers[static_cast<std::size_t>(n)]);
+        if (!std::isfinite(q[n])) {
+            throw Error(fmt::format("joint {}: the position is not a finite number", arm.joint(n).name));
+        }
+    }
+    const Frame tool = kinematics::base_T_tool(arm, q);
+    const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
+    const double measure =
+        kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
+    const int outside = arm.joint_outside(q);
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["x"] = rounded(tip.x());
+        answer["y"] = rounded(tip.y());
+        answer["z"] = rounded(tip.z());
+        answer["tool"] = {rounded(axis.x()), rounded(axis.y()), rounded(axis.z())};
+        answer["manipulability"] = measure;
+        answer["inside_limits"] = outside < 0;
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nmanipulability {:.6f}\n",
+                   shortest(rounded(tip.x())),
+                   shortest(rounded(tip.y())),
+                   shortest(rounded(tip.z())),
+                   shortest(rounded(axis.x())),
+                   shortest(rounded(axis.y())),
+                   shortest(rounded(axis.z())),
+                   measure);
+    }
+    if (outside >= 0) {
+        fmt::print(stderr, "millwright: joint {} is outside of its limits\n", arm.joint(outside).name);
+    }
+    return 0;
+}
+
+struct Solutions {
+    std::vector<JointPositions> joints;
+    std::string reason;
+    double projected_deg = 0.0; ///< by how much the tool axis was turned
+};
+
+JointPositions resting(const ArmModel& arm) {
+    JointPositions q = JointPositions::Zero(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        q[n] = std::clamp(0.0, arm.joint(n).min, arm.joint(n).max);
+    }
+    return q;
+}
+
+/// Any roll will do; an arm with fewer joints than a frame has freedoms may need another one than ours.
+Solutions sought(const ArmModel& arm, const Frame& goal) {
+    const auto demand =
+        arm.joint_count() == 5 ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame;
+    Solutions found;
+    found.joints = kinematics::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
+    if (found.joints.empty()) {
+        found.reason = fmt::format("none was found from {} starting points", starting_points);
+    }
+    return found;
+}
+
+Solutions solved(const ArmModel& arm, kinematics::PointedGoal goal, bool project) {
+    Frame frame = Frame::Identity();
+    frame.translation() = goal.tip;
+    frame.linear() = frame_along(goal.axis);
+    if (!arm.planar_elbow()) {
+        return sought(arm, frame);
+    }
+    Solutions found;
+    const auto projected = kinematics::projected_goal(frame);
+    const double out = projected ? to_degrees(angle_between(projected->linear().col(2), goal.axis)) : 90.0;
+    if (projected && (project || out < rounding_deg)) {
+        goal.axis = projected->linear().col(2);
+        found.projected_deg = out;
+    }
+    auto answer = kinematics::arm_inverse(arm, goal, resting(arm));
+    found.joints = std::move(answer.branches);
+    found.reason = std::move(answer.why);
+    return found;
+}
+
+nlohmann::ordered_json shown(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
+    auto list = nlohmann::ordered_json::array();
+    for (const JointPositions& q : solutions) {
+        auto joints = nlohmann::ordered_json::array();
+        for (int n = 0; n < arm.joint_count(); ++n) {
+            joints.push_back(rounded(from_joint(arm, n, q[n])));
+        }
+        list.push_back(std::move(joints));
+    }
+    return list;
+}
+
+int inverse(const ArmOptions& options) {
+    const ArmModel arm = arm_of(options);
+    const auto& v = options.numbers;
+    const Vec3 tip(v[0], v[1], v[2]), axis(v[3], v[4], v[5]);
+    if (!is_finite(tip) || !is_finite(axis)) {
+        throw Error("the goal is not finite");
+    }
+    if (!(axis.norm() > 1e-9)) {
+        throw Error("the tool axis has no direction", {}, "its three numbers are 0");
+    }
+    const Solutions found = solved(arm, {tip, axis.normalized()}, options.project);
+    const auto list = shown(arm, found.joints);
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["solutions"] = list;
+        answer["projected_degrees"] = rounded(found.projected_deg);
+        if (list.empty()) {
+            answer["reason"] = found.reason;
+        }
+        fmt::print("{}\n", answer.dump(2));
+        return 0;
+    }
+    if (found.projected_deg >= rounding_deg) {
+        fmt::print("The tool axis was turned by {:.4f} deg into the plane of the arm.\n",
+                   found.projected_deg);
+    }
+    for (const auto& solution : list) {
+        std::string line;
+        for (const auto& value : solution) {
+            line += fmt::format("{:>14.6f}", value.get<double>());
+        }
+        fmt::print("{}\n", line);
+    }
+    if (list.empty()) {
+        fmt::print("No solution: {}.\n", found.reason);
+    }
+    return 0;
+}
+
+CLI::App&
+add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<ArmOptions>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("--arm", options->arm, "Arm that ships with the program, or an arm file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    return command;
+}
+
+} // namespace
+
+void add_arm_command(CLI::App& app, Command& chosen) {
+    CLI::App& group = *app.add_subcommand("arm", "Robot arms: where joints bring the tool, and which do");
+    group.require_subcommand(1);
+    const auto options = std::make_shared<ArmOptions>();
+    CLI::App& fk = add(group, "fk", "The tool for given joints", options);
+    fk.add_option("JOINTS", options->numbers, "Position of every joint: degrees, mm of a sliding one")
+        ->required()
+        ->expected(1, 9)
+        ->type_name("J1 J2 ...");
+    fk.callback([&chosen, options] { chosen = [options] { return forward(*options); }; });
+    CLI::App& ik = add(group, "ik", "Every position of the joints for a given tool", options);
+    ik.add_option("GOAL", options->numbers, "Tip in mm and direction of the tool axis")
+        ->required()
+        ->expected(6)
+        ->type_name("X Y Z AX AY AZ");
+    ik.add_flag("--project",
+                options->project,
+                "Turn the axis by the smallest angle into the plane of an arm with five joints");
+    ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,142 @@
+#include "core/kinematics/arm_file.h"
+
+#include "core/base/error.h"
+#include "core/base/json.h"
+#include "core/base/units.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace millwright::kinematics {
+
+namespace {
+
+constexpr double farthest_mm = 1e5;
+constexpr double most_degrees = 36000.0;
+constexpr double fastest = 1e6;
+constexpr double most_counts = 1e9;
+
+double length(const JsonValue& value) {
+    return value.number(-farthest_mm, farthest_mm);
+}
+
+double angle(const JsonValue& value) {
+    return from_degrees(value.number(-most_degrees, most_degrees));
+}
+
+JointKind kind(const JsonValue& value) {
+    const std::string text = value.text();
+    if (text != "revolute" && text != "prismatic") {
+        value.fail(fmt::format("'{}' is neither \"revolute\" nor \"prismatic\"", text));
+    }
+    return text == "revolute" ? JointKind::revolute : JointKind::prismatic;
+}
+
+ArmJoint joint(const JsonValue& value) {
+    value.expect_only(
+        {"name", "kind", "alpha", "a", "d", "theta", "limits", "max_velocity", "max_acceleration"});
+    ArmJoint result;
+    result.name = value.at("name").text();
+    result.kind = kind(value.at("kind"));
+    result.alpha = angle(value.at("alpha"));
+    result.a = length(value.at("a"));
+    result.d = length(value.at("d"));
+    result.theta = angle(value.at("theta"));
+    const bool turns = result.kind == JointKind::revolute;
+    const auto range = value.at("limits").items(2);
+    result.min = turns ? angle(range[0]) : length(range[0]);
+    result.max = turns ? angle(range[1]) : length(range[1]);
+    if (!(result.min < result.max)) {
+        value.at("limits").fail("the lower limit is not below the upper one");
+    }
+    constexpr double slowest = 1e-6;
+    const double unit = turns ? from_degrees(1.0) : 1.0;
+    result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest);
+    result.max_acceleration = unit * value.at("max_acceleration").number(slowest, fastest);
+    return result;
+}
+
+DriveScale drive(const JsonValue& value, bool turns) {
+    value.expect_only({"scale", "offset"});
+    const double unit = turns ? from_degrees(1.0) : 1.0;
+    return {unit * value.at("scale").number(-fastest, fastest),
+            unit * value.at("offset").number(-fastest, fastest)};
+}
+
+Linkage linkage(const JsonValue& value) {
+    value.expect_only({"beta", "gamma", "phi", "omega"});
+    return {.beta = length(value.at("beta")),
+            .gamma = length(value.at("gamma")),
+            .phi = length(value.at("phi")),
+            .omega = angle(value.at("omega"))};
+}
+
+DriveLimits drive_limits(const JsonValue& value) {
+    value.expect_only({"third_minus_second", "roll_plus_fourth_above", "roll_below", "roll_turn"});
+    const auto lead = value.at("third_minus_second").items(2);
+    return {.below_second = lead[0].number(-most_counts, most_counts),
+            .above_second = lead[1].number(-most_counts, most_counts),
+            .roll_low = value.at("roll_plus_fourth_above").number(-most_counts, most_counts),
+            .roll_high = value.at("roll_below").number(-most_counts, most_counts),
+            .roll_turn = value.at("roll_turn").number(1.0, most_counts)};
+}
+
+ArmActuators actuators(const JsonValue& value) {
+    value.expect_only({"drives", "second_linkage", "third_linkage", "limits"});
+    const auto drives = value.at("drives").items(5);
+    ArmActuators result;
+    for (std::size_t n = 0; n < drives.size(); ++n) {
+        const bool linear = n == 1 || n == 2;
+        result.scales[n] = drive(drives[n], !linear);
+    }
+    result.second = linkage(value.at("second_linkage"));
+    result.third = linkage(value.at("third_linkage"));
+    if (const auto limits = value.find("limits")) {
+        result.limits = drive_limits(*limits);
+    }
+    try {
+        expect_sound(result);
+    } catch (const Error& error) {
+        value.fail(error.diagnostic().message);
+    }
+    return result;
+}
+
+ArmModel arm(const JsonValue& root) {
+    ArmDescription description;
+    description.name = root.at("name").text();
+    description.source = root.at("source").text();
+    for (const JsonValue& item : root.at("joints").items()) {
+        description.joints.push_back(joint(item));
+    }
+    const auto tip = root.at("tool_tip").items(3);
+    description.tool_tip = {length(tip[0]), length(tip[1]), length(tip[2])};
+    try {
+        return ArmModel(std::move(description));
+    } catch (const Error& error) {
+        root.fail(error.diagnostic().message);
+    }
+}
+
+} // namespace
+
+ArmFile read_arm(const std::filesystem::path& file) {
+    const JsonValue root = JsonValue::read(file);
+    root.expect_only({"format", "version", "name", "source", "joints", "tool_tip", "actuators"});
+    if (root.at("format").text() != "millwright-arm") {
+        root.at("format").fail("not an arm file");
+    }
+    (void)root.at("version").integer(1, 1);
+    ArmFile result{arm(root), std::nullopt};
+    if (const auto drives = root.find("actuators")) {
+        if (!result.arm.planar_elbow()) {
+            drives->fail("only an arm with three parallel joints between base and roll has such drives");
+        }
+        result.actuators = actuators(*drives);
+    }
+    return result;
+}
+
+} // namespace millwright::kinematics

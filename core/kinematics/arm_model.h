@@ -1,0 +1,71 @@
+// A robot arm: joints in a row, described by Denavit-Hartenberg parameters in Craig's modified convention
+// (Craig, Introduction to Robotics, ch. 3): the twist and the length of the link before a joint, then the
+// offset along and the angle about the joint's own axis. Lengths mm, angles rad.
+#pragma once
+
+#include "core/geometry/vectors.h"
+#include "core/kinematics/machine_model.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::kinematics {
+
+/// One value a joint, from the base outwards: rad or mm. Nine joints at most, never on the heap.
+using JointPositions = AxisPositions;
+
+enum class JointKind { revolute, prismatic };
+
+struct ArmJoint {
+    std::string name;
+    JointKind kind = JointKind::revolute;
+    double alpha = 0.0; ///< twist alpha(i-1) of the link before, rad
+    double a = 0.0;     ///< length a(i-1) of the link before, mm
+    double d = 0.0;     ///< offset along the axis, mm; of a prismatic joint: where its position is 0
+    double theta = 0.0; ///< angle about the axis, rad; of a revolute joint: where its position is 0
+    double min = -std::numeric_limits<double>::infinity();
+    double max = std::numeric_limits<double>::infinity();
+    double max_velocity = 1.0;     ///< rad/s or mm/s
+    double max_acceleration = 1.0; ///< rad/s^2 or mm/s^2
+};
+
+struct ArmDescription {
+    std::string name;
+    std::string source; ///< where the numbers come from
+    std::vector<ArmJoint> joints;
+    Vec3 tool_tip = Vec3::Zero(); ///< in the frame of the last joint, whose z is the tool axis
+};
+
+/// The lengths of an arm whose inverse has a closed form: a turning base, three parallel joints, a roll; all
+/// that the Motoman L-3 has (Saengsasri, Nittayachin 1996, KMITL, section 1).
+struct PlanarElbow {
+    double upper_arm = 0.0; ///< joint 2 to joint 3, mm
+    double forearm = 0.0;   ///< joint 3 to joint 4, mm
+    double tool = 0.0;      ///< wrist to tip along the tool axis, mm
+};
+
+class ArmModel {
+public:
+    /// Throws Error unless there are 1 to 9 joints with finite parameters, positive rates and min < max.
+    explicit ArmModel(ArmDescription description);
+
+    [[nodiscard]] const ArmDescription& description() const { return description_; }
+    [[nodiscard]] const std::string& name() const { return description_.name; }
+    [[nodiscard]] int joint_count() const { return static_cast<int>(description_.joints.size()); }
+    [[nodiscard]] const ArmJoint& joint(int index) const {
+        return description_.joints[static_cast<std::size_t>(index)];
+    }
+    /// The first joint that `positions` takes out of its limits; -1 if none. A limit belongs to the range.
+    [[nodiscard]] int joint_outside(const JointPositions& positions) const;
+
+    /// Nothing if the arm is of another kind.
+    [[nodiscard]] const std::optional<PlanarElbow>& planar_elbow() const { return planar_elbow_; }
+
+private:
+    ArmDescription description_;
+    std::optional<PlanarElbow> planar_elbow_;
+};
+
+} // namespace millwright::kinematics

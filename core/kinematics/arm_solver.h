@@ -1,0 +1,41 @@
+// Inverse kinematics of any arm by damped least squares (Levenberg-Marquardt; Sugihara 2011), for arms
+// without a closed form. It finds one solution near its start, or says that it found none.
+#pragma once
+
+#include "core/kinematics/arm_model.h"
+
+#include <vector>
+
+namespace millwright::kinematics {
+
+/// What of the goal has to be met: the whole frame, the tip and the tool axis (free roll), or the tip alone.
+enum class ArmDemand { frame, tip_and_axis, tip };
+
+struct ArmSolverSettings {
+    double tip_tolerance = 1e-9;    ///< mm
+    double angle_tolerance = 1e-12; ///< rad
+    int most_iterations = 200;
+};
+
+struct ArmSolverResult {
+    JointPositions positions; ///< inside the limits, whether it converged or not
+    bool converged = false;
+    double tip_error = 0.0;   ///< mm
+    double angle_error = 0.0; ///< rad; of what is demanded
+    int iterations = 0;
+};
+
+/// From `start`, which is brought inside the limits first. Throws Defect if something is not finite.
+[[nodiscard]] ArmSolverResult solve_arm(const ArmModel& arm,
+                                        const Frame& goal,
+                                        ArmDemand demand,
+                                        const JointPositions& start,
+                                        const ArmSolverSettings& settings = {});
+
+/// The different solutions found from `starts` starting points, spread evenly inside the limits (a turn to
+/// each side of 0 where there are none), nearest to `previous` first. The same for the same arguments. For an
+/// arm with free joints these are samples of infinitely many.
+[[nodiscard]] std::vector<JointPositions> solve_arm_from_many_starts(
+    const ArmModel& arm, const Frame& goal, ArmDemand demand, const JointPositions& previous, int starts);
+
+} // namespace millwright::kinematics

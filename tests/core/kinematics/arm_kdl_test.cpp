@@ -1,0 +1,61 @@
+// Orocos KDL as the judge of our arms: the same chain built of its own parts.
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_solver.h"
+#include "tests/support/arms.h"
+#include "tests/support/kdl_arm.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::kinematics {
+namespace {
+
+class BesideKdl : public ::testing::TestWithParam<const char*> {
+protected:
+    ArmModel arm_ = test::with_tool(test::arm(GetParam()), 60.0);
+    test::KdlArm kdl_{arm_};
+    std::mt19937 random_{2};
+};
+
+TEST_P(BesideKdl, GoesWhereKdlGoes) {
+    for (int n = 0; n < 2000; ++n) {
+        const JointPositions q = test::random_joints(random_, arm_);
+        EXPECT_LT((base_T_tool(arm_, q).matrix() - kdl_.forward(q).matrix()).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_LT((arm_jacobian(arm_, q) - kdl_.jacobian(q)).cwiseAbs().maxCoeff(), 1e-9);
+    }
+}
+
+TEST_P(BesideKdl, FindsWhatKdlFinds) {
+    int found = 0;
+    for (int n = 0; n < 200; ++n) {
+        const JointPositions q = test::random_joints(random_, arm_, 0.7);
+        const Frame goal = base_T_tool(arm_, q);
+        const JointPositions start = test::random_joints(random_, arm_, 0.7);
+        const auto theirs = kdl_.inverse(goal, start);
+        if (!theirs) {
+            continue;
+        }
+        ++found;
+        const Frame back = base_T_tool(arm_, *theirs);
+        EXPECT_LT((back.translation() - goal.translation()).norm(), 1e-3);
+        if (arm_.planar_elbow()) { // whatever KDL finds is one of our branches, in some turn
+            ArmDescription unlimited = arm_.description();
+            for (ArmJoint& joint : unlimited.joints) {
+                joint.min = -10.0 * pi;
+                joint.max = 10.0 * pi;
+            }
+            const auto ours = arm_inverse(ArmModel(unlimited), goal, q).branches;
+            EXPECT_TRUE(std::ranges::any_of(ours, [&](const JointPositions& branch) {
+                return std::ranges::equal(branch, *theirs, [](double a, double b) {
+                    return std::abs(std::remainder(a - b, 2.0 * pi)) < 1e-4;
+                });
+            })) << theirs->transpose();
+        }
+    }
+    EXPECT_GT(found, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, BesideKdl, ::testing::Values("motoman-l3", "six-axis", "scara"));
+
+} // namespace
+} // namespace millwright::kinematics

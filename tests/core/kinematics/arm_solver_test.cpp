@@ -1,0 +1,89 @@
+#include "core/kinematics/arm_solver.h"
+
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_inverse.h"
+#include "tests/support/arms.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::kinematics {
+namespace {
+
+struct Case {
+    const char* arm;
+    ArmDemand demand;
+};
+
+class ArmSolver : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ArmSolver, ReturnsFromNearbyAndStaysInsideTheLimits) {
+    const ArmModel arm = test::arm(GetParam().arm);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> off(-0.2, 0.2);
+    int converged = 0;
+    constexpr int goals = 300;
+    for (int n = 0; n < goals; ++n) {
+        const JointPositions q = test::random_joints(random, arm, 0.8);
+        JointPositions start = q;
+        for (double& value : start) {
+            value += off(random);
+        }
+        const Frame goal = base_T_tool(arm, q);
+        const ArmSolverResult found = solve_arm(arm, goal, GetParam().demand, start);
+        EXPECT_EQ(arm.joint_outside(found.positions), -1);
+        if (!found.converged) {
+            continue;
+        }
+        ++converged;
+        const Frame back = base_T_tool(arm, found.positions);
+        EXPECT_LT((back.translation() - goal.translation()).norm(), 1e-8);
+        if (GetParam().demand != ArmDemand::tip) {
+            EXPECT_LT((back.linear().col(2) - goal.linear().col(2)).norm(), 1e-10);
+        }
+        if (GetParam().demand == ArmDemand::frame) {
+            EXPECT_LT((back.linear() - goal.linear()).norm(), 1e-10);
+        }
+    }
+    EXPECT_GT(converged, goals * 95 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped,
+                         ArmSolver,
+                         ::testing::Values(Case{"motoman-l3", ArmDemand::frame},
+                                           Case{"motoman-l3", ArmDemand::tip_and_axis},
+                                           Case{"six-axis", ArmDemand::frame},
+                                           Case{"six-axis", ArmDemand::tip_and_axis},
+                                           Case{"six-axis", ArmDemand::tip},
+                                           Case{"scara", ArmDemand::frame}));
+
+TEST(ArmSolverOfTheL3, FindsTheBranchesOfTheClosedForm) {
+    const ArmModel arm = test::arm("motoman-l3");
+    std::mt19937 random(3);
+    for (int n = 0; n < 20; ++n) {
+        const JointPositions q = test::random_joints(random, arm, 0.6);
+        const Frame goal = base_T_tool(arm, q);
+        const auto closed = arm_inverse(arm, goal, q).branches;
+        const auto sought = solve_arm_from_many_starts(arm, goal, ArmDemand::frame, q, 60);
+        for (const JointPositions& branch : closed) {
+            EXPECT_TRUE(std::ranges::any_of(sought, [&](const JointPositions& other) {
+                // Joint 4 and 5 may be found in another turn.
+                return std::ranges::equal(branch, other, [](double a, double b) {
+                    return std::abs(std::remainder(a - b, 2.0 * pi)) < 1e-6;
+                });
+            })) << branch.transpose();
+        }
+    }
+}
+
+TEST(ArmSolverOfTheL3, SaysThatItFoundNothing) {
+    const ArmModel arm = test::arm("motoman-l3");
+    Frame far = Frame::Identity();
+    far.translation() = Vec3(3000.0, 0.0, 0.0);
+    const ArmSolverResult found = solve_arm(arm, far, ArmDemand::tip, test::degrees({20, -50, 60, 0, 0}));
+    EXPECT_FALSE(found.converged);
+    EXPECT_NEAR(found.tip_error, 1550.0, 1.0); // as near as it gets
+    EXPECT_TRUE(solve_arm_from_many_starts(arm, far, ArmDemand::tip, JointPositions::Zero(5), 5).empty());
+}
+
+} // namespace
+} // namespace millwright::kinematics

@@ -1,0 +1,42 @@
+// Arms and joint positions for tests.
+#pragma once
+
+#include "core/base/units.h"
+#include "core/kinematics/arm_file.h"
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace millwright::test {
+
+inline kinematics::ArmModel arm(const std::string& name) {
+    return kinematics::read_arm("assets/arms/" + name + ".json").arm;
+}
+
+/// The same arm with a tool of that length along its axis.
+inline kinematics::ArmModel with_tool(const kinematics::ArmModel& arm, double length) {
+    kinematics::ArmDescription description = arm.description();
+    description.tool_tip = {0.0, 0.0, length};
+    return kinematics::ArmModel(description);
+}
+
+inline kinematics::JointPositions degrees(std::initializer_list<double> values) {
+    kinematics::JointPositions positions(static_cast<Eigen::Index>(values.size()));
+    std::ranges::transform(values, positions.begin(), from_degrees);
+    return positions;
+}
+
+/// Anywhere inside the limits, at most `share` of each range from its middle.
+inline kinematics::JointPositions
+random_joints(std::mt19937& random, const kinematics::ArmModel& arm, double share = 1.0) {
+    kinematics::JointPositions positions(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        const double middle = 0.5 * (arm.joint(n).min + arm.joint(n).max);
+        const double half = 0.5 * share * (arm.joint(n).max - arm.joint(n).min);
+        positions[n] = std::uniform_real_distribution<double>(middle - half, middle + half)(random);
+    }
+    return positions;
+}
+
+} // namespace millwright::test
