@@ -168,6 +168,18 @@ void add_controller_actions(Actions& actions) {
         can_arm,
         [](Hands& hands) { hands.session.hand.keys_armed = !hands.session.hand.keys_armed; },
         [](const Workbench& now) { return now.session.hand.keys_armed; });
+    add(
+        actions,
+        {"machine.arm_gamepad",
+         "Machine",
+         "Jog by gamepad",
+         "As long as a bumper is held: the left stick moves X and Y, the right one Z, the cross the rotary "
+         "axes.",
+         "",
+         icons::machine},
+        can_arm,
+        [](Hands& hands) { hands.session.hand.pad_armed = !hands.session.hand.pad_armed; },
+        [](const Workbench& now) { return now.session.hand.pad_armed; });
 }
 
 } // namespace millwright::actions

@@ -17,6 +17,7 @@ struct HandSettings {
     double speed_mm_per_min = 1000.0;
     double turn_deg_per_min = 720.0;
     bool keys_armed = false; ///< arrow and page keys move the machine
+    bool pad_armed = false;  ///< so does a gamepad
     double spindle_rpm = 6000.0;
     double probe_way_mm = 20.0; ///< downwards at most
     double probe_mm_per_min = 100.0;

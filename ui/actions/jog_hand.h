@@ -9,9 +9,9 @@
 
 namespace millwright::actions {
 
-/// Of one frame: where to, as a sign an axis, and how fast.
+/// Of one frame: where to, and how fast.
 struct JogWish {
-    kinematics::AxisPositions direction; ///< -1, 0 or 1
+    kinematics::AxisPositions direction; ///< -1 to 1 an axis, the largest of them 1
     double speed = 0.0;                  ///< mm/s, of rotary axes rad/s
 
     friend bool operator==(const JogWish& a, const JogWish& b) {

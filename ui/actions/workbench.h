@@ -11,6 +11,7 @@
 #include "ui/actions/job_recovery.h"
 #include "ui/actions/job_runner.h"
 #include "ui/actions/session.h"
+#include "ui/render/gamepad.h"
 
 #include <memory>
 #include <string>
@@ -38,6 +39,7 @@ struct Workbench {
     std::string leaving_to;
     const std::vector<project::LeftBehind>& left_behind;     ///< by programs that crashed; to be asked about
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
+    std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

@@ -62,7 +62,8 @@ Workbench Workshop::look() const {
             recent_,
             leaving_ ? leaving_->to : std::string(),
             left_behind_,
-            job_recovery_->broken()};
+            job_recovery_->broken(),
+            gamepad_};
 }
 
 void Workshop::request_plan() {
@@ -122,7 +123,7 @@ void Workshop::connect() {
     } else if (now.plan && now.plan->plan.workpiece) {
         model = std::make_shared<const kinematics::MachineModel>(now.plan->plan.workpiece->machine);
     }
-    session_.hand.keys_armed = session_.hand.single_block = false;
+    session_.hand.keys_armed = session_.hand.pad_armed = session_.hand.single_block = false;
     controller_->connect(session_.hand.choice, std::move(model));
 }
 

@@ -61,9 +61,11 @@ public:
     [[nodiscard]] Controller& controller() { return *controller_; }
     /// To what the session names.
     void connect();
-    /// Before a frame is drawn: stops a jog that nobody can be holding any more. `held`: a mouse button or a
-    /// key of the jog is down.
+    /// Before a frame is drawn: stops a jog that nobody can be holding any more. `held`: a mouse button, a
+    /// key or a bumper of the jog is down.
     void watch_jog(bool held, bool focused);
+    /// As it is in this frame; nothing where none is connected.
+    void see_gamepad(const std::optional<render::Gamepad>& gamepad) { gamepad_ = gamepad; }
     /// A jog is held: frames have to come, lest its dead man stops it.
     [[nodiscard]] bool jogging() const { return jog_->moving(); }
 
@@ -142,6 +144,7 @@ private:
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;
+    std::optional<render::Gamepad> gamepad_;
     bool tells_of_file_ = false; ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;   ///< a job was running when it was last looked at
 };

@@ -44,7 +44,8 @@ void Desktop::follow_theme() {
     }
 }
 
-void Desktop::draw(bool focused) {
+void Desktop::draw(bool focused, const std::optional<render::Gamepad>& gamepad) {
+    workshop_.see_gamepad(gamepad);
     const render::PixelSize size = context_.framebuffer_size();
     ui_->begin_frame();
     window_->draw(*ui_, static_cast<float>(size.width), static_cast<float>(size.height), focused);
@@ -56,14 +57,14 @@ void Desktop::frame() {
     follow_theme();
     context_.begin();
     session_->begin_frame();
-    draw(screen_ == nullptr || screen_->focused());
+    draw(screen_ == nullptr || screen_->focused(), screen_ == nullptr ? std::nullopt : screen_->gamepad());
 }
 
 void Desktop::frame(const render::InputState& input) {
     follow_theme();
     context_.begin();
     session_->begin_frame(input);
-    draw(input.focused);
+    draw(input.focused, input.gamepad);
 }
 
 std::optional<double> Desktop::next_change() const {

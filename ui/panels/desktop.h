@@ -33,7 +33,7 @@ public:
 
 private:
     void start();
-    void draw(bool focused);
+    void draw(bool focused, const std::optional<render::Gamepad>& gamepad);
     void follow_theme();
 
     render::Context& context_;

@@ -4,13 +4,16 @@
 #include "core/base/units.h"
 #include "core/machine/hand_lines.h"
 #include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/internal/pad_axes.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/widgets/readout.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace millwright::panels {
@@ -64,22 +67,23 @@ public:
           direction_(kinematics::AxisPositions::Zero(static_cast<Eigen::Index>(now.controller.axes.size()))) {
     }
 
-    /// Held in this frame, and whether it went down in it.
-    void want(std::size_t axis, double sign, bool held, bool pressed) {
+    /// Held in this frame, and whether it went down in it. `amount`: -1 to 1, of the speed.
+    void want(std::size_t axis, double amount, bool held, bool pressed) {
         const auto n = static_cast<Eigen::Index>(axis);
         if (hand_.step > 0.0) {
             if (pressed) {
-                step(axis, sign);
+                step(axis, amount > 0.0 ? 1.0 : -1.0);
             }
         } else if (held) {
-            direction_[n] = sign;
+            direction_[n] = amount;
             turns_ = turns_ || is_rotary(machine_.axes[axis]);
         }
     }
 
     void tell() const {
-        if ((direction_.array().abs() > 0.0).any()) {
-            ask_.jog(JogWish{direction_, speed(turns_)});
+        const double most = direction_.size() > 0 ? direction_.cwiseAbs().maxCoeff() : 0.0;
+        if (most > 0.0) {
+            ask_.jog(JogWish{direction_ / most, most * speed(turns_)});
         }
     }
 
@@ -135,6 +139,23 @@ void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
             wish.want(*axis, key.sign, render::key_down(key.key), render::key_pressed(key.key));
         }
     }
+}
+
+/// `before`: what it wanted in the last frame.
+void pad_wishes(const Workbench& now, Wish& wish, std::vector<double>& before) {
+    const bool listens = now.session.hand.pad_armed && now.gamepad && !now.asks();
+    const auto& axes = now.controller.axes;
+    std::vector<double> amounts = listens ? pad_axes(*now.gamepad, axes) : std::vector<double>();
+    amounts.resize(axes.size(), 0.0);
+    before.resize(axes.size(), 0.0);
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const bool held = std::abs(amounts[n]) > 0.0 && can_jog(now, axes[n].letter).allowed;
+        const bool rested = !(std::abs(before[n]) > 0.0);
+        if (held) {
+            wish.want(n, amounts[n], true, rested);
+        }
+    }
+    before = std::move(amounts);
 }
 
 } // namespace
@@ -200,7 +221,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     }
 }
 
-void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto section = ui.section("jog", "Jog");
     if (!section) {
         return;
@@ -213,6 +234,14 @@ void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
             jog_button(ui, now, wish, n, 1.0);
         }
     }
+    key_wishes(ui, now, wish);
+    pad_wishes(now, wish, pad_before_);
+    wish.tell();
+    draw_hands(ui, now, ask);
+}
+
+/// How far and how fast, and by what besides the mouse.
+void HandPanel::draw_hands(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::HandSettings& hand = now.session.hand;
     const auto chosen_step = std::ranges::find(steps, hand.step);
     const auto labels = ui.label_share(0.3F);
@@ -243,8 +272,15 @@ void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const {
             ui.toggle("keys", "Jog by keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
         ask.run("machine.arm_keys");
     }
-    key_wishes(ui, now, wish);
-    wish.tell();
+    const actions::Action& pad = catalogue_.find("machine.arm_gamepad");
+    if (const auto on =
+            ui.toggle("pad", "Jog by gamepad", hand.pad_armed, pad.info().tip, pad.permission(now))) {
+        ask.run("machine.arm_gamepad");
+    }
+    if (hand.pad_armed) {
+        ui.note(now.gamepad ? "Hold a bumper: left stick X and Y, right stick Z, cross the rotary axes."
+                            : "No gamepad is connected.");
+    }
 }
 
 } // namespace millwright::panels

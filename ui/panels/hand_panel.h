@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -16,9 +17,11 @@ public:
 
 private:
     void draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_hands(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
+    std::vector<double> pad_before_; ///< of each axis in the last frame
 };
 
 } // namespace millwright::panels

@@ -29,17 +29,20 @@ constexpr float timeline_height = 92.0F;
 constexpr float emergency_width = 184.0F;
 constexpr float seam = 2.0F;
 constexpr float smallest_view = 240.0F;
+constexpr double between_looks_at_pad = 0.02; ///< s
+constexpr double between_looks_for_pad = 0.5; ///< s
 
 bool is_wide(const actions::Session& session) {
     return session.workspace == Workspace::program || session.workspace == Workspace::machine;
 }
 
 /// Something that could hold a jog is down.
-bool jog_may_be_held() {
+bool jog_may_be_held(const std::optional<render::Gamepad>& pad) {
     using render::Key;
     constexpr std::array keys{
         Key::left, Key::right, Key::up, Key::down, Key::page_up, Key::page_down, Key::space};
-    return ImGui::GetIO().MouseDown[0] || std::ranges::any_of(keys, render::key_down);
+    const bool bumper = pad && (pad->left_bumper || pad->right_bumper);
+    return bumper || ImGui::GetIO().MouseDown[0] || std::ranges::any_of(keys, render::key_down);
 }
 
 /// A text field keeps the keys that mean something to it; Ctrl+A is the text's, too.
@@ -86,7 +89,7 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
 }
 
 void Window::draw(Ui& ui, float width, float height, bool focused) {
-    workshop_.watch_jog(jog_may_be_held(), focused);
+    workshop_.watch_jog(jog_may_be_held(workshop_.look().gamepad), focused);
     const Workbench now = workshop_.look();
     const Layout place = layout(ui, now.session, width, height);
     draw_panes(ui, now, place);
@@ -269,7 +272,13 @@ std::optional<double> Window::next_change() const {
     if (session.playback.playing || workshop_.jogging()) {
         return 0.0;
     }
-    return std::nullopt;
+    const Workbench now = workshop_.look();
+    const bool listens =
+        session.hand.pad_armed && now.controller.connected() && session.workspace == Workspace::machine;
+    if (!listens) {
+        return std::nullopt;
+    }
+    return now.gamepad ? between_looks_at_pad : between_looks_for_pad; // GLFW tells of no event
 }
 
 } // namespace millwright::panels

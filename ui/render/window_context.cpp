@@ -1,6 +1,7 @@
 #include "ui/render/window_context.h"
 
 #include "core/base/error.h"
+#include "ui/render/internal/gamepad_state.h"
 #include "ui/render/internal/gl.h"
 #include "ui/render/internal/gl_version.h"
 #include "ui/render/internal/read_pixels.h"
@@ -220,6 +221,16 @@ void WindowContext::keep_open() {
 
 bool WindowContext::focused() const {
     return glfwGetWindowAttrib(handle(), GLFW_FOCUSED) != GLFW_FALSE;
+}
+
+std::optional<Gamepad> WindowContext::gamepad() const {
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state{};
+        if (glfwGetGamepadState(joystick, &state) == GLFW_TRUE) {
+            return gamepad_of(state);
+        }
+    }
+    return std::nullopt;
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes the window

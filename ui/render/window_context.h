@@ -2,10 +2,12 @@
 #pragma once
 
 #include "ui/render/context.h"
+#include "ui/render/gamepad.h"
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,9 @@ public:
     void keep_open();
 
     [[nodiscard]] bool focused() const;
+
+    /// Of the first that is connected, as it is now; nothing without one. No event comes from it.
+    [[nodiscard]] std::optional<Gamepad> gamepad() const;
 
     void set_title(const std::string& title);
 

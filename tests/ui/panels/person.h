@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,6 +54,7 @@ public:
     /// From now on; no frame is drawn.
     void hold_button(bool down) { input_.buttons[0] = down; }
     void hold_keys(std::vector<render::Key> keys) { input_.keys = std::move(keys); }
+    void hold_gamepad(const std::optional<render::Gamepad>& gamepad) { input_.gamepad = gamepad; }
     void set_focused(bool focused) { input_.focused = focused; }
     /// Clicks a field, replaces its text and commits with Enter.
     void fill_in(std::string_view path, std::string_view text);
