@@ -268,13 +268,11 @@ void HandPanel::draw_hands(Ui& ui, const Workbench& now, ActionQueue& ask) const
                     &actions::HandSettings::turn_deg_per_min);
     }
     const actions::Action& arm = catalogue_.find("machine.arm_keys");
-    if (const auto on =
-            ui.toggle("keys", "Jog by keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
+    if (const auto on = ui.toggle("keys", "By keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
         ask.run("machine.arm_keys");
     }
     const actions::Action& pad = catalogue_.find("machine.arm_gamepad");
-    if (const auto on =
-            ui.toggle("pad", "Jog by gamepad", hand.pad_armed, pad.info().tip, pad.permission(now))) {
+    if (const auto on = ui.toggle("pad", "By gamepad", hand.pad_armed, pad.info().tip, pad.permission(now))) {
         ask.run("machine.arm_gamepad");
     }
     if (hand.pad_armed) {
