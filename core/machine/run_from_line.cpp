@@ -2,13 +2,13 @@
 
 #include "core/base/text.h"
 #include "core/gcode/reader/interpreter.h"
+#include "core/machine/internal/bare_line.h"
 #include "core/machine/modal_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -24,6 +24,7 @@ using gcode::Dialect;
 using gcode::ModalState;
 using gcode::Move;
 using gcode::MoveKind;
+using internal::has_code;
 
 constexpr int decimals = 6;
 constexpr int z_axis = 2;
@@ -43,37 +44,12 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     return lines;
 }
 
-/// Without comments and blanks, in capitals.
-std::string bare(std::string_view line) {
-    std::string text;
-    bool comment = false;
-    for (const char c : line) {
-        if (comment) {
-            comment = c != ')';
-        } else if (c == ';') {
-            break;
-        } else if (c == '(') {
-            comment = true;
-        } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
-            text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        }
-    }
-    return text;
-}
-
-std::string without_number(std::string text) {
-    if (text.starts_with('N')) {
-        text.erase(0, std::min(text.find_first_not_of("0123456789.", 1), text.size()));
-    }
-    return text;
-}
-
 /// Flow that makes "the lines before" mean something else than the lines above.
 void check_flow(const std::vector<std::string_view>& lines, const std::filesystem::path& file) {
     for (std::size_t n = 0; n < lines.size(); ++n) {
-        const std::string text = without_number(bare(lines[n]));
+        const std::string text = internal::bare_line(lines[n]);
         const int number = static_cast<int>(n) + 1;
-        if (text.starts_with('O') || text.starts_with("M98") || text.starts_with("M99")) {
+        if (internal::is_flow(text)) {
             refuse(file, number, "a program with subroutines or loops cannot be begun in its middle");
         }
         if (text.find('#') != std::string::npos) {
@@ -83,17 +59,6 @@ void check_flow(const std::vector<std::string_view>& lines, const std::filesyste
             refuse(file, number, "a program that probes cannot be begun in its middle");
         }
     }
-}
-
-bool has_code(std::string_view bare_line, std::string_view code) {
-    for (std::size_t at = bare_line.find(code); at != std::string_view::npos;
-         at = bare_line.find(code, at + 1)) {
-        const std::size_t next = at + code.size();
-        if (next >= bare_line.size() || std::isdigit(static_cast<unsigned char>(bare_line[next])) == 0) {
-            return true;
-        }
-    }
-    return false;
 }
 
 /// G53, G28 and G30 go to machine positions, of which a program does not know the work coordinates.
@@ -129,7 +94,7 @@ private:
 class Watcher final : public gcode::CanonSink {
 public:
     void move(const Move& move, const gcode::SourceLine& now) override {
-        if (move.kind == MoveKind::traverse && !goes_by_the_machine(bare(now.text))) {
+        if (move.kind == MoveKind::traverse && !goes_by_the_machine(internal::bare_line(now.text))) {
             const double z = move.target[gcode::Axis::z];
             highest_ = std::max(highest_.value_or(z), z);
         }
@@ -167,7 +132,7 @@ ModalState state_before(
     KnownAxes known;
     for (int next = 1; next < line; ++next) {
         const bool more = reader.step();
-        const std::string words = without_number(bare(lines[static_cast<std::size_t>(next) - 1]));
+        const std::string words = internal::bare_line(lines[static_cast<std::size_t>(next) - 1]);
         known.take(words, reader.state().incremental);
         if (has_code(words, "G10") || has_code(words, "G92") || has_code(words, "G52")) {
             refuse(
@@ -207,7 +172,7 @@ void check_state(const ModalState& state,
     if (state.constant_surface_speed) {
         refuse(file, line, "constant surface speed is in force here (G96)");
     }
-    const std::string text = without_number(bare(first_line));
+    const std::string text = internal::bare_line(first_line);
     const bool straight = state.motion == 0 || state.motion == 10 || state.motion == no_motion;
     const bool names_motion = text.find('G') != std::string::npos;
     if (!straight && !names_motion) {

@@ -1,109 +1,25 @@
 #include "core/machine/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
-#include "core/machine/drivers/grbl/internal/console_tap.h"
+#include "core/machine/drivers/grbl/internal/console_words.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 #include "core/machine/drivers/grbl/settings.h"
 
-#include <algorithm>
-#include <mutex>
-#include <stop_token>
-#include <thread>
 #include <utility>
 
 namespace millwright::machine {
 
 using grbl::Session;
 
-/// The session, its link, and the thread that carries bytes between them.
-struct GrblDriver::Body {
-    std::unique_ptr<Link> link;
-    const Clock& clock;
-    mutable std::mutex mutex; ///< guards the session
-    Session session;
-    Console console;
-    grbl::ConsoleTap tap{console};
-    std::jthread thread;
-
-    Body(std::unique_ptr<Link> its_link, const Clock& its_clock, const GrblOptions& options)
-        : link(std::move(its_link)), clock(its_clock),
-          session({options.one_by_one, options.poll_interval, options.patience, options.greeting_time}) {}
-
-    /// One command, its bytes sent before anybody else's.
-    template <class Command> auto with_session(Command&& command) {
-        const std::scoped_lock lock(mutex);
-        struct Sender {
-            Body& body;
-            ~Sender() {
-                const std::string bytes = body.session.take_output();
-                body.tap.sent(bytes, body.clock.now());
-                body.link->write(bytes);
-            }
-        } const sender{*this};
-        return command(session, clock.now());
-    }
-
-    void run(const std::stop_token& stop) {
-        constexpr double tick = 0.02;
-        while (!stop.stop_requested()) {
-            link->wait(tick);
-            with_session([this](Session& now, double time) {
-                const std::string bytes = link->read();
-                tap.received(bytes, time);
-                now.receive(bytes, time);
-                if (const auto why = link->lost(); why && !now.link_lost()) {
-                    tap.note("the link was lost: " + *why, time);
-                    now.lost(*why);
-                }
-                now.tick(time);
-            });
-        }
-    }
-
-    void open() {
-        link->open();
-        with_session([](Session& now, double time) { now.opened(time); });
-        thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
-    }
-
-    void shut() {
-        thread = {};
-        link->close();
-        with_session([](Session& now, double) { now.closed(); });
-    }
-
-    [[nodiscard]] DriverStatus status() const {
-        const std::scoped_lock lock(mutex);
-        return session.status();
-    }
-
-    template <class Done> void wait_until(const Done& done) {
-        while (true) {
-            {
-                const std::scoped_lock lock(mutex);
-                if (done(session)) {
-                    return;
-                }
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-    }
-
-    void greet() {
-        open();
-        wait_until([](const Session& now) { return now.greeted(); });
-    }
-};
-
 GrblDriver::GrblDriver(std::unique_ptr<Link> link, const Clock& clock, GrblOptions options)
-    : body_(std::make_unique<Body>(std::move(link), clock, options)) {}
+    : SessionDriver(std::move(link),
+                    clock,
+                    std::make_unique<Session>(grbl::SessionSettings{
+                        options.one_by_one, options.poll_interval, options.patience, options.greeting_time}),
+                    grbl::console_words()) {}
 
-GrblDriver::~GrblDriver() {
-    close();
-}
-
-DriverStatus GrblDriver::status() const {
-    return body_->status();
+Session& GrblDriver::talk() const {
+    return static_cast<Session&>(session());
 }
 
 Capabilities GrblDriver::capabilities() const {
@@ -123,8 +39,8 @@ Capabilities GrblDriver::capabilities() const {
 }
 
 GrblReadout GrblDriver::readout() const {
-    const std::scoped_lock lock(body_->mutex);
-    const grbl::Readout& known = body_->session.readout();
+    const std::scoped_lock lock(session_mutex());
+    const grbl::Readout& known = talk().readout();
     return {.version = known.version,
             .settings = known.settings,
             .planner_blocks = known.planner_blocks,
@@ -135,99 +51,32 @@ void GrblDriver::check(const gcode::Listing& listing, const std::filesystem::pat
     (void)grbl::program_lines(listing, file);
 }
 
-void GrblDriver::connect() {
-    if (status().state != DriverState::disconnected) {
-        return;
-    }
-    body_->greet();
-    const DriverStatus now = status();
-    if (now.state == DriverState::alarm && readout().settings.empty()) {
-        body_->shut();
-        throw Error(body_->link->name() + ": " + now.message, {}, "is it the right port, and switched on?");
-    }
-}
-
 void GrblDriver::start(Work work) {
     expects(work.listing != nullptr, "Grbl is given a program's text");
     grbl::ProgramLines lines = grbl::program_lines(*work.listing, {});
-    body_->with_session(
-        [&](Session& now, double time) { now.start(std::move(lines), time, work.allowed_blocks); });
-}
-
-void GrblDriver::hold() {
-    body_->with_session([](Session& now, double time) { now.hold(time); });
-}
-
-void GrblDriver::resume() {
-    body_->with_session([](Session& now, double time) { now.resume(time); });
-}
-
-void GrblDriver::stop() {
-    body_->with_session([](Session& now, double time) { now.stop(time); });
-}
-
-void GrblDriver::emergency_stop() {
-    body_->with_session([](Session& now, double time) { now.emergency_stop(time); });
-}
-
-void GrblDriver::reset() {
-    bool lost = false;
-    {
-        const std::scoped_lock lock(body_->mutex);
-        lost = body_->session.link_lost();
-    }
-    if (lost) {
-        body_->shut();
-        body_->greet();
-    }
-    body_->with_session([](Session& now, double time) { now.reset(time); });
-    body_->wait_until([](const Session& now) { return now.greeted(); });
-}
-
-void GrblDriver::close() noexcept {
-    try {
-        stop();
-        body_->wait_until([](const Session& now) { return now.status().state != DriverState::stopping; });
-        body_->shut();
-    } catch (const std::exception&) {
-        body_->thread = {};
-        body_->link->close(); // a controller without its host stops by itself when its buffers are empty
-    }
-}
-
-void GrblDriver::set_overrides(const Overrides& wanted) {
-    body_->with_session([&](Session& now, double) { now.set_overrides(wanted); });
-}
-
-void GrblDriver::jog(const Jog& jog) {
-    body_->with_session([&](Session& now, double time) { now.jog(jog, time); });
-}
-
-void GrblDriver::stop_jog() {
-    body_->with_session([](Session& now, double time) { now.stop_jog(time); });
-}
-
-void GrblDriver::home() {
-    body_->with_session([](Session& now, double time) { now.home(time); });
+    const Turn turn(*this);
+    talk().start(std::move(lines), turn.now(), work.allowed_blocks);
 }
 
 int GrblDriver::command(const std::string& lines) {
     grbl::ProgramLines ready = grbl::command_lines(lines);
-    return body_->with_session(
-        [&](Session& now, double time) { return now.command(std::move(ready), time); });
+    const Turn turn(*this);
+    return talk().command(std::move(ready), turn.now());
 }
 
 void GrblDriver::set_single_block(bool on) {
-    body_->with_session([&](Session& now, double) { now.set_single_block(on); });
+    const Turn turn(*this);
+    talk().set_single_block(on);
 }
 
 void GrblDriver::allow(int blocks) {
-    body_->with_session([&](Session& now, double) { now.allow(blocks); });
+    const Turn turn(*this);
+    talk().allow(blocks);
 }
 
 MachineLimits GrblDriver::limits() const {
-    const std::scoped_lock lock(body_->mutex);
-    const std::map<int, double>& settings = body_->session.readout().settings;
+    const std::scoped_lock lock(session_mutex());
+    const std::map<int, double>& settings = talk().readout().settings;
     const auto setting = [&settings](int number) {
         const auto found = settings.find(number);
         return found == settings.end() ? std::nullopt : std::optional(found->second);
@@ -251,9 +100,9 @@ MachineLimits GrblDriver::limits() const {
 }
 
 std::vector<ControllerSetting> GrblDriver::settings() const {
-    const std::scoped_lock lock(body_->mutex);
+    const std::scoped_lock lock(session_mutex());
     std::vector<ControllerSetting> table;
-    for (const auto& [number, value] : body_->session.readout().settings) {
+    for (const auto& [number, value] : talk().readout().settings) {
         const GrblSetting* known = find_grbl_setting(number);
         const GrblSetting words =
             known != nullptr ? *known
@@ -264,16 +113,12 @@ std::vector<ControllerSetting> GrblDriver::settings() const {
 }
 
 std::vector<StoredOffset> GrblDriver::stored_offsets() const {
-    const std::scoped_lock lock(body_->mutex);
+    const std::scoped_lock lock(session_mutex());
     std::vector<StoredOffset> table;
-    for (const auto& [name, axes] : body_->session.readout().offsets) {
+    for (const auto& [name, axes] : talk().readout().offsets) {
         table.push_back({name, kinematics::AxisPositions{Vec3(axes[0], axes[1], axes[2])}});
     }
     return table;
-}
-
-Console* GrblDriver::console() {
-    return &body_->console;
 }
 
 } // namespace millwright::machine

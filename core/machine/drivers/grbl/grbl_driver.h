@@ -2,10 +2,7 @@
 // claimed as executed, and what happens when something goes wrong: docs/reference/grbl.md.
 #pragma once
 
-#include "core/machine/clock.h"
-#include "core/machine/console.h"
-#include "core/machine/driver.h"
-#include "core/machine/links/link.h"
+#include "core/machine/drivers/session_driver.h"
 
 #include <filesystem>
 #include <map>
@@ -28,37 +25,26 @@ struct GrblReadout {
     int planner_blocks = 15, buffer_bytes = 128;
 };
 
-class GrblDriver final : public Driver {
+namespace grbl {
+class Session;
+}
+
+class GrblDriver final : public SessionDriver {
 public:
     /// `clock` must outlive it.
     GrblDriver(std::unique_ptr<Link> link, const Clock& clock, GrblOptions options = {});
-    GrblDriver(const GrblDriver&) = delete;
-    GrblDriver& operator=(const GrblDriver&) = delete;
-    ~GrblDriver() override;
 
     [[nodiscard]] std::string name() const override { return "grbl"; }
-    [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] Capabilities capabilities() const override;
     [[nodiscard]] GrblReadout readout() const;
     void check(const gcode::Listing& listing, const std::filesystem::path& file) const override;
 
-    /// Resets the controller, if nothing is moving, and asks it for version and settings; waits for each of
-    /// both at most the greeting time. Throws Error if nobody answers, or if the machine is moving already. A
-    /// controller that is locked is connected, in DriverState::alarm.
-    void connect() override;
+    // connect() resets the controller, if nothing is moving, and asks it for version and settings; waits for
+    // each of both at most the greeting time. Throws Error also if the machine is moving already. A
+    // controller that is locked is connected, in DriverState::alarm; reset() unlocks it.
+
     /// Uses the listing alone. Throws Error with its line for what must not be sent.
     void start(Work work) override;
-    void hold() override;
-    void resume() override;
-    void stop() override;
-    void emergency_stop() override;
-    /// Makes a lost link again; unlocks the controller.
-    void reset() override;
-    void close() noexcept override;
-    void set_overrides(const Overrides& wanted) override;
-    void jog(const Jog& jog) override;
-    void stop_jog() override;
-    void home() override;
     /// G-code, settings ($110=500) and questions ($N). Throws Error for lines that must not be sent.
     int command(const std::string& lines) override;
     /// Lines that the controller has already, up to 20, are executed first.
@@ -68,11 +54,9 @@ public:
     [[nodiscard]] MachineLimits limits() const override;
     [[nodiscard]] std::vector<ControllerSetting> settings() const override;
     [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;
-    [[nodiscard]] Console* console() override;
 
 private:
-    struct Body;
-    std::unique_ptr<Body> body_;
+    [[nodiscard]] grbl::Session& talk() const;
 };
 
 } // namespace millwright::machine

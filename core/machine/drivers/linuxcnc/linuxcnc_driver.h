@@ -3,10 +3,7 @@
 // when something goes wrong: docs/reference/linuxcnc.md.
 #pragma once
 
-#include "core/machine/clock.h"
-#include "core/machine/console.h"
-#include "core/machine/driver.h"
-#include "core/machine/links/link.h"
+#include "core/machine/drivers/session_driver.h"
 
 #include <filesystem>
 #include <memory>
@@ -21,7 +18,11 @@ struct LinuxCncOptions {
     double jog_acceleration = 500.0;      ///< mm/s^2, no less than the machine's
 };
 
-class LinuxCncDriver final : public Driver {
+namespace linuxcnc {
+class ShellSession;
+}
+
+class LinuxCncDriver final : public SessionDriver {
 public:
     static constexpr int standard_port = 5007;
 
@@ -31,33 +32,24 @@ public:
     LinuxCncDriver& operator=(const LinuxCncDriver&) = delete;
     ~LinuxCncDriver() override;
 
+    // connect() throws Error also if a password is refused. A LinuxCNC in its emergency stop, or switched
+    // off, is connected, in DriverState::alarm; reset() ends that and switches the machine on. Jogs are of X,
+    // Y and Z; overrides of the feed alone: there is none for rapids, and this linuxcncrsh does not survive
+    // the spindle's.
+
     [[nodiscard]] std::string name() const override { return "linuxcnc"; }
-    [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] Capabilities capabilities() const override;
-    /// Throws Error if nobody answers or a password is refused. A LinuxCNC in its emergency stop, or switched
-    /// off, is connected, in DriverState::alarm.
-    void connect() override;
     /// Uses the listing alone, written to a file. Throws Error if that cannot be written, or has no end.
     void start(Work work) override;
-    void hold() override;
-    void resume() override;
-    void stop() override;
-    void emergency_stop() override;
-    /// Makes a lost link again; ends the emergency stop and switches the machine on.
-    void reset() override;
-    void close() noexcept override;
-    /// Of the feed alone: there is none for rapids, and this linuxcncrsh does not survive the spindle's.
-    void set_overrides(const Overrides& wanted) override;
-    /// X, Y and Z.
-    void jog(const Jog& jog) override;
-    void stop_jog() override;
-    void home() override;
     int command(const std::string& lines) override;
-    [[nodiscard]] Console* console() override;
 
 private:
-    struct Body;
-    std::unique_ptr<Body> body_;
+    [[nodiscard]] linuxcnc::ShellSession& talk() const;
+    void remove_program();
+
+    LinuxCncOptions options_;
+    int programs_ = 0;
+    std::filesystem::path program_file_;
 };
 
 } // namespace millwright::machine

@@ -1,14 +1,13 @@
-// The host's side of a conversation with Grbl 1.1, without wires, threads and clocks: bytes come in, bytes go
-// out, time is told. One rule stands above all: once something is wrong, no byte leaves that could begin
-// motion, until a person has asked for it.
+// The host's side of a conversation with Grbl 1.1. One rule stands above all: once something is wrong, no
+// byte leaves that could begin motion, until a person has asked for it.
 #pragma once
 
-#include "core/machine/driver.h"
 #include "core/machine/drivers/grbl/internal/messages.h"
 #include "core/machine/drivers/grbl/internal/modes.h"
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 #include "core/machine/drivers/grbl/internal/proof.h"
 #include "core/machine/drivers/grbl/internal/window.h"
+#include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/jog_feed.h"
 
 #include <map>
@@ -40,42 +39,39 @@ struct Readout {
     bool line_numbers = false;
 };
 
-class Session {
+class Session final : public internal::ControllerSession {
 public:
     explicit Session(SessionSettings settings = {}) : settings_(settings) {}
 
-    // What happens to it.
-    void opened(double now);
-    void lost(const std::string& why);
-    void closed();
-    void receive(std::string_view bytes, double now);
-    void tick(double now);
-    /// Takes the bytes that shall be sent.
-    [[nodiscard]] std::string take_output();
+    void opened(double now) override;
+    void lost(const std::string& why) override;
+    void closed() override;
+    void receive(std::string_view bytes, double now) override;
+    void tick(double now) override;
+    [[nodiscard]] std::string take_output() override;
 
-    // What it knows.
-    [[nodiscard]] DriverStatus status() const;
+    [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] const Readout& readout() const { return readout_; }
-    /// Whether the greeting is over, well or not.
-    [[nodiscard]] bool greeted() const { return stage_ != Stage::greeting && stage_ != Stage::asking; }
-    [[nodiscard]] bool link_lost() const { return link_lost_; }
+    [[nodiscard]] bool greeted() const override {
+        return stage_ != Stage::greeting && stage_ != Stage::asking;
+    }
+    [[nodiscard]] bool link_lost() const override { return link_lost_; }
+    [[nodiscard]] std::optional<Diagnostic> stranger() const override;
 
-    // What a person wants. Each throws Error with the reason if it cannot be done now; those of Driver that
-    // do nothing in other states do nothing.
     void start(ProgramLines program, double now, std::optional<int> allowed_blocks = std::nullopt);
     void allow(int blocks);
-    void hold(double now);
-    void resume(double now);
-    void stop(double now);
-    void emergency_stop(double now);
-    void reset(double now);
-    void home(double now);
-    void jog(const Jog& jog, double now);
+    void hold(double now) override;
+    void resume(double now) override;
+    void stop(double now) override;
+    void emergency_stop(double now) override;
+    void reset(double now) override;
+    void home(double now) override;
+    void jog(const Jog& jog, double now) override;
+    void stop_jog(double now) override;
     /// The number of the answer that DriverStatus will show.
     int command(ProgramLines lines, double now);
     void set_single_block(bool on);
-    void stop_jog(double now);
-    void set_overrides(const Overrides& wanted);
+    void set_overrides(const Overrides& wanted) override;
 
 private:
     enum class Stage {

@@ -47,6 +47,13 @@ Activity Session::activity() const {
     }
 }
 
+std::optional<Diagnostic> Session::stranger() const {
+    if (stage_ != Stage::alarm || !readout_.settings.empty()) {
+        return std::nullopt;
+    }
+    return Diagnostic{{}, message_, "is it the right port, and switched on?"};
+}
+
 DriverStatus Session::status() const {
     DriverStatus status;
     status.message = message_;

@@ -1,8 +1,7 @@
-// The host's side of a conversation with linuxcncrsh, without wires, threads and clocks: bytes come in, bytes
-// go out, time is told. What is claimed, and why: docs/reference/linuxcnc.md.
+// The host's side of a conversation with linuxcncrsh. What is claimed, and why: docs/reference/linuxcnc.md.
 #pragma once
 
-#include "core/machine/driver.h"
+#include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/jog_feed.h"
 #include "core/machine/drivers/linuxcnc/internal/program_file.h"
 #include "core/machine/drivers/linuxcnc/internal/replies.h"
@@ -24,35 +23,36 @@ struct ShellSettings {
     double jog_acceleration = 500.0; ///< mm/s^2: no less than the machine's, since LinuxCNC does not tell
 };
 
-class ShellSession {
+class ShellSession final : public internal::ControllerSession {
 public:
     explicit ShellSession(ShellSettings settings = {}) : settings_(std::move(settings)) {}
 
-    // What happens to it.
-    void opened(double now);
-    void lost(const std::string& why);
-    void closed();
-    void receive(std::string_view bytes, double now);
-    void tick(double now);
-    [[nodiscard]] std::string take_output();
+    void opened(double now) override;
+    void lost(const std::string& why) override;
+    void closed() override;
+    void receive(std::string_view bytes, double now) override;
+    void tick(double now) override;
+    [[nodiscard]] std::string take_output() override;
 
-    // What it knows.
-    [[nodiscard]] DriverStatus status() const;
-    [[nodiscard]] bool greeted() const { return stage_ != Stage::greeting && stage_ != Stage::waking; }
-    [[nodiscard]] bool link_lost() const { return link_lost_; }
+    [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] bool greeted() const override {
+        return stage_ != Stage::greeting && stage_ != Stage::waking;
+    }
+    [[nodiscard]] bool link_lost() const override { return link_lost_; }
+    [[nodiscard]] std::optional<Diagnostic> stranger() const override;
 
-    // What a person wants, as in Driver. `path`: where LinuxCNC finds the text of `file`.
+    /// `path`: where LinuxCNC finds the text of `file`.
     void start(const gcode::Listing& listing, const ProgramFile& file, const std::string& path, double now);
-    void hold();
-    void resume();
-    void stop(double now);
-    void emergency_stop();
-    void reset(double now);
-    void home(double now);
-    void jog(const Jog& jog, double now);
-    void stop_jog(double now);
+    void hold(double now) override;
+    void resume(double now) override;
+    void stop(double now) override;
+    void emergency_stop(double now) override;
+    void reset(double now) override;
+    void home(double now) override;
+    void jog(const Jog& jog, double now) override;
+    void stop_jog(double now) override;
     int command(const std::string& lines, double now);
-    void set_overrides(const Overrides& wanted);
+    void set_overrides(const Overrides& wanted) override;
 
 private:
     enum class Stage {
@@ -69,26 +69,38 @@ private:
         alarm
     };
 
+    // shell_session.cpp: questions and answers
     void send(const std::string& request, std::string subject);
     void set(const std::string& words);
     void get(const std::string& subject);
     void handle(const Reply& reply, double now);
     void refused(const std::string& request, double now);
     void ask(double now);
+    [[nodiscard]] const std::string& value(const std::string& subject) const;
+    [[nodiscard]] bool idle_now() const;
+
+    // shell_watch.cpp: what a round of answers says
     void round_done(double now);
+    [[nodiscard]] bool watch_power(double now);
     void take_machine();
     void watch_program(double now);
     void watch_command(double now);
     void watch_jog(double now);
+    void watch_homing(double now);
     void pump_jog();
+    [[nodiscard]] double unit() const; ///< mm
+    [[nodiscard]] kinematics::AxisPositions axes_of(const std::string& subject) const;
+
+    // shell_requests.cpp: what a person wants
+    void finish(Stage stage, std::string why = {});
     void fail(std::string why, double now);
     void require_rest(std::string_view what) const;
     [[nodiscard]] bool active() const;
-    [[nodiscard]] bool idle_now() const;
-    [[nodiscard]] const std::string& value(const std::string& subject) const;
-    [[nodiscard]] kinematics::AxisPositions axes_of(const std::string& subject) const;
+
+    // shell_status.cpp
     [[nodiscard]] DriverState state() const;
-    void finish(Stage stage, std::string why = {});
+    [[nodiscard]] Activity activity() const;
+    [[nodiscard]] int work_system() const;
 
     ShellSettings settings_;
     Stage stage_ = Stage::closed;

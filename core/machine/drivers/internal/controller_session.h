@@ -1,0 +1,53 @@
+// The host's side of a conversation with a controller, without wires, threads and clocks: bytes come in,
+// bytes go out, time is told. Used by one thread at a time.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/machine/driver.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine::internal {
+
+class ControllerSession {
+public:
+    virtual ~ControllerSession() = default;
+
+    // What happens to it.
+    virtual void opened(double now) = 0;
+    virtual void lost(const std::string& why) = 0;
+    virtual void closed() = 0;
+    virtual void receive(std::string_view bytes, double now) = 0;
+    virtual void tick(double now) = 0;
+    /// Takes the bytes that shall be sent.
+    [[nodiscard]] virtual std::string take_output() = 0;
+
+    // What it knows.
+    [[nodiscard]] virtual DriverStatus status() const = 0;
+    /// Whether the greeting is over, well or not.
+    [[nodiscard]] virtual bool greeted() const = 0;
+    [[nodiscard]] virtual bool link_lost() const = 0;
+    /// After the greeting: why this is no controller of the kind; nothing if it is one.
+    [[nodiscard]] virtual std::optional<Diagnostic> stranger() const = 0;
+
+    // What a person wants, as in Driver. Each throws Error with the reason if it cannot be done now; those of
+    // Driver that do nothing in other states do nothing.
+    virtual void hold(double now) = 0;
+    virtual void resume(double now) = 0;
+    virtual void stop(double now) = 0;
+    virtual void emergency_stop(double now) = 0;
+    virtual void reset(double now) = 0;
+    virtual void home(double now) = 0;
+    virtual void jog(const Jog& jog, double now) = 0;
+    virtual void stop_jog(double now) = 0;
+    virtual void set_overrides(const Overrides& wanted) = 0;
+
+protected:
+    ControllerSession() = default;
+    ControllerSession(const ControllerSession&) = default;
+    ControllerSession& operator=(const ControllerSession&) = default;
+};
+
+} // namespace millwright::machine::internal

@@ -1,0 +1,76 @@
+// What the drivers of controllers have in common that are talked with: a session that knows the protocol, a
+// link, and a thread that carries bytes between the two.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/console.h"
+#include "core/machine/driver.h"
+#include "core/machine/links/link.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace millwright::machine {
+
+namespace internal {
+class ControllerSession;
+struct ConsoleWords;
+} // namespace internal
+
+class SessionDriver : public Driver {
+public:
+    SessionDriver(const SessionDriver&) = delete;
+    SessionDriver& operator=(const SessionDriver&) = delete;
+    ~SessionDriver() override;
+
+    [[nodiscard]] DriverStatus status() const override;
+    /// Throws Error if nobody answers, or somebody else.
+    void connect() override;
+    void hold() override;
+    void resume() override;
+    void stop() override;
+    void emergency_stop() override;
+    /// Makes a lost link again.
+    void reset() override;
+    void close() noexcept override;
+    void set_overrides(const Overrides& wanted) override;
+    void jog(const Jog& jog) override;
+    void stop_jog() override;
+    void home() override;
+    [[nodiscard]] Console* console() override;
+
+protected:
+    /// `clock` must outlive it.
+    SessionDriver(std::unique_ptr<Link> link,
+                  const Clock& clock,
+                  std::unique_ptr<internal::ControllerSession> session,
+                  const internal::ConsoleWords& words);
+
+    /// The session, for as long as this lives: nobody else touches it, and the bytes that it has to send are
+    /// sent before anybody else's.
+    class Turn {
+    public:
+        explicit Turn(SessionDriver& driver);
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+        ~Turn();
+
+        [[nodiscard]] double now() const { return now_; } ///< of the clock, s
+
+    private:
+        SessionDriver& driver_;
+        std::scoped_lock<std::mutex> lock_;
+        double now_;
+    };
+
+    [[nodiscard]] internal::ControllerSession& session() const;
+    /// For who looks at the session and changes nothing.
+    [[nodiscard]] std::mutex& session_mutex() const;
+
+private:
+    struct Body;
+    std::unique_ptr<Body> body_;
+};
+
+} // namespace millwright::machine
