@@ -80,9 +80,15 @@ private:
 /// A job on its way: what has been seen of it, and its log.
 class Dispatcher::Watch {
 public:
-    Watch(Dispatcher& dispatcher, const Job& job, JobLog& log, double planned_time, DriverStatus before)
-        : dispatcher_(dispatcher), job_(job), log_(log), planned_time_(planned_time),
-          start_(dispatcher.clock_.now()), last_(std::move(before)) {
+    /// `trajectory`: null where the controller alone plans.
+    Watch(Dispatcher& dispatcher,
+          const Job& job,
+          JobLog& log,
+          std::shared_ptr<const motion::Trajectory> trajectory,
+          DriverStatus before)
+        : dispatcher_(dispatcher), job_(job), log_(log), trajectory_(std::move(trajectory)),
+          plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
+          last_(std::move(before)) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
     }
@@ -128,7 +134,8 @@ private:
     Dispatcher& dispatcher_;
     const Job& job_;
     JobLog& log_;
-    double planned_time_ = 0.0;
+    std::shared_ptr<const motion::Trajectory> trajectory_;
+    bool plans_itself_ = false;
     double start_ = 0.0;
     DriverStatus last_; ///< with the last known position where the link is gone
     int logged_blocks_ = 0;
@@ -159,10 +166,21 @@ private:
     void remember(const DriverStatus& status) {
         if (status.state != DriverState::disconnected) {
             last_ = status;
+            last_.planned_time = plans_itself_ ? time_of_executed() : last_.planned_time;
             return;
         }
         last_.state = status.state;
         last_.message = status.message;
+    }
+
+    [[nodiscard]] double planned_time() const { return trajectory_ ? trajectory_->duration() : 0.0; }
+
+    /// How far a controller that follows its own plan would be in ours.
+    [[nodiscard]] double time_of_executed() const {
+        if (!trajectory_ || last_.executed_blocks >= blocks()) {
+            return planned_time();
+        }
+        return trajectory_->start_of(std::max(0, last_.executed_blocks));
     }
 
     [[nodiscard]] LogRecord record(LogEvent event, double time, const DriverStatus& status) const {
@@ -197,12 +215,12 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const double fraction = planned_time_ > 0.0
-                                    ? last_.planned_time / planned_time_
+        const double fraction = planned_time() > 0.0
+                                    ? last_.planned_time / planned_time()
                                     : static_cast<double>(last_.executed_blocks) / std::max(1, blocks());
         progress.report(fraction, fmt::format("Block {} of {}", last_.executed_blocks, blocks()));
         if (listener) {
-            listener({last_, blocks(), elapsed(), planned_time_});
+            listener({last_, blocks(), elapsed(), planned_time()});
         }
     }
 
@@ -265,7 +283,6 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
             *job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
     }
-    const double planned_time = trajectory ? trajectory->duration() : 0.0;
 
     JobLog log(log_folder_, job.name);
     log.write(LogStart{.job = job.name,
@@ -276,10 +293,10 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .started_at = job.started_at,
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
-                       .planned_time = planned_time,
+                       .planned_time = trajectory ? trajectory->duration() : 0.0,
                        .from_line = job.from_line});
     progress.check();
-    Watch watch(*this, job, log, planned_time, before);
+    Watch watch(*this, job, log, trajectory, before);
     try {
         Work work{job.program, trajectory, job.listing, {}};
         if (able.piecewise) {

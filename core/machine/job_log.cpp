@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
+#include "core/machine/internal/named.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -53,17 +54,6 @@ double rounded(double value) {
 std::string one_line(const Json& value) {
     // Names of files may be no UTF-8; a log is not the place to fail about that.
     return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-template <class Enum, std::size_t count>
-Enum named(const JsonValue& value, const std::array<Enum, count>& all) {
-    const std::string name = value.text();
-    for (const Enum one : all) {
-        if (to_text(one) == name) {
-            return one;
-        }
-    }
-    value.fail(fmt::format("\"{}\" is not known here", name));
 }
 
 constexpr std::array all_events{LogEvent::ahead,
@@ -126,7 +116,7 @@ LogRecord record_from(const JsonValue& value, const LogStart& start) {
     value.expect_only(
         {"record", "time_s", "executed_blocks", "line", "position", "end", "text", "allowed_blocks"});
     LogRecord record;
-    record.event = named(value.at("record"), all_events);
+    record.event = internal::named(value.at("record"), all_events);
     record.time = value.at("time_s").number(0.0);
     record.executed_blocks = value.at("executed_blocks").integer(0, start.blocks);
     record.line = value.at("line").integer(0);
@@ -138,7 +128,7 @@ LogRecord record_from(const JsonValue& value, const LogStart& start) {
         record.position[static_cast<Eigen::Index>(n)] = rotary ? from_degrees(shown) : shown;
     }
     if (const auto end = value.find("end")) {
-        record.end = named(*end, all_ends);
+        record.end = internal::named(*end, all_ends);
     }
     if (const auto text = value.find("text")) {
         record.text = text->text();

@@ -2,19 +2,24 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/gcode/posts/post_file.h"
+#include "core/gcode/posts/release.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/job_log.h"
+#include "tests/core/machine/drivers/grbl/wire_driver.h"
 #include "tests/support/jobs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace millwright::machine {
 namespace {
 
+using kinematics::AxisPositions;
 using ::testing::HasSubstr;
 
 struct Bench {
@@ -67,6 +72,47 @@ TEST(Dispatcher, TellsHowFarTheJobIs) {
     EXPECT_EQ(reports.back().driver.executed_blocks, reports.back().blocks);
     EXPECT_DOUBLE_EQ(fractions.back(), 1.0);
     EXPECT_NEAR(reports[reports.size() / 2].driver.planned_time, reports[reports.size() / 2].elapsed, 1e-6);
+}
+
+/// A program of the router, in the words of Grbl.
+Job router_job() {
+    const auto router = test::machine("router-xyz");
+    gcode::Program program = test::empty_program(router);
+    for (int n = 1; n <= 100; ++n) {
+        test::add_move(program, AxisPositions(Vec3(n % 2 == 0 ? 10.0 : 0.0, n, 0.0)), 0.5);
+    }
+    test::add_block(program, gcode::BlockKind::end);
+    gcode::ReleasedText text = gcode::release(program, router, gcode::read_post("assets/posts/grbl.json"));
+    Job job;
+    job.name = "router";
+    job.machine = std::make_shared<const kinematics::MachineModel>(router);
+    job.program = std::make_shared<const gcode::Program>(std::move(text.program));
+    job.listing = std::make_shared<const gcode::Listing>(std::move(text.listing));
+    return job;
+}
+
+TEST(Dispatcher, TellsHowFarAControllerIsThatPlansForItself) {
+    const test::TemporaryFolder folder;
+    test::GrblWire wire({}, {.line_numbers = true});
+    test::WireClock clock(wire, wire.now + 600.0);
+    test::WireDriver driver(wire);
+    const Job job = router_job();
+    std::vector<double> fractions;
+    std::vector<JobReport> reports;
+    const JobOutcome outcome =
+        Dispatcher(driver, clock, folder.path())
+            .run(job,
+                 Progress([&](const Progress::Report& now) { fractions.push_back(now.fraction); }, {}),
+                 [&](const JobReport& report) { reports.push_back(report); });
+    ASSERT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_TRUE(std::ranges::is_sorted(fractions));
+    EXPECT_DOUBLE_EQ(fractions.back(), 1.0);
+    // All moves take the same time but the first and the last, which begin and end at rest.
+    const auto half = std::ranges::find_if(
+        reports, [](const JobReport& report) { return 2 * report.driver.executed_blocks >= report.blocks; });
+    ASSERT_NE(half, reports.end());
+    EXPECT_NEAR(half->driver.planned_time / half->planned_time, 0.5, 0.05);
+    EXPECT_NEAR(half->elapsed / reports.back().elapsed, 0.5, 0.1);
 }
 
 TEST(Dispatcher, LogsHoldResumeAndStopWithTimeAndPosition) {
