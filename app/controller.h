@@ -1,8 +1,11 @@
 // A job on a controller that plans for itself, on the command line.
 #pragma once
 
+#include "core/machine/clock.h"
+#include "core/machine/driver.h"
 #include "core/machine/job.h"
 
+#include <memory>
 #include <stop_token>
 #include <string>
 
@@ -25,12 +28,32 @@ struct ControllerChoice {
 /// Adds these three to `command`; returns --port.
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice);
 
-/// Checks the text, connects, says what a person should know, and runs the job to its end under a progress
-/// bar. Throws Error, before anything is sent if the text is at fault.
-[[nodiscard]] machine::JobOutcome run_on_controller(const machine::Job& job,
-                                                    const ControllerChoice& choice,
-                                                    const std::string& log_folder,
-                                                    const std::stop_token& stop);
+/// A controller on which jobs are run one after another, over one connection.
+class Controller {
+public:
+    /// Makes no link yet.
+    explicit Controller(ControllerChoice choice);
+    Controller(const Controller&) = delete;
+    Controller& operator=(const Controller&) = delete;
+    ~Controller();
+
+    /// Throws Error for what this controller must not be sent.
+    void check(const machine::Job& job) const;
+    /// Throws Error if nobody answers, or if the controller is locked and nobody said that it may be
+    /// unlocked.
+    void connect();
+    /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
+    /// anything is sent if the text is at fault.
+    [[nodiscard]] machine::JobOutcome
+    run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop);
+
+private:
+    void show_warnings(const machine::Job& job) const;
+
+    ControllerChoice choice_;
+    machine::SteadyClock clock_;
+    std::unique_ptr<machine::Driver> driver_;
+};
 
 /// Date and time for people.
 [[nodiscard]] std::string now_for_people();

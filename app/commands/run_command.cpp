@@ -4,13 +4,14 @@
 #include "app/interrupt.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
+#include "app/series.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/base/text.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/run_from_line.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -18,22 +19,22 @@
 
 #include <charconv>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
-#include <utility>
 
 namespace millwright::app {
 
 namespace {
 
 struct Options {
-    std::string project;
+    SeriesChoice series;
     std::string driver = "virtual";
     double speed = 1.0;
     double period = 0.01;
     ControllerChoice controller; ///< for grbl; its port also for stream
     PostChoice post{.post = ""}; ///< empty: that of the driver
-    std::string log = "jobs";
+    std::optional<double> clearance;
 };
 
 std::string fault_of_speed(const std::string& text) {
@@ -68,22 +69,62 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
     return job;
 }
 
-machine::JobOutcome
-run_on_planned_machine(const machine::Job& job, const Options& options, const std::stop_token& stop) {
-    ProgressPrinter printer;
-    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
-    machine::SteadyClock clock;
-    machine::DriverChoice choice;
-    choice.kind = machine::driver_kind(options.driver);
-    choice.address = options.controller.port;
-    choice.period = options.period;
-    const auto driver = machine::make_driver(choice, {job.machine, job.program->start, options.speed}, clock);
-    driver->connect();
-    machine::Dispatcher dispatcher(*driver, clock, options.log);
-    machine::JobOutcome outcome = dispatcher.run(job, progress);
-    driver->close();
-    return outcome;
+machine::Job begun_at(machine::Job job, int line, const Options& options) {
+    if (options.driver == "cordic") {
+        throw Error("the cordic driver runs programs from their beginning alone");
+    }
+    machine::RunFromSettings settings;
+    settings.clearance = options.clearance;
+    if (options.driver == "grbl") { // which executes the text
+        settings.dialect = gcode::Dialect::grbl;
+        job.program = nullptr;
+    }
+    return machine::job_from_line(job, line, settings);
 }
+
+/// The virtual machine, or a stream of coordinates: what follows a motion that is planned here.
+class PlannedMachine {
+public:
+    explicit PlannedMachine(const Options& options) : options_(options) {}
+
+    machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop) {
+        connect(job);
+        ProgressPrinter printer;
+        const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
+        machine::Dispatcher dispatcher(*driver_, clock_, options_.series.log);
+        return dispatcher.run(job, progress);
+    }
+
+private:
+    const Options& options_;
+    machine::SteadyClock clock_;
+    std::string model_; ///< name of the machine that the driver moves
+    std::unique_ptr<machine::Driver> driver_;
+
+    /// The first job says which machine it is.
+    void connect(const machine::Job& job) {
+        if (driver_ == nullptr) {
+            model_ = job.machine->name();
+            driver_ = make_driver(job);
+            driver_->connect();
+        } else if (job.machine->name() != model_) {
+            throw Error(fmt::format("{} is for machine '{}', and '{}' is connected",
+                                    job.project,
+                                    job.machine->name(),
+                                    model_),
+                        {},
+                        "run it by itself");
+        }
+    }
+
+    std::unique_ptr<machine::Driver> make_driver(const machine::Job& job) {
+        machine::DriverChoice choice;
+        choice.kind = machine::driver_kind(options_.driver);
+        choice.address = options_.controller.port;
+        choice.period = options_.period;
+        return machine::make_driver(choice, {job.machine, job.program->start, options_.speed}, clock_);
+    }
+};
 
 /// Before the work is done.
 void refuse_missing_port(const Options& options) {
@@ -96,25 +137,43 @@ void refuse_missing_port(const Options& options) {
 int run(const Options& options) {
     refuse_missing_port(options);
     const Interrupt interrupt;
-    const OpenedProject opened = open_project(options.project);
-    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
-    const machine::Job job = job_of(opened, plan, options);
-    const machine::JobOutcome outcome =
-        options.driver == "grbl" ? run_on_controller(job, options.controller, options.log, interrupt.token())
-                                 : run_on_planned_machine(job, options, interrupt.token());
-    fmt::print("{}\nLog: {}\n", outcome.sentence, outcome.log_file.string());
-    if (outcome.end == machine::JobEnd::cancelled) {
-        throw Cancelled();
+    std::optional<Controller> controller;
+    if (options.driver == "grbl") {
+        controller.emplace(options.controller);
     }
-    return outcome.end == machine::JobEnd::done ? 0 : 1;
+    PlannedMachine planned_machine(options);
+    SeriesSteps steps;
+    steps.make = [&](const std::string& file, int from_line) {
+        const OpenedProject opened = open_project(file);
+        machine::Job job =
+            job_of(opened, planned(opened, project::Scope::program, interrupt.token()), options);
+        if (from_line > 1) {
+            job = begun_at(job, from_line, options);
+        }
+        if (controller) {
+            controller->check(job);
+        }
+        return job;
+    };
+    steps.ready = [&] {
+        if (controller) {
+            controller->connect();
+        }
+    };
+    steps.run = [&](const machine::Job& job) {
+        return controller ? controller->run(job, options.series.log, interrupt.token())
+                          : planned_machine.run(job, interrupt.token());
+    };
+    return run_series(options.series, steps, interrupt.token());
 }
 
 } // namespace
 
 void add_run_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("run", "Run the program of a project on a machine");
-    command.add_option("PROJECT", options->project, "Project file")->required();
+    CLI::App& command = *app.add_subcommand("run", "Run the programs of projects on a machine");
+    add_series_options(command, options->series, "Project files");
+    add_clearance_option(command, options->clearance);
     command.add_option("--driver", options->driver, "Machine to run on")
         ->required()
         ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic"}));
@@ -128,9 +187,6 @@ void add_run_command(CLI::App& app, Command& chosen) {
                     options->speed,
                     "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
-        ->capture_default_str();
-    command.add_option("--log", options->log, "Folder of the job logs")
-        ->type_name("DIR")
         ->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/machine/internal/bare_line.h"
+#include "core/machine/internal/program_from_line.h"
 #include "core/machine/modal_lines.h"
 
 #include <fmt/format.h>
@@ -292,7 +293,10 @@ RunFrom run_from_line(std::string_view text,
 }
 
 Job job_from_line(const Job& job, int line, const RunFromSettings& settings) {
-    expects(job.listing != nullptr && job.program == nullptr, "a text is begun in its middle");
+    expects(job.listing != nullptr, "a job has a listing");
+    if (job.program != nullptr) {
+        return internal::program_from_line(job, line, settings);
+    }
     const RunFrom rest = run_from_line(job.listing->text, job.project, line, settings);
     Job result = text_job(rest.text, job.project);
     result.name = job.name;

@@ -37,7 +37,12 @@ struct RunFrom {
                                     int line,
                                     const RunFromSettings& settings);
 
-/// The job of what is left of `job`, a text, from `line` on; its log tells the lines of the file.
+/// The job of what is left of `job` from `line` on; its log tells the lines of the file. Of a text as above.
+/// Of a job with a program, in which each block says all that it needs, from any line: the axis that pulls
+/// the tool off the part goes to the clearance (of that axis, mm; without one as above, else its limit),
+/// alone; then the other axes; spindle and coolant; down at the feed of the next block, the last bit along
+/// the tool's axis. Throws Error for a line that is not there, is among the first, or begins above the
+/// clearance.
 [[nodiscard]] Job job_from_line(const Job& job, int line, const RunFromSettings& settings);
 
 } // namespace millwright::machine

@@ -44,15 +44,22 @@ void take(int& handle, std::string& to) {
 
 } // namespace
 
-Program::Program(const std::vector<std::string>& arguments) {
+Program::Program(const std::vector<std::string>& arguments, const std::string& input) {
+    std::array<int, 2> in{};
     std::array<int, 2> out{};
     std::array<int, 2> err{};
-    if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {
-        throw std::runtime_error("no pipe");
+    for (auto* pipe : {&in, &out, &err}) {
+        if (::pipe2(pipe->data(), O_CLOEXEC) != 0) {
+            throw std::runtime_error("no pipe");
+        }
     }
+    if (::write(in[1], input.data(), input.size()) != static_cast<ssize_t>(input.size())) {
+        throw std::runtime_error("the input does not fit into a pipe");
+    }
+    ::close(in[1]);
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, in[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err[1], STDERR_FILENO);
     std::vector<std::string> words{MILLWRIGHT_PROGRAM};
@@ -65,6 +72,7 @@ Program::Program(const std::vector<std::string>& arguments) {
     const int failure = ::posix_spawn(
         &child_, MILLWRIGHT_PROGRAM, &files, nullptr, argv.data(), environment_without_display().data());
     posix_spawn_file_actions_destroy(&files);
+    ::close(in[0]);
     ::close(out[1]);
     ::close(err[1]);
     out_ = out[0];
@@ -120,8 +128,8 @@ Ended Program::end() {
     return ended_;
 }
 
-Ended run(const std::vector<std::string>& arguments) {
-    return Program(arguments).end();
+Ended run(const std::vector<std::string>& arguments, const std::string& input) {
+    return Program(arguments, input).end();
 }
 
 std::filesystem::path small_project(const std::filesystem::path& folder,

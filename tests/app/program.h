@@ -15,10 +15,11 @@ struct Ended {
     std::string err;
 };
 
-/// A started program. Without DISPLAY and WAYLAND_DISPLAY, with nothing to read.
+/// A started program. Without DISPLAY and WAYLAND_DISPLAY; `input` is what it finds on standard input, no
+/// more than a pipe holds (64 KiB).
 class Program {
 public:
-    explicit Program(const std::vector<std::string>& arguments);
+    explicit Program(const std::vector<std::string>& arguments, const std::string& input = {});
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     ~Program();
@@ -40,7 +41,7 @@ private:
 };
 
 /// Runs the program to its end.
-[[nodiscard]] Ended run(const std::vector<std::string>& arguments);
+[[nodiscard]] Ended run(const std::vector<std::string>& arguments, const std::string& input = {});
 
 /// A copy of a shipped project in `folder`, small and quick, with `from` replaced by `to` where given.
 [[nodiscard]] std::filesystem::path small_project(const std::filesystem::path& folder,

@@ -16,16 +16,17 @@ function(millwright_module name)
         PRIVATE $<BUILD_INTERFACE:millwright_options> ${ARG_PRIVATE})
 endfunction()
 
-# millwright_test(NAME SOURCES ... LINK ... [ON_DISPLAY pattern])
+# millwright_test(NAME SOURCES ... LINK ... [ON_DISPLAY pattern] [ALONE pattern])
 #   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
+#   Those that match ALONE run while no other test runs.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "ON_DISPLAY" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE" "SOURCES;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
@@ -37,17 +38,23 @@ function(millwright_test name)
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
         NO_PRETTY_VALUES # ctest and --gtest_filter call a test the same
         DISCOVERY_TIMEOUT 120)
+    set(others "")
     if(ARG_ON_DISPLAY)
         gtest_discover_tests(${name}_test ${discovery}
             TEST_FILTER "${ARG_ON_DISPLAY}"
             TEST_LIST ${name}_test_on_display
             PROPERTIES TIMEOUT 600 RESOURCE_LOCK display)
-        gtest_discover_tests(${name}_test ${discovery}
-            TEST_FILTER "-${ARG_ON_DISPLAY}"
-            PROPERTIES TIMEOUT 600)
-    else()
-        gtest_discover_tests(${name}_test ${discovery} PROPERTIES TIMEOUT 600)
+        string(APPEND others ":${ARG_ON_DISPLAY}")
     endif()
+    if(ARG_ALONE)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "${ARG_ALONE}"
+            TEST_LIST ${name}_test_alone
+            PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
+        string(APPEND others ":${ARG_ALONE}")
+    endif()
+    string(REGEX REPLACE "^:" "-" others "${others}")
+    gtest_discover_tests(${name}_test ${discovery} TEST_FILTER "${others}" PROPERTIES TIMEOUT 600)
 endfunction()
 
 # millwright_fuzz(NAME SOURCES ... LINK ... [CORPUS folder])

@@ -57,6 +57,7 @@ CordicDriver::CordicDriver(AxisPositions position,
 Capabilities CordicDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
     able.plans = true;
+    able.single_block = false; // its blocks are set-points, not those of the listing
     able.dialect = gcode::Dialect::linuxcnc;
     return able;
 }

@@ -54,6 +54,8 @@ public:
     /// Makes a lost link again.
     void reset() override;
     void close() noexcept override;
+    void set_overrides(const Overrides& wanted) override { machine_.set_overrides(wanted); }
+    void set_single_block(bool on) override { machine_.set_single_block(on); }
     void jog(const Jog& jog) override;
     void stop_jog() override { machine_.stop_jog(); }
     void home() override;

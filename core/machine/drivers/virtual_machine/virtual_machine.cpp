@@ -113,7 +113,7 @@ void VirtualMachine::close() noexcept {
 
 Capabilities VirtualMachine::capabilities() const {
     Capabilities able;
-    able.overrides = able.other_overrides = true;
+    able.single_block = able.overrides = able.other_overrides = true;
     if (const kinematics::MachineModel* model = axes_->model()) {
         for (const kinematics::MachineAxis& axis : model->axes()) {
             able.axes.push_back({axis.letter, axis.kind});
@@ -127,6 +127,13 @@ void VirtualMachine::set_overrides(const Overrides& wanted) {
     const std::scoped_lock lock(mutex_);
     catch_up();
     axes_->set_overrides(wanted);
+    changed_.notify_all();
+}
+
+void VirtualMachine::set_single_block(bool on) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->set_single_block(on);
     changed_.notify_all();
 }
 

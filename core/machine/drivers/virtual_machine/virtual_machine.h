@@ -60,6 +60,9 @@ public:
     void reset() override;
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override;
+    /// Rests after each move, and what follows it without one: on the path, so within its rounding of where
+    /// the block ends.
+    void set_single_block(bool on) override;
     void jog(const Jog& jog) override;
     void stop_jog() override;
     void home() override;

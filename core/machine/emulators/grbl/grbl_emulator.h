@@ -3,6 +3,8 @@
 // docs/reference/grbl.md. mm, s.
 #pragma once
 
+#include "core/machine/emulators/emulator.h"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -37,34 +39,32 @@ struct Truth {
     int lost_bytes = 0;        ///< that found the receive buffer full
 };
 
-/// Without threads and clocks: time is what advance() adds. Used by one thread at a time.
-class GrblEmulator {
+class GrblEmulator final : public Emulator {
 public:
     /// Switched on; the greeting is in the first output. Throws Error for an EEPROM file that cannot be read.
     explicit GrblEmulator(GrblEmulatorOptions options = {});
     GrblEmulator(const GrblEmulator&) = delete;
     GrblEmulator& operator=(const GrblEmulator&) = delete;
-    ~GrblEmulator();
+    ~GrblEmulator() override;
 
-    void receive(std::string_view bytes);
+    void receive(std::string_view bytes) override;
     /// Throws Error if a changed EEPROM cannot be written.
-    void advance(double seconds);
-    /// Takes what it has sent.
-    [[nodiscard]] std::string take_output();
+    void advance(double seconds) override;
+    [[nodiscard]] std::string take_output() override;
 
     [[nodiscard]] double time() const;
     [[nodiscard]] std::array<double, 3> position() const; ///< machine coordinates
-    [[nodiscard]] bool moving() const;
+    [[nodiscard]] bool moving() const override;
     [[nodiscard]] int planned_blocks() const;
     [[nodiscard]] Truth truth() const;
 
     /// What happens to machines. A limit switch that is hit works only with hard limits on ($21).
     void hit_limit_switch();
     /// As if a limit switch had been hit, whatever the settings.
-    void raise_alarm();
+    void raise_alarm() override;
     void set_door(bool open);
     void break_limit_switches();
-    void power_cycle();
+    void power_cycle() override;
 
 private:
     class Body;

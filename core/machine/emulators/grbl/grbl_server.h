@@ -1,54 +1,29 @@
-// An emulated Grbl at the far end of links: carries bytes and lets its time pass with a clock, in a thread of
-// its own.
+// An emulated Grbl at the far end of links.
 #pragma once
 
-#include "core/machine/clock.h"
+#include "core/machine/emulators/emulator_server.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
-#include "core/machine/links/faults.h"
-#include "core/machine/links/link.h"
 
-#include <mutex>
-#include <string>
-#include <thread>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace millwright::machine {
 
-class GrblServer {
+class GrblServer final : public EmulatorServer {
 public:
-    /// Serves opened `links`, all of which speak to the one controller; `speed` is machine seconds a second.
-    /// Of `faults` those of the controller happen here (reset, alarm); those of the wire belong to the links.
     GrblServer(std::vector<std::unique_ptr<Link>> links,
                const Clock& clock,
                GrblEmulatorOptions options = {},
                double speed = 1.0,
-               const FaultSpec& faults = {});
-    GrblServer(const GrblServer&) = delete;
-    GrblServer& operator=(const GrblServer&) = delete;
-    ~GrblServer() = default;
+               const FaultSpec& faults = {})
+        : EmulatorServer(
+              std::move(links), clock, std::make_unique<GrblEmulator>(std::move(options)), speed, faults) {}
 
     /// Asks or changes the controller; safe from any thread.
     template <class Use> auto with_controller(Use&& use) {
-        const std::scoped_lock lock(mutex_);
-        return use(grbl_);
+        return with_emulator([&](Emulator& emulator) { return use(static_cast<GrblEmulator&>(emulator)); });
     }
-    /// Why it no longer serves; empty while it does.
-    [[nodiscard]] std::string failure() const;
-
-private:
-    void run(const std::stop_token& stop) noexcept;
-    void turn(double& last);
-    void happen();
-
-    std::vector<std::unique_ptr<Link>> links_;
-    const Clock& clock_;
-    double speed_;
-    FaultSpec faults_;
-    std::int64_t passed_ = 0;  ///< bytes
-    mutable std::mutex mutex_; ///< guards what follows
-    GrblEmulator grbl_;
-    std::string failure_;
-    std::jthread thread_;
 };
 
 } // namespace millwright::machine

@@ -1,5 +1,6 @@
 #include "core/machine/drivers/linuxcnc/internal/shell_session.h"
 
+#include <string_view>
 #include <utility>
 
 namespace millwright::machine::linuxcnc {
@@ -54,9 +55,12 @@ void ShellSession::lost(const std::string& why) {
         return;
     }
     link_lost_ = true;
-    const bool program = stage_ == Stage::running;
-    finish(Stage::alarm, "the link was lost: " + why);
-    message_ += program ? "; LinuxCNC goes on with the program, so look at the machine" : "";
+    const std::string_view then =
+        stage_ == Stage::running ? "; LinuxCNC goes on with the program, so look at the machine"
+        : stage_ == Stage::stopping
+            ? "; nobody knows whether LinuxCNC was told to stop, so look at the machine"
+            : "";
+    finish(Stage::alarm, "the link was lost: " + why + std::string(then));
     output_.clear();
 }
 
@@ -66,7 +70,6 @@ void ShellSession::receive(std::string_view bytes, double now) {
         if (byte != '\n' && byte != '\r') {
             input_ += input_.size() < longest ? std::string(1, byte) : "";
         } else if (!input_.empty() && stage_ != Stage::closed && !link_lost_) {
-            last_heard_ = now;
             handle(read_reply(std::exchange(input_, {})), now);
         }
     }
@@ -79,6 +82,7 @@ void ShellSession::handle(const Reply& reply, double now) {
     }
     const Request request = outstanding_.front();
     outstanding_.pop_front();
+    last_heard_ = now; // an echo is no answer: a LinuxCNC that knows nobody echoes too
     if (reply.kind == Reply::Kind::refused) {
         refused(request.text, now);
         return;

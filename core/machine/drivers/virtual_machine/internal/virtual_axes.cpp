@@ -73,12 +73,17 @@ void VirtualAxes::show_program(DriverStatus& status, const motion::Sample& sampl
     if (activity_ != Activity::program) {
         return;
     }
-    const bool finished = state_ == DriverState::idle;
-    status.block = sample.block;
-    status.fraction = sample.fraction;
-    status.executed_blocks = finished ? now_->block_count() : sample.block;
-    status.planned_time =
-        finished ? work_.trajectory->duration() : work_.trajectory->time_at(sample.block, sample.fraction);
+    if (state_ == DriverState::idle) {
+        status.block = sample.block;
+        status.fraction = sample.fraction;
+        status.executed_blocks = now_->block_count();
+        status.planned_time = work_.trajectory->duration();
+        return;
+    }
+    status.block = between_blocks_ ? now_->last_block() + 1 : sample.block;
+    status.fraction = between_blocks_ ? 0.0 : sample.fraction;
+    status.executed_blocks = status.block;
+    status.planned_time = work_.trajectory->time_at(status.block, status.fraction);
 }
 
 std::vector<StoredOffset> VirtualAxes::stored_offsets() const {
@@ -114,8 +119,9 @@ void VirtualAxes::come_to_rest() {
     at_rest_ = true;
     rest_position_ = now_->at(time_).position;
     if (state_ == DriverState::running) {
-        take_accessories(now_->block_count());
-        state_ = DriverState::idle;
+        take_accessories(now_->last_block() + 1);
+        between_blocks_ = activity_ == Activity::program && now_->last_block() + 1 < now_->block_count();
+        state_ = between_blocks_ ? DriverState::holding : DriverState::idle;
     } else if (state_ == DriverState::stopping) {
         state_ = DriverState::stopped;
     }
@@ -155,7 +161,7 @@ void VirtualAxes::follow(Trajectory next, DriverState state) {
     now_ = std::make_shared<const Trajectory>(std::move(next));
     time_ = 0.0;
     look_at_ = never;
-    at_rest_ = false;
+    at_rest_ = between_blocks_ = false;
     state_ = state;
     advance(0.0);
 }
@@ -202,12 +208,15 @@ void VirtualAxes::execute(Work work, Activity activity) {
     now_ = work_.trajectory;
     time_ = 0.0;
     look_at_ = never;
-    at_rest_ = false;
+    at_rest_ = between_blocks_ = false;
     state_ = DriverState::running;
     activity_ = activity;
     message_.clear();
     overrides_ = {};
     switched_blocks_ = 0;
+    if (single_block_ && activity == Activity::program) {
+        go_on();
+    }
     advance(0.0);
 }
 
@@ -307,15 +316,28 @@ void VirtualAxes::set_overrides(const Overrides& wanted) {
     }
 }
 
-/// As far as is looked ahead; advance() does it again before that matters.
+void VirtualAxes::set_single_block(bool on) {
+    if (on == single_block_) {
+        return;
+    }
+    single_block_ = on;
+    if (state_ == DriverState::running && activity_ == Activity::program) {
+        go_on();
+        advance(0.0);
+    }
+}
+
+/// As far as is looked ahead; advance() does it again before that matters. Block by block: to the end of the
+/// next, or of the first in which the axes can come to rest.
 void VirtualAxes::go_on() {
-    Trajectory next = motion::go_on_for(blocks_ahead, *now_, time_, rates());
-    const bool whole = next.last_block() + 1 == next.block_count();
+    const bool one = single_block_ && activity_ == Activity::program;
+    Trajectory next = motion::go_on_for(one ? 1 : blocks_ahead, *now_, time_, rates());
+    const bool whole = one || next.last_block() + 1 == next.block_count();
     const double look = whole ? never : next.start_of((next.first_block() + next.last_block()) / 2);
     now_ = std::make_shared<const Trajectory>(std::move(next));
     time_ = 0.0;
     look_at_ = look;
-    at_rest_ = false;
+    at_rest_ = between_blocks_ = false;
     state_ = DriverState::running;
 }
 

@@ -39,6 +39,7 @@ public:
     void jog(const Jog& jog);
     void stop_jog();
     void set_overrides(const Overrides& wanted);
+    void set_single_block(bool on);
     void home();
     int command(const std::string& lines);
     /// Brakes to rest within this call, whatever time that would take, and disconnects.
@@ -76,6 +77,8 @@ private:
     kinematics::AxisPositions rest_position_; ///< where the axes stand if at rest
     std::string message_;
     Overrides overrides_;
+    bool single_block_ = false;
+    bool between_blocks_ = false; ///< at rest at the end of `now_`, and more of the program follows
     std::deque<Leg> legs_;
     std::optional<Leg> leg_; ///< the present jog, from the start of `work_`
     bool jog_ends_ = false;  ///< it brakes

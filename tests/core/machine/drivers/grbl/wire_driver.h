@@ -1,29 +1,9 @@
-// The session of a GrblWire as a Driver, and its time as a Clock: whoever waits lets the wire go on.
+// The session of a GrblWire as a Driver.
 #pragma once
 
-#include "core/base/error.h"
-#include "core/machine/clock.h"
 #include "tests/core/machine/drivers/grbl/grbl_wire.h"
 
 namespace millwright::test {
-
-class WireClock final : public machine::Clock {
-public:
-    /// Waiting beyond `end` is a Defect: something does not come to its end.
-    WireClock(GrblWire& wire, double end) : wire_(wire), end_(end) {}
-
-    [[nodiscard]] double now() const override { return wire_.now; }
-    void wait(double seconds) override {
-        expects(wire_.now < end_, "the run has no end");
-        for (const double until = wire_.now + seconds - 1e-9; wire_.now < until;) {
-            wire_.step();
-        }
-    }
-
-private:
-    GrblWire& wire_;
-    double end_;
-};
 
 class WireDriver final : public machine::Driver {
 public:

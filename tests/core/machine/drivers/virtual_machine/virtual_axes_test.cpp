@@ -123,6 +123,75 @@ TEST(VirtualAxes, KeepOverridesThroughAHoldAndForgetThemWithTheProgram) {
     EXPECT_EQ(bench.axes.status().overrides, Overrides{});
 }
 
+/// Where the planned path has `block` end: in a rounded corner that is beside the block's target.
+AxisPositions end_of(const Bench& bench, int block) {
+    return bench.work.trajectory->at(bench.work.trajectory->end_of(block)).position;
+}
+
+/// Moves on until the axes rest.
+DriverStatus at_rest(VirtualAxes& axes) {
+    axes.advance(1e6);
+    return axes.status();
+}
+
+TEST(VirtualAxes, RestBehindEachMoveBlockByBlock) {
+    Bench bench;
+    bench.axes.set_single_block(true);
+    bench.axes.start(bench.work);
+    const auto& blocks = bench.job.program->blocks;
+    int rests = 0;
+    int executed = 0;
+    DriverStatus now = at_rest(bench.axes);
+    for (; now.state == DriverState::holding; now = at_rest(bench.axes)) {
+        ++rests;
+        ASSERT_GT(now.executed_blocks, executed);
+        int moves = 0;
+        for (int n = executed; n < now.executed_blocks; ++n) {
+            moves += blocks[static_cast<std::size_t>(n)].moves() ? 1 : 0;
+        }
+        EXPECT_EQ(moves, 1);
+        executed = now.executed_blocks;
+        EXPECT_LT((now.position - end_of(bench, executed - 1)).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_LE(now.velocity.cwiseAbs().maxCoeff(), 0.0);
+        EXPECT_NEAR(now.planned_time, bench.work.trajectory->start_of(executed), 1e-9);
+        bench.axes.resume();
+    }
+    EXPECT_EQ(now.state, DriverState::idle);
+    EXPECT_EQ(now.executed_blocks, bench.job.program->block_count());
+    const auto moves = std::ranges::count_if(blocks, &gcode::Block::moves);
+    EXPECT_GE(rests, moves - 1);
+    EXPECT_LE(rests, moves);
+}
+
+TEST(VirtualAxes, GoBlockByBlockFromAnyMomentOnAndThroughAgain) {
+    std::mt19937 random(11);
+    for (int run = 0; run < 50; ++run) {
+        Bench bench;
+        bench.axes.start(bench.work);
+        bench.axes.advance(std::uniform_real_distribution(0.0, bench.duration())(random));
+        const int before = bench.axes.status().executed_blocks;
+        bench.axes.set_single_block(true);
+        DriverStatus now = at_rest(bench.axes);
+        if (now.state == DriverState::holding) {
+            const AxisPositions end = end_of(bench, now.executed_blocks - 1);
+            EXPECT_LT((now.position - end).cwiseAbs().maxCoeff(), 1e-9);
+            EXPECT_GE(now.executed_blocks, before);
+            bench.axes.set_single_block(false);
+            EXPECT_FALSE(bench.axes.moving()) << "no longer block by block is no resume";
+            if (run % 2 == 0) {
+                bench.axes.stop();
+                EXPECT_EQ(bench.axes.status().state, DriverState::stopped);
+                EXPECT_EQ(bench.axes.status().executed_blocks, now.executed_blocks);
+                continue;
+            }
+            bench.axes.resume();
+            now = at_rest(bench.axes);
+        }
+        EXPECT_EQ(now.state, DriverState::idle);
+        EXPECT_EQ(now.position, bench.job.program->blocks.back().target);
+    }
+}
+
 TEST(VirtualAxes, HoldOnThePathAndResumeToTheSameEnd) {
     std::mt19937 random(7);
     Bench first;

@@ -1,4 +1,4 @@
-#include "core/machine/emulators/grbl/grbl_server.h"
+#include "core/machine/emulators/emulator_server.h"
 
 #include "core/base/error.h"
 
@@ -8,30 +8,31 @@
 
 namespace millwright::machine {
 
-GrblServer::GrblServer(std::vector<std::unique_ptr<Link>> links,
-                       const Clock& clock,
-                       GrblEmulatorOptions options,
-                       double speed,
-                       const FaultSpec& faults)
-    : links_(std::move(links)), clock_(clock), speed_(speed), faults_(faults), grbl_(std::move(options)) {
+EmulatorServer::EmulatorServer(std::vector<std::unique_ptr<Link>> links,
+                               const Clock& clock,
+                               std::unique_ptr<Emulator> emulator,
+                               double speed,
+                               const FaultSpec& faults)
+    : links_(std::move(links)), clock_(clock), speed_(speed), faults_(faults),
+      emulator_(std::move(emulator)) {
     expects(!links_.empty() && speed > 0.0, "a controller is served somewhere, and its time passes");
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-std::string GrblServer::failure() const {
+std::string EmulatorServer::failure() const {
     const std::scoped_lock lock(mutex_);
     return failure_;
 }
 
-void GrblServer::run(const std::stop_token& stop) noexcept {
+void EmulatorServer::run(const std::stop_token& stop) noexcept {
     double last = clock_.now();
     while (!stop.stop_requested()) {
         constexpr double idle_wait = 0.02;
         constexpr double busy_wait = 0.001;
-        links_.front()->wait(links_.size() == 1 &&
-                                     !with_controller([](const GrblEmulator& grbl) { return grbl.moving(); })
-                                 ? idle_wait
-                                 : busy_wait);
+        links_.front()->wait(
+            links_.size() == 1 && !with_emulator([](const Emulator& emulator) { return emulator.moving(); })
+                ? idle_wait
+                : busy_wait);
         const std::scoped_lock lock(mutex_);
         try {
             turn(last);
@@ -42,30 +43,30 @@ void GrblServer::run(const std::stop_token& stop) noexcept {
     }
 }
 
-void GrblServer::turn(double& last) {
+void EmulatorServer::turn(double& last) {
     const double now = clock_.now();
-    grbl_.advance(std::max(0.0, now - std::exchange(last, now)) * speed_);
+    emulator_->advance(std::max(0.0, now - std::exchange(last, now)) * speed_);
     for (const auto& link : links_) {
         const std::string bytes = link->read();
         passed_ += static_cast<std::int64_t>(bytes.size());
-        grbl_.receive(bytes);
+        emulator_->receive(bytes);
     }
     happen();
-    const std::string said = grbl_.take_output();
+    const std::string said = emulator_->take_output();
     passed_ += static_cast<std::int64_t>(said.size());
     for (const auto& link : links_) {
         link->write(said);
     }
 }
 
-void GrblServer::happen() {
+void EmulatorServer::happen() {
     if (faults_.reset && passed_ >= *faults_.reset) {
         faults_.reset.reset();
-        grbl_.power_cycle();
+        emulator_->power_cycle();
     }
     if (faults_.alarm && passed_ >= *faults_.alarm) {
         faults_.alarm.reset();
-        grbl_.raise_alarm();
+        emulator_->raise_alarm();
     }
 }
 

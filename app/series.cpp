@@ -1,0 +1,231 @@
+#include "app/series.h"
+
+#include "app/question.h"
+#include "core/base/error.h"
+#include "core/machine/job_queue.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Error.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+using machine::JobEnd;
+using machine::JobQueue;
+using machine::QueuedJob;
+using machine::QueueState;
+
+enum class Decision { begin, leave_out, not_now };
+
+class Series {
+public:
+    Series(const SeriesChoice& choice, const SeriesSteps& steps, std::stop_token stop)
+        : choice_(choice), steps_(steps), stop_(std::move(stop)),
+          file_(std::filesystem::path(choice.log) / "queue.json") {
+        // One job alone needs no memory: its log tells all.
+        const bool alone = choice.files.size() == 1 && !choice.go_on;
+        queue_ = alone ? std::make_unique<JobQueue>() : std::make_unique<JobQueue>(file_);
+        on_disk_ = !alone;
+    }
+
+    void fill() {
+        if (choice_.go_on) {
+            take_up();
+        } else {
+            refuse_leftovers();
+            queue_->remove_done();
+            std::vector<machine::Job> jobs; // all, before the first is in the queue
+            for (const std::string& file : choice_.files) {
+                jobs.push_back(steps_.make(file, jobs.empty() ? choice_.from_line : 1));
+            }
+            for (machine::Job& job : jobs) {
+                (void)queue_->add(std::move(job));
+            }
+        }
+        steps_.ready();
+    }
+
+    int run() {
+        bool asked_for = !choice_.go_on; // the command itself is the word for its first job
+        while (const auto job = first()) {
+            const Decision decision = std::exchange(asked_for, false) ? Decision::begin : ask(*job);
+            if (decision == Decision::not_now) {
+                break;
+            }
+            if (decision == Decision::leave_out) {
+                queue_->remove(job->id);
+                continue;
+            }
+            const machine::JobOutcome outcome = queue_->run(job->id, steps_.run);
+            say(outcome);
+            if (outcome.end == JobEnd::cancelled) {
+                say_what_is_left();
+                throw Cancelled();
+            }
+            if (outcome.end != JobEnd::done) {
+                break;
+            }
+        }
+        say_what_is_left();
+        const bool all = !first();
+        if (all) {
+            queue_->remove_done();
+        }
+        return all ? 0 : 1;
+    }
+
+private:
+    const SeriesChoice& choice_;
+    const SeriesSteps& steps_;
+    std::stop_token stop_;
+    std::filesystem::path file_;
+    bool on_disk_ = false;
+    std::unique_ptr<JobQueue> queue_;
+
+    [[nodiscard]] std::vector<QueuedJob> left() const {
+        std::vector<QueuedJob> jobs = queue_->jobs();
+        std::erase_if(jobs, [](const QueuedJob& job) { return job.state == QueueState::done; });
+        return jobs;
+    }
+    [[nodiscard]] std::optional<QueuedJob> first() const {
+        const std::vector<QueuedJob> jobs = left();
+        return jobs.empty() ? std::nullopt : std::optional(jobs.front());
+    }
+
+    void refuse_leftovers() const {
+        if (!left().empty()) {
+            throw Error(fmt::format("{} of an earlier command are left", counted(left().size())),
+                        file_,
+                        "go on with them by --continue, or take the file away");
+        }
+    }
+
+    static std::string counted(std::size_t jobs) {
+        return fmt::format("{} job{}", jobs, jobs == 1 ? "" : "s");
+    }
+
+    void take_up() {
+        if (left().empty()) {
+            throw Error("there is nothing to go on with", file_);
+        }
+        for (const QueuedJob& job : left()) {
+            queue_->load(job.id, steps_.make(job.project, job.from_line));
+        }
+    }
+
+    Decision ask(const QueuedJob& job) {
+        return job.state == QueueState::held ? ask_about_held(job) : ask_about_next(job);
+    }
+
+    Decision ask_about_next(const QueuedJob& job) {
+        if (choice_.confirmed) {
+            return Decision::begin;
+        }
+        const std::string answer =
+            question(fmt::format("Next: {}, {} blocks. Look at the machine.\n"
+                                 "y: start it, s: leave it out, anything else: not now > ",
+                                 job.project,
+                                 job.blocks),
+                     stop_);
+        return answer == "y" ? Decision::begin : answer == "s" ? Decision::leave_out : Decision::not_now;
+    }
+
+    Decision ask_about_held(const QueuedJob& job) {
+        if (choice_.confirmed) {
+            throw Error(fmt::format("{} did not come to its end: {}", job.project, job.sentence),
+                        {},
+                        "without --yes it is asked what becomes of it");
+        }
+        const std::string answer = question(
+            fmt::format("{} did not come to its end: {}\nLook at the machine and the part.\n"
+                        "a: again from its beginning, a number: from this line, s: leave it out, anything "
+                        "else: not now > ",
+                        job.project,
+                        job.sentence),
+            stop_);
+        if (answer == "s") {
+            return Decision::leave_out;
+        }
+        const std::optional<int> line = answer == "a" ? 1 : number(answer);
+        if (!line) {
+            return Decision::not_now;
+        }
+        machine::Job again = steps_.make(job.project, *line);
+        queue_->load(job.id, std::move(again));
+        queue_->release(job.id);
+        return Decision::begin;
+    }
+
+    static std::optional<int> number(std::string_view text) {
+        int value = 0;
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size() && value > 0;
+        return whole ? std::optional(value) : std::nullopt;
+    }
+
+    static void say(const machine::JobOutcome& outcome) {
+        fmt::print("{}\nLog: {}\n", outcome.sentence, outcome.log_file.string());
+        std::fflush(stdout);
+    }
+
+    void say_what_is_left() const {
+        if (on_disk_ && !left().empty()) {
+            fmt::print(
+                "{} left in {}: --continue goes on with them.\n", counted(left().size()), file_.string());
+        }
+    }
+};
+
+} // namespace
+
+void add_series_options(CLI::App& command, SeriesChoice& choice, const std::string& files) {
+    command.add_option("FILE", choice.files, files);
+    command.add_option("--log", choice.log, "Folder of the job logs")
+        ->type_name("DIR")
+        ->capture_default_str();
+    constexpr int greatest_line = 1'000'000'000;
+    command
+        .add_option("--from-line",
+                    choice.from_line,
+                    "Begin the first file there, with everything before it brought into force")
+        ->check(CLI::Range(1, greatest_line))
+        ->type_name("N");
+    command.add_flag("--continue", choice.go_on, "Go on with the jobs that an earlier command has left");
+    command.add_flag("--yes", choice.confirmed, "Begin each job without asking when the one before is done");
+    command.parse_complete_callback([&choice] {
+        if (choice.files.empty() && !choice.go_on) {
+            throw CLI::RequiredError("FILE, or --continue,");
+        }
+        if (!choice.files.empty() && choice.go_on) {
+            throw CLI::ValidationError("--continue", "goes on with what is left, and takes no files");
+        }
+    });
+}
+
+void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
+    command
+        .add_option(
+            "--clearance", clearance, "Z of the work in which the tool can go anywhere, for --from-line")
+        ->type_name("Z");
+}
+
+int run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::stop_token& stop) {
+    Series series(choice, steps, stop);
+    series.fill();
+    return series.run();
+}
+
+} // namespace millwright::app

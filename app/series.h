@@ -1,0 +1,44 @@
+// The jobs of one command, one after another: each but the first begins when a person says so. What is left
+// of several jobs stays in the folder of the logs, and the same command goes on with it.
+#pragma once
+
+#include "core/machine/job.h"
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace millwright::app {
+
+/// What the arguments FILE ... and the options --log, --from-line, --continue and --yes say.
+struct SeriesChoice {
+    std::vector<std::string> files;
+    std::string log = "jobs";
+    int from_line = 1;      ///< of the first file
+    bool go_on = false;     ///< with what is left of an earlier command
+    bool confirmed = false; ///< nobody is asked
+};
+
+/// Adds them to `command`; `files` tells what FILE is. `choice` must outlive the command line.
+void add_series_options(CLI::App& command, SeriesChoice& choice, const std::string& files);
+
+/// --clearance, of RunFromSettings.
+void add_clearance_option(CLI::App& command, std::optional<double>& clearance);
+
+struct SeriesSteps {
+    std::function<machine::Job(const std::string& file, int from_line)> make;
+    std::function<void()> ready; ///< once: all jobs are made, none has begun
+    std::function<machine::JobOutcome(const machine::Job&)> run;
+};
+
+/// The exit code: 0 if all were done. Throws Error, also for what `steps` throws, or Cancelled.
+[[nodiscard]] int
+run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::stop_token& stop);
+
+} // namespace millwright::app

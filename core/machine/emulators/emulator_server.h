@@ -1,0 +1,57 @@
+// An emulated controller at the far end of links: carries bytes and lets its time pass with a clock, in a
+// thread of its own.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/emulators/emulator.h"
+#include "core/machine/links/faults.h"
+#include "core/machine/links/link.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace millwright::machine {
+
+class EmulatorServer {
+public:
+    /// Serves opened `links`, all of which speak to the one controller; `speed` is machine seconds a second.
+    /// Of `faults` those of the controller happen here (reset, alarm); those of the wire belong to the links.
+    EmulatorServer(std::vector<std::unique_ptr<Link>> links,
+                   const Clock& clock,
+                   std::unique_ptr<Emulator> emulator,
+                   double speed = 1.0,
+                   const FaultSpec& faults = {});
+    EmulatorServer(const EmulatorServer&) = delete;
+    EmulatorServer& operator=(const EmulatorServer&) = delete;
+    ~EmulatorServer() = default;
+
+    /// Why it no longer serves; empty while it does.
+    [[nodiscard]] std::string failure() const;
+
+    /// Asks or changes the controller; safe from any thread.
+    template <class Use> auto with_emulator(Use&& use) {
+        const std::scoped_lock lock(mutex_);
+        return use(*emulator_);
+    }
+
+private:
+    void run(const std::stop_token& stop) noexcept;
+    void turn(double& last);
+    void happen();
+
+    std::vector<std::unique_ptr<Link>> links_;
+    const Clock& clock_;
+    double speed_;
+    FaultSpec faults_;
+    std::int64_t passed_ = 0;  ///< bytes
+    mutable std::mutex mutex_; ///< guards what follows
+    std::unique_ptr<Emulator> emulator_;
+    std::string failure_;
+    std::jthread thread_;
+};
+
+} // namespace millwright::machine

@@ -1,0 +1,103 @@
+// What LinuxCNC's task does with the commands of its user interfaces: emergency stop, power, modes, programs,
+// single lines, jogs. The machine is the virtual one, in a time of its own.
+#pragma once
+
+#include "core/machine/clock.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/machine/emulators/linuxcnc/linuxcnc_emulator.h"
+
+#include <atomic>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace millwright::machine::emulated {
+
+enum class TaskMode { manual, automatic, mdi };
+
+class Task {
+public:
+    /// Switched on at `time`, in its emergency stop, at zero; goes on writing `truth`.
+    explicit Task(std::shared_ptr<const kinematics::MachineModel> model,
+                  double time = 0.0,
+                  LinuxCncTruth truth = {});
+
+    void advance(double seconds);
+    [[nodiscard]] double time() const { return clock_.now(); }
+
+    // Commands. What cannot be done now goes to the errors.
+    void set_estop(bool on);
+    void set_power(bool on);
+    void set_mode(TaskMode mode);
+    void open(const std::filesystem::path& file);
+    void run();
+    void pause();
+    void resume();
+    void abort();
+    void mdi(const std::string& line);
+    void home();
+    /// `speed` is signed and mm/min, `way` positive.
+    void jog(int axis, double speed, double way);
+    void stop_jog();
+    void set_feed_override(int percent);
+
+    [[nodiscard]] bool estop() const { return estop_; }
+    [[nodiscard]] bool power() const { return power_; }
+    [[nodiscard]] TaskMode mode() const { return mode_; }
+    [[nodiscard]] bool homed() const { return homed_; }
+    [[nodiscard]] int feed_override() const { return feed_override_; }
+    [[nodiscard]] DriverStatus machine() const { return machine_.status(); }
+    [[nodiscard]] const kinematics::MachineModel& model() const { return *model_; }
+    [[nodiscard]] std::string program_status() const;
+    /// The line in execution, or the last one; 0 before any program.
+    [[nodiscard]] int program_line() const { return line_; }
+    /// The oldest that nobody has taken; "OK" if there is none.
+    [[nodiscard]] std::string take_error();
+    [[nodiscard]] std::string take_message();
+    [[nodiscard]] const LinuxCncTruth& truth() const { return truth_; }
+
+private:
+    class OwnClock final : public Clock {
+    public:
+        explicit OwnClock(double time) : time_(time) {}
+        [[nodiscard]] double now() const override { return time_; }
+        void wait(double seconds) override { time_ = time_ + seconds; }
+
+    private:
+        std::atomic<double> time_;
+    };
+
+    /// A program on its way.
+    struct Program {
+        std::shared_ptr<const gcode::Program> blocks;
+        std::deque<std::pair<int, std::string>> messages; ///< (MSG,...), with their lines
+        std::string error;                                ///< that ends it; empty: its own end
+        int executed = 0;                                 ///< blocks, entered in the truth
+    };
+
+    [[nodiscard]] bool ready(TaskMode mode, std::string_view what);
+    [[nodiscard]] Program read(const std::string& text) const;
+    void cut_at_limits(Program& program, gcode::Program& blocks) const;
+    void follow(const DriverStatus& now);
+    void tell_messages(int before_line);
+    void end_program();
+    void fall_off();
+
+    std::shared_ptr<const kinematics::MachineModel> model_;
+    OwnClock clock_;
+    VirtualMachine machine_;
+    bool estop_ = true, power_ = false, homed_ = false, homing_ = false, paused_ = false;
+    TaskMode mode_ = TaskMode::manual;
+    int feed_override_ = 100;
+    std::string opened_; ///< the text of the file
+    bool has_file_ = false;
+    std::optional<Program> program_;
+    int line_ = 0;
+    std::deque<std::string> errors_, messages_;
+    LinuxCncTruth truth_;
+};
+
+} // namespace millwright::machine::emulated

@@ -1,0 +1,126 @@
+// Several jobs in one command.
+#include "tests/app/emulator.h"
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Series : testing::Test {
+    ScratchFolder scratch;
+    std::string port = (scratch / "grbl").string();
+    std::string logs = (scratch / "logs").string();
+    std::string a = file("a", 30), b = file("b", 30), c = file("c", 30);
+
+    [[nodiscard]] std::string file(const std::string& name, int lines) const {
+        std::string text = "G21 G90 G94 S1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F3000\n";
+        for (int n = 0; n < lines; ++n) {
+            text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
+        }
+        const fs::path path = scratch / (name + ".ngc");
+        write_content(path, text + "M30\n");
+        return path.string();
+    }
+    [[nodiscard]] Ended send(std::vector<std::string> more, const std::string& input = {}) const {
+        std::vector<std::string> words = {
+            "send", "--driver", "grbl", "--port", port, "--log", logs, "--unlock"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words, input);
+    }
+    /// File names and states of the queue on disk.
+    [[nodiscard]] std::string queue() const {
+        std::string text;
+        const auto whole = nlohmann::json::parse(content_of(logs + "/queue.json"));
+        for (const auto& job : whole.at("jobs")) {
+            text += job.at("job").get<std::string>() + " " + job.at("state").get<std::string>() + " ";
+        }
+        return text;
+    }
+};
+
+TEST_F(Series, EachJobButTheFirstBeginsWhenAPersonSaysSo) {
+    Emulator emulator(port, {"--speed", "50"});
+    Ended ended = send({a, b, c}, "y\nlater\n");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.out, HasSubstr("Next: " + b + ", 35 blocks"));
+    EXPECT_THAT(ended.out, HasSubstr("1 job left in " + logs + "/queue.json"));
+    EXPECT_EQ(queue(), "a done b done c waiting ");
+    ended = send({a, b});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("1 job of an earlier command"));
+    ended = send({"--continue"}, "y\n");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("All 35 blocks were executed"));
+    EXPECT_EQ(queue(), "");
+    EXPECT_EQ(send({"--continue"}).exit_code, 1);
+}
+
+TEST_F(Series, NobodyIsAskedWhereThatIsWanted) {
+    Emulator emulator(port, {"--speed", "50"});
+    const Ended ended = send({a, b, "--yes"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, Not(HasSubstr("Next:")));
+    EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));
+}
+
+TEST_F(Series, AFaultHoldsWhatFollows) {
+    a = file("a", 500);
+    {
+        Emulator emulator(port, {"--speed", "20", "--faults", "alarm=4000"});
+        const Ended ended = send({a, b, "--yes"});
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.out, HasSubstr("2 jobs left"));
+        EXPECT_FALSE(fs::exists(logs + "/b-0001.jsonl"));
+        (void)emulator.stop();
+    }
+    EXPECT_EQ(queue(), "a held b waiting ");
+    Emulator emulator(port, {"--speed", "50"});
+    Ended ended = send({"--continue", "--yes"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("did not come to its end: Fault: "));
+    ended = send({"--continue"}, "20\ny\n"); // from line 20, then the other
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));
+    EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));
+}
+
+TEST_F(Series, AnythingWrongInAnyProgramIsSaidBeforeTheFirstBegins) {
+    Emulator emulator(port, {"--speed", "50"});
+    write_content(b, "G0 X1 ?\n");
+    Ended ended = send({a, b, "--yes"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("b.ngc:1:7"));
+    EXPECT_FALSE(fs::exists(logs + "/a-0001.jsonl"));
+    EXPECT_EQ(send({}).exit_code, 2);
+    EXPECT_EQ(send({a, "--continue"}).exit_code, 2);
+}
+
+TEST_F(Series, AnotherProgramThanTheOneThatWasQueuedIsRefused) {
+    Emulator emulator(port, {"--speed", "50"});
+    EXPECT_EQ(send({a, b}, "no\n").exit_code, 1);
+    write_content(b, "G0 X1\nM2\n");
+    const Ended ended = send({"--continue"}, "y\n");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("b is another program than the one that was queued"));
+}
+
+TEST_F(Series, ProjectsFollowEachOtherOnOneMachine) {
+    const fs::path project = small_project(scratch.path(), "two-bell");
+    const Ended ended =
+        run({"run", project, project, "--driver", "virtual", "--speed", "0", "--log", logs, "--yes"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(logs + "/two-bell-0002.jsonl"));
+}
+
+} // namespace
+} // namespace millwright::test
