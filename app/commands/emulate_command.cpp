@@ -73,13 +73,13 @@ Links open_links(const Options& options,
 /// Serves until somebody ends it, then tells by `last_words` how it was.
 int serve(const Options& options,
           const std::string& name,
-          std::unique_ptr<machine::Emulator> emulator,
+          const std::function<std::unique_ptr<machine::Emulator>()>& make,
           const std::function<void(const machine::Emulator&)>& last_words = {}) {
-    const Interrupt interrupt;
+    const Interrupt interrupt; // before the emulator, which may have a thread
     const machine::FaultSpec faults = machine::read_fault_spec(options.faults);
     machine::SteadyClock clock;
     machine::EmulatorServer server(
-        open_links(options, name, faults, clock), clock, std::move(emulator), options.speed, faults);
+        open_links(options, name, faults, clock), clock, make(), options.speed, faults);
     while (!interrupt.token().stop_requested()) {
         constexpr double glance = 0.05;
         clock.wait(glance);
@@ -94,13 +94,13 @@ int serve(const Options& options,
 }
 
 int emulate_grbl(const Options& options) {
-    return serve(options,
-                 "Grbl 1.1h",
-                 std::make_unique<machine::GrblEmulator>(
-                     machine::GrblEmulatorOptions{.eeprom_file = options.eeprom,
-                                                  .line_numbers = options.line_numbers,
-                                                  .echo = options.echo,
-                                                  .keep_truth = false}));
+    return serve(options, "Grbl 1.1h", [&] {
+        return std::make_unique<machine::GrblEmulator>(
+            machine::GrblEmulatorOptions{.eeprom_file = options.eeprom,
+                                         .line_numbers = options.line_numbers,
+                                         .echo = options.echo,
+                                         .keep_truth = false});
+    });
 }
 
 int emulate_linuxcnc(const Options& options) {
@@ -113,7 +113,7 @@ int emulate_linuxcnc(const Options& options) {
         }
     }
     wanted.homed = options.homed;
-    return serve(options, "LinuxCNC", std::make_unique<machine::LinuxCncEmulator>(std::move(wanted)));
+    return serve(options, "LinuxCNC", [&] { return std::make_unique<machine::LinuxCncEmulator>(wanted); });
 }
 
 void tell_samples(const machine::StreamEmulator& stream) {
@@ -131,12 +131,13 @@ void tell_samples(const machine::StreamEmulator& stream) {
 }
 
 int emulate_stream(const Options& options) {
-    return serve(options,
-                 "A coordinate stream",
-                 std::make_unique<machine::StreamEmulator>(),
-                 [](const machine::Emulator& served) {
-                     tell_samples(static_cast<const machine::StreamEmulator&>(served));
-                 });
+    return serve(
+        options,
+        "A coordinate stream",
+        [] { return std::make_unique<machine::StreamEmulator>(); },
+        [](const machine::Emulator& served) {
+            tell_samples(static_cast<const machine::StreamEmulator&>(served));
+        });
 }
 
 CLI::App& add_emulated(CLI::App& group,

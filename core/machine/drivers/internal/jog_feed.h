@@ -37,6 +37,8 @@ public:
     /// Forgets what was not sent yet.
     void cancel() { legs_.clear(); }
     [[nodiscard]] bool empty() const { return legs_.empty(); }
+    /// Where the machine will be after all that was sent.
+    [[nodiscard]] const Axes& target() const { return target_; }
 
     /// The next move for a machine that was last seen at `position` with the speed
     /// `feed`, mm/s; nothing if enough is under way.
@@ -53,7 +55,7 @@ private:
     [[nodiscard]] JogSlice take(Leg& leg, double length);
 
     std::deque<Leg> legs_;
-    Axes target_{};    ///< where the machine will be after all that was sent
+    Axes target_{};
     Axes direction_{}; ///< of what was sent last
 };
 

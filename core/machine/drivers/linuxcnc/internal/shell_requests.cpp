@@ -61,6 +61,8 @@ void ShellSession::start(const gcode::Listing& listing,
     has_program_ = true;
     seen_running_ = marked_ = ending_in_fault_ = false;
     executed_ = last_bound_ = quiet_rounds_ = 0;
+    program_start_ = position_;
+    left_start_ = false;
     since_ = now;
     set("mode auto");
     set("open " + path);
@@ -137,6 +139,7 @@ void ShellSession::jog(const Jog& jog, double now) {
         set("mode manual");
         set("teleop_enable on");
     }
+    last_noise_ = now;
     jog_feed_.add(linear);
     jog_until_ = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
 }

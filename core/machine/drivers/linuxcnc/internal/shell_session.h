@@ -86,6 +86,7 @@ private:
     void watch_program(double now);
     void watch_command(double now);
     void watch_jog(double now);
+    [[nodiscard]] bool jog_is_over(double now) const;
     void watch_homing(double now);
     void pump_jog();
     [[nodiscard]] double unit() const; ///< mm
@@ -125,7 +126,10 @@ private:
     ProgramFile file_;
     bool seen_running_ = false, paused_ = false, marked_ = false, ending_in_fault_ = false,
          has_program_ = false;
-    int quiet_rounds_ = 0; ///< idle, one after the other
+    int quiet_rounds_ = 0;                    ///< idle, one after the other
+    double last_noise_ = 0.0;                 ///< when the last round was that was not
+    kinematics::AxisPositions program_start_; ///< where the machine stood
+    bool left_start_ = false;
     int last_bound_ = 0, executed_ = 0;
 
     std::deque<std::string> lines_; ///< of a command, to be sent

@@ -24,6 +24,7 @@ void ShellSession::round_done(double now) {
     take_machine();
     speed_ /= std::max(1e-3, now - std::exchange(last_round_, now));
     quiet_rounds_ = idle_now() && speed_ < 1e-6 ? quiet_rounds_ + 1 : 0;
+    last_noise_ = quiet_rounds_ > 0 ? last_noise_ : now;
     if (!watch_power(now)) {
         return;
     }
@@ -93,7 +94,8 @@ void ShellSession::take_machine() {
 }
 
 /// A line counts when two reports in a row agree that a later one is in motion, and no error came after them:
-/// while LinuxCNC aborts, it shows lines that it has only read.
+/// while LinuxCNC begins or aborts, it shows lines that it has only read. It has begun when the machine has
+/// left its place.
 void ShellSession::watch_program(double now) {
     if (stage_ != Stage::running) {
         return;
@@ -113,8 +115,11 @@ void ShellSession::watch_program(double now) {
             const auto at = std::ranges::lower_bound(listing_.line_of_block, static_cast<int>((*line)[0]));
             bound = static_cast<int>(at - listing_.line_of_block.begin());
         }
-        executed_ = std::max(executed_, std::min(bound, last_bound_));
+        constexpr double same_place = 0.002; // mm or rad: more than the last digit that is told
+        const double way = (position_ - program_start_).cwiseAbs().maxCoeff();
+        executed_ = std::max(executed_, left_start_ ? std::min(bound, last_bound_) : 0);
         last_bound_ = bound;
+        left_start_ = left_start_ || way > same_place;
     } else if (marked_ && quiet_rounds_ >= 2) {
         executed_ = static_cast<int>(listing_.line_of_block.size());
         finish(Stage::ready);
@@ -157,10 +162,23 @@ void ShellSession::watch_jog(double now) {
         message_ = error_;
         stop_jog(now);
     }
-    if (jog_feed_.empty() && quiet_rounds_ >= 2) {
+    if (jog_feed_.empty() && jog_is_over(now)) {
         const std::string why = message_;
         finish(Stage::ready, why);
     }
+}
+
+/// At rest where it was sent; elsewhere, as after an early stop, only after a while: a busy LinuxCNC shows
+/// the same position more than once.
+bool ShellSession::jog_is_over(double now) const {
+    constexpr double same_place = 0.002; // mm: more than the last digit of an inch that is told
+    constexpr double long_enough = 0.5;  // s
+    const internal::JogFeed::Axes& target = jog_feed_.target();
+    double away = 0.0;
+    for (std::size_t n = 0; n < target.size(); ++n) {
+        away = std::hypot(away, position_[static_cast<Eigen::Index>(n)] - target[n]);
+    }
+    return quiet_rounds_ >= 2 && (away < same_place || now - last_noise_ > long_enough);
 }
 
 void ShellSession::watch_homing(double now) {
