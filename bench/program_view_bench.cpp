@@ -145,8 +145,7 @@ void open_program(benchmark::State& state) {
         for (int n = 0; n < turns; ++n) {
             visitor.turn();
         }
-        state.counters["turn_cpu_ms"] =
-            1e3 * (processor_time(CLOCK_PROCESS_CPUTIME_ID) - before) / turns;
+        state.counters["turn_cpu_ms"] = 1e3 * (processor_time(CLOCK_PROCESS_CPUTIME_ID) - before) / turns;
         state.counters["turn_ms"] = 1e3 * seconds_since(turning) / turns;
     }
 }
