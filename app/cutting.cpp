@@ -5,6 +5,7 @@
 #include "core/gcode/plot_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/plot/path_file.h"
 #include "core/plot/picture/finished_look.h"
 #include "core/plot/work_time.h"
 #include "core/project/assets.h"
@@ -27,6 +28,11 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--safe-height", options.safe_height, "Above the top, mm")->capture_default_str();
     command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
+    command.add_option("--origin", options.origin, "Where the drawing's origin lies on the machine: X,Y, mm")
+        ->delimiter(',')
+        ->expected(2);
+    command.add_option("--path", options.path_file, "The path too: a file of X, Y, Z, speed")
+        ->type_name("FILE");
     PreviewOptions& preview = options.preview;
     constexpr int most_pixels = 10'000;
     command.add_option("--preview", preview.file, "PNG file: how the work looks when it is done")
@@ -48,6 +54,15 @@ kinematics::MachineModel machine_of(const CuttingOptions& options) {
 
 namespace {
 
+plot::CutPath placed(plot::CutPath path, const std::vector<double>& origin) {
+    if (!origin.empty()) {
+        for (plot::CutPoint& point : path) {
+            point.at += Vec3(origin[0], origin[1], 0.0);
+        }
+    }
+    return path;
+}
+
 gcode::Program program_of(const plot::CutPath& path,
                           const kinematics::MachineModel& machine,
                           const CuttingOptions& options,
@@ -56,7 +71,7 @@ gcode::Program program_of(const plot::CutPath& path,
     settings.machine = machine.name();
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
-    return gcode::plot_program(path, settings);
+    return gcode::plot_program(placed(path, options.origin), settings);
 }
 
 std::string preview_of(const plot::CutPath& path, const PreviewOptions& preview, const plot::ToolTip& tip) {
@@ -85,6 +100,9 @@ void write_program(const plot::CutPath& path,
                                    std::filesystem::path(options.out).stem().string());
     const std::string preview = options.preview.file.empty() ? "" : preview_of(path, options.preview, tip);
     write_file(options.out, text.text.listing.text);
+    if (!options.path_file.empty()) {
+        write_file(options.path_file, plot::path_file_text(placed(path, options.origin)));
+    }
     if (!preview.empty()) {
         write_file(options.preview.file, preview);
     }

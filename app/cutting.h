@@ -30,6 +30,8 @@ struct CuttingOptions {
     PreviewOptions preview = {};
     std::string machine = "router-xyz";
     PostChoice post = {.post = "linuxcnc-xyz"};
+    std::string path_file = {};      ///< for the path itself; empty: none
+    std::vector<double> origin = {}; ///< where x and y of the drawing begin; empty: at 0, 0
     double feed_mm_per_min = 600.0;
     double plunge_mm_per_min = 120.0;
     double safe_height = 5.0;

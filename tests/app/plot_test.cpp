@@ -109,6 +109,33 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
     EXPECT_THAT(runs({"--hatch", "1.5", "--link", "3"}), HasSubstr("linked: "));
 }
 
+// The thesis's machine has 480 x 550 mm from its zero on.
+TEST(PlotCommand, ToolpathKeepsToTheTravelOfItsMachine) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "line.ngc").string();
+    write_content(folder / "line.plt", "IN;SP1;PU0,0;PD16000,0;PU;SP;"); // 400 mm
+    const auto at = [&](const std::string& origin) {
+        return run({"plot",
+                    "toolpath",
+                    (folder / "line.plt").string(),
+                    "--machine",
+                    "forming-table",
+                    "--origin",
+                    origin,
+                    "--path",
+                    (folder / "line.path").string(),
+                    "--out",
+                    file});
+    };
+    EXPECT_THAT(at("100,0").err, HasSubstr("axis X would have to go to 500.000, outside 0.000 ... 480.000"));
+    EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_THAT(at("0,-1").err, HasSubstr("axis Y would have to go to -1.000"));
+    const Ended ended = at("80,10");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(content_of(file), HasSubstr("X480.0000"));
+    EXPECT_THAT(content_of(folder / "line.path"), HasSubstr("\n480,10,-1,10,cut,1\n"));
+}
+
 TEST(PlotCommand, UnitsHaveNames) {
     const ScratchFolder folder;
     write_content(folder / "line.plt", "IN;SP1;PU0,0;PD40000,0;PU;SP;");
