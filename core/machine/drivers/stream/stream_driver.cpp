@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::machine {
@@ -19,7 +20,8 @@ StreamDriver::StreamDriver(std::unique_ptr<Link> link,
                            AxisPositions position,
                            StreamOptions options)
     : link_(std::move(link)), clock_(clock), model_(std::move(model)), options_(options),
-      machine_(std::move(position), {1.0}, stream_clock_, model_) {
+      machine_(std::move(position), {1.0}, stream_clock_, model_),
+      record_path_(options_.record && options_.record->relative, options_.period, options_.decimals) {
     constexpr double shortest = 0.0005;
     constexpr double longest = 1.0;
     constexpr int most_decimals = 9;
@@ -29,6 +31,12 @@ StreamDriver::StreamDriver(std::unique_ptr<Link> link,
     }
     if (options.decimals < 0 || options.decimals > most_decimals) {
         throw Error(fmt::format("{} decimals are not between 0 and {}", options.decimals, most_decimals));
+    }
+    for (const kinematics::MachineAxis& axis : model_->axes()) {
+        linear_.push_back(axis.kind == AxisKind::linear);
+    }
+    if (options_.record) {
+        record_text_.emplace(*options_.record, *model_, options_.decimals);
     }
 }
 
@@ -42,11 +50,13 @@ std::string StreamDriver::lost() const {
 }
 
 DriverStatus StreamDriver::status() const {
-    DriverStatus status = machine_.status();
-    if (const std::string why = lost(); !why.empty() && status.state != DriverState::disconnected) {
+    const std::scoped_lock lock(mutex_);
+    DriverStatus status = in_flight_ ? proven_ : machine_.status();
+    if (!lost_.empty() && status.state != DriverState::disconnected) {
         status.state = DriverState::alarm;
+        status.activity = Activity::none;
         status.link_lost = true;
-        status.message = "the link was lost: " + why;
+        status.message = "the link was lost: " + lost_;
     }
     return status;
 }
@@ -59,42 +69,68 @@ std::string StreamDriver::heading() const {
     return text + "\n";
 }
 
+std::vector<double> StreamDriver::as_written(const AxisPositions& position) const {
+    std::vector<double> values;
+    for (int n = 0; n < model_->axis_count(); ++n) {
+        values.push_back(linear_[static_cast<std::size_t>(n)] ? position[n] : to_degrees(position[n]));
+    }
+    return values;
+}
+
 std::string StreamDriver::line(const AxisPositions& position) const {
     std::string text;
-    for (int n = 0; n < model_->axis_count(); ++n) {
-        const bool rotary = model_->axis(n).kind == AxisKind::rotary;
-        text +=
-            (n == 0 ? "" : " ") + fixed(rotary ? to_degrees(position[n]) : position[n], options_.decimals);
+    for (const double value : as_written(position)) {
+        text += (text.empty() ? "" : " ") + fixed(value, options_.decimals);
     }
     return text + "\n";
 }
 
+std::string StreamDriver::text_for(const AxisPositions& position) {
+    return record_text_ ? record_text_->written(record_path_.to(as_written(position), linear_)) +
+                              options_.record->ending
+                        : line(position);
+}
+
 void StreamDriver::connect() {
     if (machine_.status().state == DriverState::disconnected) {
-        open();
+        link_->open();
         machine_.connect();
+        begin();
     }
 }
 
-void StreamDriver::open() {
-    thread_ = {};
-    link_->open();
-    link_->write(heading());
+/// Over a link that was just opened.
+void StreamDriver::begin() {
+    inbox_.clear();
+    const AxisPositions position = machine_.status().position;
+    if (record_text_) { // it stands there already
+        record_path_.begin(as_written(position));
+    } else {
+        link_->write(heading());
+    }
     {
         const std::scoped_lock lock(mutex_);
         lost_.clear();
-        last_line_.clear();
+        last_line_ = record_text_ ? line(position) : std::string();
+        in_flight_ = false;
     }
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void StreamDriver::lose(const std::string& why) {
+    machine_.emergency_stop();
+    {
+        const std::scoped_lock lock(mutex_);
+        lost_ = why;
+    }
+    landed_.notify_all();
 }
 
 void StreamDriver::run(const std::stop_token& stop) {
     double next = clock_.now();
     while (!stop.stop_requested()) {
         if (const auto why = link_->lost()) {
-            machine_.emergency_stop();
-            const std::scoped_lock lock(mutex_);
-            lost_ = *why;
+            lose(*why);
             return;
         }
         next += options_.period;
@@ -106,45 +142,122 @@ void StreamDriver::run(const std::stop_token& stop) {
         } else if (stands) {
             link_->wait(rest);
         }
-        if (stands) {
+        if (stands || awaits_answers()) {
             next = std::max(next, clock_.now() - options_.period);
         }
-        send_sample();
+        if (!send_sample(stop)) {
+            return;
+        }
     }
+}
+
+/// The record that was sent is answered, or needs no answer, or there was none.
+void StreamDriver::land() {
+    {
+        const std::scoped_lock lock(mutex_);
+        in_flight_ = false;
+    }
+    landed_.notify_all();
 }
 
 /// What is the same as the last is sent only while something moves: a standing machine needs no samples.
-void StreamDriver::send_sample() {
+/// While an answer is awaited the stream's time stands, and with it the machine. False when the link is gone.
+bool StreamDriver::send_sample(const std::stop_token& stop) {
+    {
+        const std::scoped_lock lock(mutex_);
+        proven_ = machine_.status();
+        in_flight_ = awaits_answers();
+    }
     stream_clock_.wait(options_.period);
     const DriverStatus now = machine_.status();
-    if (now.position.size() == 0) {
-        return;
+    if (now.position.size() == 0 || now.state == DriverState::alarm) {
+        land();
+        return true;
     }
-    std::string text = line(now.position);
-    const std::scoped_lock lock(mutex_);
+    std::string here = line(now.position);
     const bool moves = now.state == DriverState::running || now.state == DriverState::stopping;
-    if (now.state == DriverState::alarm || (!moves && text == last_line_)) {
-        return;
+    if (!moves && here == last_line_) {
+        land();
+        return true;
     }
-    link_->write(text);
-    last_line_ = std::move(text);
+    if (const auto why = exchange(text_for(now.position), stop)) {
+        lose(*why);
+        return false;
+    }
+    last_line_ = std::move(here);
     ++samples_;
+    land();
+    return true;
 }
 
-void StreamDriver::require_link() const {
-    if (const std::string why = lost(); !why.empty()) {
-        throw Error("the link was lost: " + why, {}, "look at the machine, then reset it");
+/// The next line that came, blanks and line ends taken off; nothing if there is none.
+std::optional<std::string> StreamDriver::next_answer() {
+    inbox_ += link_->read();
+    while (true) {
+        const auto end = inbox_.find_first_of("\r\n");
+        if (end == std::string::npos) {
+            return std::nullopt;
+        }
+        std::string answer = inbox_.substr(0, end);
+        inbox_.erase(0, end + 1);
+        answer.erase(0, std::min(answer.find_first_not_of(' '), answer.size()));
+        answer.erase(answer.find_last_not_of(' ') + 1);
+        if (!answer.empty()) {
+            return answer;
+        }
     }
+}
+
+/// Sends, and waits for the answer where one is awaited. Why that failed; nothing if it did not.
+std::optional<std::string> StreamDriver::exchange(const std::string& text, const std::stop_token& stop) {
+    if (!awaits_answers()) {
+        link_->write(text);
+        return std::nullopt;
+    }
+    if (const auto unasked = next_answer()) {
+        return fmt::format("the machine said '{}' before record {} was sent", *unasked, samples_ + 1);
+    }
+    link_->write(text);
+    const RecordFormat& format = *options_.record;
+    const double end = clock_.now() + format.patience;
+    while (!stop.stop_requested()) {
+        if (const auto answer = next_answer()) {
+            return *answer == format.answer
+                       ? std::nullopt
+                       : std::optional(
+                             fmt::format("the machine answered '{}' to record {}", *answer, samples_ + 1));
+        }
+        if (const auto why = link_->lost()) {
+            return why;
+        }
+        if (clock_.now() > end) {
+            return fmt::format("no answer to record {} within {} s", samples_ + 1, format.patience);
+        }
+        constexpr double glance = 0.01;
+        link_->wait(glance);
+    }
+    return "closed";
+}
+
+/// What a person begins is seen in the next status: it does not hide behind a record that is on its way.
+template <class Act> auto StreamDriver::between_records(const Act& act) {
+    std::unique_lock lock(mutex_);
+    landed_.wait(lock, [this] { return !in_flight_ || !lost_.empty(); });
+    if (!lost_.empty()) {
+        throw Error("the link was lost: " + lost_, {}, "look at the machine, then reset it");
+    }
+    return act();
 }
 
 void StreamDriver::start(Work work) {
-    require_link();
-    machine_.start(std::move(work));
+    between_records([&] { machine_.start(std::move(work)); });
 }
 
 void StreamDriver::reset() {
     if (!lost().empty()) {
-        open();
+        thread_ = {};
+        link_->open();
+        begin();
     }
     machine_.reset();
 }
@@ -169,18 +282,15 @@ void StreamDriver::close() noexcept {
 }
 
 void StreamDriver::jog(const Jog& jog) {
-    require_link();
-    machine_.jog(jog);
+    between_records([&] { machine_.jog(jog); });
 }
 
 void StreamDriver::home() {
-    require_link();
-    machine_.home();
+    between_records([&] { machine_.home(); });
 }
 
 int StreamDriver::command(const std::string& lines) {
-    require_link();
-    return machine_.command(lines);
+    return between_records([&] { return machine_.command(lines); });
 }
 
 } // namespace millwright::machine

@@ -1,18 +1,22 @@
 // A machine that takes coordinates: where its axes shall be, one line a sampling period, and says nothing
 // back. Programs, hold, resume, jogs and single lines are those of the virtual machine, whose positions are
-// sent; so what is sent keeps the limits of the axes at every moment. Format:
+// sent; so what is sent keeps the limits of the axes at every moment. Machines with words of their own get
+// records of any pattern, and may answer each before the next is sent. Format:
 // docs/reference/coordinate-stream.md.
 #pragma once
 
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
+#include "core/machine/drivers/stream/record_format.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/links/link.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -22,9 +26,13 @@ struct StreamOptions {
     double period = 0.01; ///< s between samples, 0.0005 to 1
     int decimals = 4;     ///< of mm and degrees, 0 to 9
     bool paced = true;    ///< a sample a period; false: as fast as it goes, for files
+    /// Given: records in place of the stream's own lines, and no first line. Nothing is sent before something
+    /// moves.
+    std::optional<RecordFormat> record = std::nullopt;
 };
 
-/// Nobody tells where the machine is: positions are those that were sent.
+/// Nobody tells where the machine is: positions are those that were sent, and where records are answered,
+/// those that were. Any other answer, or none in time, is an alarm, and nothing more is sent.
 class StreamDriver final : public Driver {
 public:
     /// Stands at `position`. `clock` must outlive it. Throws Error for options out of range.
@@ -76,13 +84,20 @@ private:
         std::atomic<double> time_ = 0.0;
     };
 
-    void open();
+    void begin();
     void run(const std::stop_token& stop);
-    void send_sample();
-    void require_link() const;
+    [[nodiscard]] bool send_sample(const std::stop_token& stop);
+    void land();
     [[nodiscard]] std::string line(const kinematics::AxisPositions& position) const;
     [[nodiscard]] std::string heading() const;
     [[nodiscard]] std::string lost() const;
+    void lose(const std::string& why);
+    [[nodiscard]] bool awaits_answers() const { return options_.record && !options_.record->answer.empty(); }
+    [[nodiscard]] std::optional<std::string> exchange(const std::string& text, const std::stop_token& stop);
+    [[nodiscard]] std::optional<std::string> next_answer();
+    [[nodiscard]] std::vector<double> as_written(const kinematics::AxisPositions& position) const;
+    [[nodiscard]] std::string text_for(const kinematics::AxisPositions& position);
+    template <class Act> auto between_records(const Act& act);
 
     std::unique_ptr<Link> link_;
     const Clock& clock_;
@@ -90,10 +105,17 @@ private:
     StreamOptions options_;
     StreamClock stream_clock_;
     VirtualMachine machine_;
+    std::optional<RecordText> record_text_;
+    RecordPath record_path_;
+    std::vector<bool> linear_; ///< of each axis
+    std::string inbox_;        ///< what came and is no whole line yet
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;
-    std::string lost_; ///< why the link is gone; empty while it stands
+    std::string lost_;    ///< why the link is gone; empty while it stands
+    DriverStatus proven_; ///< before the record that is not answered yet
+    bool in_flight_ = false;
+    std::condition_variable landed_;
     std::jthread thread_;
 };
 

@@ -1,0 +1,151 @@
+// Records over a pseudo-terminal, with the driver at one end and the table at the other.
+#include "core/machine/emulators/table/table_emulator.h"
+
+#include "core/base/error.h"
+#include "core/machine/drivers/stream/stream_driver.h"
+#include "core/machine/links/pseudo_terminal.h"
+#include "core/machine/links/serial_link.h"
+#include "tests/core/machine/links/reading.h"
+#include "tests/support/machines.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::machine {
+namespace {
+
+using kinematics::AxisPositions;
+using testing::HasSubstr;
+
+constexpr int decimals = 4;
+
+RecordFormat answered(bool relative) {
+    RecordFormat format;
+    format.relative = relative;
+    format.answer = "ok";
+    return format;
+}
+
+struct Bench {
+    explicit Bench(const RecordFormat& format, TableOptions options = {}) : format_(format) {
+        options.keep = true;
+        table = std::make_unique<TableEmulator>(
+            std::make_unique<PseudoTerminal>(port.string()), format, *model, options);
+        driver = std::make_unique<StreamDriver>(
+            make_link(port.string()),
+            clock,
+            model,
+            AxisPositions::Zero(3),
+            StreamOptions{.period = 0.002, .decimals = decimals, .record = format_});
+        driver->connect();
+    }
+
+    void wait_for_end() const {
+        test::wait_until([&] { return driver->status().activity == Activity::none; });
+    }
+
+    /// What became of the last lines.
+    void run(const std::string& lines) {
+        (void)driver->command(lines);
+        wait_for_end();
+    }
+
+    RecordFormat format_;
+    test::ScratchFolder scratch;
+    std::filesystem::path port = scratch / "table";
+    SteadyClock clock;
+    std::shared_ptr<const kinematics::MachineModel> model =
+        std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
+    std::unique_ptr<TableEmulator> table;
+    std::unique_ptr<StreamDriver> driver;
+};
+
+/// Each step is one that the axes can make in a period, and the last position is where the program ends.
+void expect_whole_way(const Bench& bench, double x, double y) {
+    const auto positions = bench.table->positions();
+    const auto axis = [&](char letter) { return static_cast<std::size_t>(bench.model->axis_index(letter)); };
+    ASSERT_FALSE(positions.empty());
+    EXPECT_NEAR(positions.back()[axis('X')], x, 1e-4);
+    EXPECT_NEAR(positions.back()[axis('Y')], y, 1e-4);
+    std::vector<double> before(3, 0.0);
+    for (const auto& position : positions) {
+        for (std::size_t n = 0; n < 3; ++n) {
+            EXPECT_LE(std::abs(position[n] - before[n]), 150.0 * 0.002 + 2e-4); // mm/s times the period
+        }
+        before = position;
+    }
+    EXPECT_EQ(bench.table->records(), bench.driver->samples());
+    EXPECT_EQ(bench.table->bad_lines(), 0);
+}
+
+TEST(TableEmulator, ReceivesEveryRecordInOrder) {
+    for (const bool relative : {false, true}) {
+        Bench bench(answered(relative));
+        bench.run("G21 G90 G94\nG1 X6 Y2 F3000\nX6 Y5\n");
+        expect_whole_way(bench, 6.0, 5.0);
+        EXPECT_GT(bench.table->records(), 50);
+    }
+}
+
+TEST(TableEmulator, NeedsNoAnswersWhereNoneAreAsked) {
+    RecordFormat format;
+    format.pattern = "G X{X} Y{Y} Z{Z}";
+    Bench bench(format);
+    bench.run("G21 G90 G94\nG1 X3 F3000\n");
+    test::wait_until([&] { return bench.table->records() == bench.driver->samples(); });
+    expect_whole_way(bench, 3.0, 0.0);
+}
+
+TEST(TableEmulator, IsHeldAndGoesOnWithNothingLostOrDoubled) {
+    Bench bench(answered(true));
+    (void)bench.driver->command("G21 G90 G94\nG1 X20 F3000\n");
+    test::wait_until([&] { return bench.driver->status().position[bench.model->axis_index('X')] > 3.0; });
+    bench.driver->hold();
+    test::wait_until([&] { return bench.driver->status().velocity.norm() < 1e-9; });
+    bench.driver->resume();
+    bench.wait_for_end();
+    expect_whole_way(bench, 20.0, 0.0);
+}
+
+// A fault in the middle, looked at and reset: the rest is given from where the table stands.
+TEST(TableEmulator, ThatRefusesARecordIsAnAlarmAndNothingMoreIsSent) {
+    Bench bench(answered(false), {.refuses = 40});
+    bench.run("G21 G90 G94\nG1 X20 F3000\n");
+    EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("the machine answered 'error' to record 40"));
+    EXPECT_EQ(bench.table->records(), 39);
+    EXPECT_THROW((void)bench.driver->command("G1 X1 F100"), Error);
+    EXPECT_EQ(bench.table->records(), 39);
+    // What is claimed is what was answered.
+    const auto x = static_cast<std::size_t>(bench.model->axis_index('X'));
+    EXPECT_NEAR(
+        bench.driver->status().position[static_cast<Eigen::Index>(x)], bench.table->position()[x], 1e-4);
+    bench.driver->reset();
+    bench.run("G21 G90 G94\nG1 X20 F3000\n");
+    EXPECT_NEAR(bench.table->position()[x], 20.0, 1e-4);
+}
+
+TEST(TableEmulator, ThatFallsSilentIsAnAlarm) {
+    Bench bench(answered(false), {.silent_from = 25});
+    bench.run("G21 G90 G94\nG1 X20 F3000\n");
+    EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("no answer to record 25 within 5 s"));
+    EXPECT_EQ(bench.table->records(), 25);
+}
+
+TEST(TableEmulator, StandsWithinOneRecordOfAnEmergencyStop) {
+    Bench bench(answered(false));
+    (void)bench.driver->command("G21 G90 G94\nG1 X100 F3000\n");
+    test::wait_until([&] { return bench.table->records() > 30; });
+    bench.driver->emergency_stop();
+    const std::int64_t then = bench.driver->samples();
+    test::wait_until([&] { return bench.driver->status().state == DriverState::alarm; });
+    bench.driver->close();
+    EXPECT_LE(bench.table->records(), then + 1);
+}
+
+} // namespace
+} // namespace millwright::machine
