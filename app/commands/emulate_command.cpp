@@ -1,5 +1,6 @@
 #include "app/commands/emulate_command.h"
 
+#include "app/commands/emulate_table.h"
 #include "app/interrupt.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
@@ -182,6 +183,7 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
     linuxcnc.callback([&chosen, options] { chosen = [options] { return emulate_linuxcnc(*options); }; });
     CLI::App& stream = add_emulated(group, "stream", "A machine that takes a coordinate stream", options);
     stream.callback([&chosen, options] { chosen = [options] { return emulate_stream(*options); }; });
+    add_emulate_table(group, chosen);
 }
 
 } // namespace millwright::app

@@ -4,12 +4,14 @@
 #include "app/interrupt.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
+#include "app/record_choice.h"
 #include "app/series.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/make_driver.h"
+#include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/run_from_line.h"
 
@@ -32,6 +34,7 @@ struct Options {
     std::string driver = "virtual";
     double speed = 1.0;
     double period = 0.01;
+    RecordChoice record;         ///< of a coordinate stream
     ControllerChoice controller; ///< for grbl; its port also for stream
     PostChoice post{.post = ""}; ///< empty: that of the driver
     std::optional<double> clearance;
@@ -122,12 +125,23 @@ private:
         choice.kind = machine::driver_kind(options_.driver);
         choice.address = options_.controller.port;
         choice.period = options_.period;
+        if (const auto record = record_of(options_.record)) {
+            return std::make_unique<machine::StreamDriver>(
+                machine::make_link(choice.address),
+                clock_,
+                job.machine,
+                job.program->start,
+                machine::StreamOptions{.period = options_.period, .record = record});
+        }
         return machine::make_driver(choice, {job.machine, job.program->start, options_.speed}, clock_);
     }
 };
 
 /// Before the work is done.
 void refuse_missing_port(const Options& options) {
+    if (!options.record.pattern.empty() && options.driver != "stream") {
+        throw Error("records are for the stream driver");
+    }
     const bool inside = options.driver == "virtual" || options.driver == "cordic";
     if (!inside && options.controller.port.empty()) {
         throw Error("the " + options.driver + " driver needs a port", {}, "give --port");
@@ -181,6 +195,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
     command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
         ->type_name("S")
         ->capture_default_str();
+    add_record_options(command, options->record);
     add_post_options(command, options->post);
     command
         .add_option("--speed",
