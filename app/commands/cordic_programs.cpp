@@ -100,13 +100,13 @@ gcode::CordicProgram program_of(const Options& options) {
     const auto kind = std::filesystem::path(options.file).extension();
     if (kind == ".bin") {
         const std::string bytes = read_file(options.file);
-        return {cordic::parse_image(bytes_of(bytes), options.file), {}, {}, {}, {}};
+        return {cordic::parse_image(bytes_of(bytes), options.file), {}, {}, {}, {}, {}};
     }
     if (kind == ".asm") {
         auto made = cordic::assemble(
             read_file(options.file), options.file, cordic::parse_number_format(options.format));
         refuse(made.errors);
-        return {std::move(made.image), {}, {}, {}, {}};
+        return {std::move(made.image), {}, {}, {}, {}, {}};
     }
     return compiled(options);
 }

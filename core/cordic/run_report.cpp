@@ -71,6 +71,17 @@ void find_late(RunReport& report, const Processor& processor, double clock_hz, P
 
 } // namespace
 
+std::vector<PathDifference> path_differences(const Processor& processor, std::span<const ExactPoint> exact) {
+    std::vector<PathDifference> differences;
+    const std::size_t count = std::min(exact.size(), processor.published().size());
+    for (std::size_t n = 0; n < count; ++n) {
+        const Point at = found(processor, processor.published()[n]).at;
+        const double distance = length(at - Point{exact[n].x, exact[n].y, exact[n].z});
+        differences.push_back({exact[n], at.x, at.y, at.z, distance});
+    }
+    return differences;
+}
+
 RunReport report_of(const Processor& processor,
                     std::span<const ExactPoint> exact,
                     double clock_hz,

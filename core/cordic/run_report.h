@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace millwright::cordic {
 
@@ -17,6 +18,17 @@ struct ExactPoint {
     int line = 0;       ///< of the G-code; 0: none
     double z = 0.0;
 };
+
+/// A set-point beside its exact place. mm.
+struct PathDifference {
+    ExactPoint exact;
+    double x = 0.0, y = 0.0, z = 0.0; ///< as published
+    double distance = 0.0;            ///< between the two
+};
+
+/// Of each set-point that was published and is to be.
+[[nodiscard]] std::vector<PathDifference> path_differences(const Processor& processor,
+                                                           std::span<const ExactPoint> exact);
 
 struct RunReport {
     Stop stop = Stop::none;

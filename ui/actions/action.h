@@ -85,6 +85,8 @@ public:
     void open_file(std::filesystem::path file);
     void save_file(std::filesystem::path file);
 
+    /// What is to be done with the processor.
+    void processor(std::function<void(ProcessorBench&)> what);
     /// What the connected machine is to do, at once.
     void tell(std::function<void(machine::Driver&)> what);
     /// At once, of the running job or of what the machine does next.

@@ -9,7 +9,8 @@ Session new_session() {
                       viewport::layers_of(ViewKind::grid),
                       viewport::layers_of(ViewKind::error),
                       viewport::layers_of(ViewKind::toolpath),
-                      viewport::layers_of(ViewKind::machine)};
+                      viewport::layers_of(ViewKind::machine),
+                      viewport::layers_of(ViewKind::toolpath)};
     return session;
 }
 

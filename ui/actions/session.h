@@ -19,8 +19,8 @@
 namespace millwright::actions {
 
 /// A choice of panes and layers, not a mode that hides data.
-enum class Workspace { design, grid, toolpath, program, machine };
-inline constexpr int workspace_count = 5;
+enum class Workspace { design, grid, toolpath, program, machine, processor };
+inline constexpr int workspace_count = 6;
 
 /// What the lower pane shows.
 enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, jobs, log };
@@ -30,7 +30,9 @@ struct PaneSizes {
     float outline = 220.0F;
     float inspector = 350.0F;
     float lower = 190.0F;
-    float listing = 350.0F; ///< the left pane in the Program and Machine workspaces
+    float processor = 270.0F; ///< the lower pane in the Processor workspace
+    float code = 330.0F;      ///< the left one there
+    float listing = 350.0F;   ///< the left pane in the Program and Machine workspaces
     bool outline_shown = true;
     bool inspector_shown = true;
     bool lower_shown = true;
@@ -66,8 +68,12 @@ struct Session {
     FileView file;
     HandSettings hand;
     BeginAt begin; ///< of the next job
-    std::array<LowerTab, workspace_count> lower_tabs{
-        LowerTab::plots, LowerTab::plots, LowerTab::plots, LowerTab::motion, LowerTab::console};
+    std::array<LowerTab, workspace_count> lower_tabs{LowerTab::plots,
+                                                     LowerTab::plots,
+                                                     LowerTab::plots,
+                                                     LowerTab::motion,
+                                                     LowerTab::console,
+                                                     LowerTab::log};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time

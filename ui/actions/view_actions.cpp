@@ -65,6 +65,11 @@ void add_view_actions(Actions& actions) {
         go<Workspace::machine>,
         is_in<Workspace::machine>);
     add(actions,
+        {"view.processor", "View", "Processor", "The CORDIC processor, clock by clock.", "F7", ""},
+        always,
+        go<Workspace::processor>,
+        is_in<Workspace::processor>);
+    add(actions,
         {"view.show_uniform",
          "View",
          "Show the uniform grid",

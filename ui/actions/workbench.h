@@ -10,6 +10,7 @@
 #include "ui/actions/file_place.h"
 #include "ui/actions/job_recovery.h"
 #include "ui/actions/job_runner.h"
+#include "ui/actions/processor_bench.h"
 #include "ui/actions/session.h"
 #include "ui/render/gamepad.h"
 
@@ -40,6 +41,7 @@ struct Workbench {
     const std::vector<project::LeftBehind>& left_behind;     ///< by programs that crashed; to be asked about
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
+    const ProcessorBench& processor;
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

@@ -1,6 +1,7 @@
 #include "ui/actions/workshop.h"
 
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "ui/actions/job_source.h"
 
 #include <algorithm>
@@ -63,7 +64,8 @@ Workbench Workshop::look() const {
             leaving_ ? leaving_->to : std::string(),
             left_behind_,
             job_recovery_->broken(),
-            gamepad_};
+            gamepad_,
+            processor_};
 }
 
 void Workshop::request_plan() {
@@ -136,11 +138,12 @@ void Workshop::watch_jog(bool held, bool focused) {
 bool Workshop::advance(double seconds) {
     follow_file();
     follow_begin();
+    const bool processed = follow_processor(seconds);
     Playback& playback = session_.playback;
     const double duration = look().duration();
     if (!(duration > 0.0)) {
         playback.playing = false;
-        return false;
+        return processed;
     }
     const double before = playback.time;
     follow_job();
@@ -150,7 +153,42 @@ bool Workshop::advance(double seconds) {
         playback.time = std::min(playback.time + seconds * playback.speed, duration);
         playback.playing = playback.time < duration;
     }
-    return playback.time < before || playback.time > before;
+    return processed || playback.time < before || playback.time > before;
+}
+
+/// It has something to show once it is looked at.
+bool Workshop::follow_processor(double seconds) {
+    if (session_.workspace == Workspace::processor && processor_.name().empty()) {
+        guarded([this] { load_processor(processor_.choice().source); });
+        if (processor_.name().empty()) { // said once
+            processor_.load(processor_.choice().source, "M2\n", "nothing");
+        }
+    }
+    return processor_.advance(seconds);
+}
+
+void Workshop::load_processor(ProcessorSource source) {
+    const Workbench now = look();
+    const auto sample = [&](const char* file) {
+        const std::filesystem::path path = options_.assets / "samples" / file;
+        processor_.load(source, read_file(path), path.filename());
+    };
+    switch (source) {
+    case ProcessorSource::thesis_arc:
+        return sample("thesis-arc.ngc");
+    case ProcessorSource::thesis_path:
+        return sample("thesis-path.ngc");
+    case ProcessorSource::opened_file:
+        if (now.opened) {
+            processor_.load(source, read_file(now.opened->file), now.opened->file.filename());
+        }
+        return;
+    case ProcessorSource::project:
+        if (const auto listing = now.listing()) {
+            processor_.load(source, listing->text, "project");
+        }
+        return;
+    }
 }
 
 void Workshop::follow_begin() {

@@ -97,6 +97,10 @@ public:
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
 
+    [[nodiscard]] ProcessorBench& processor() { return processor_; }
+    /// Compiles the program that is chosen there. What is wrong with it is shown there.
+    void load_processor(ProcessorSource source);
+
     [[nodiscard]] Session& session() { return session_; }
     /// Blocks until nothing runs in the background (tests, pictures).
     void wait_idle();
@@ -125,6 +129,7 @@ private:
     void request_plan();
     void follow_job();
     void follow_begin();
+    [[nodiscard]] bool follow_processor(double seconds);
     void guarded(const std::function<void()>& action);
 
     WorkshopOptions options_;
@@ -141,6 +146,7 @@ private:
     std::unique_ptr<project::ProgramReader> reader_;
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
+    ProcessorBench processor_;
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;

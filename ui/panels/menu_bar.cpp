@@ -16,14 +16,15 @@ namespace {
 namespace icons = widgets::icons;
 using actions::Workspace;
 
-constexpr std::array<std::string_view, 5> menus{"File", "Edit", "View", "Grid", "Machine"};
+constexpr std::array<std::string_view, 6> menus{"File", "Edit", "View", "Grid", "Machine", "Processor"};
 
 constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
     {{"design", "Design", icons::design},
      {"grid", "Grid", icons::grid},
      {"toolpath", "Toolpath", icons::toolpath},
      {"program", "Program", icons::program},
-     {"machine", "Machine", icons::machine}}};
+     {"machine", "Machine", icons::machine},
+     {"processor", "Processor", icons::processor}}};
 
 std::string widget_id(std::string_view action_id) {
     std::string id(action_id);
@@ -41,11 +42,13 @@ std::string lower(std::string_view word) {
 
 constexpr float gap_to_stop = 12.0F; // from the search to the emergency stop
 constexpr float tools_width = 300.0F;
+constexpr float narrow_tools = 250.0F;
 constexpr float smallest_tabs = 490.0F;
+constexpr float roomy = 940.0F; // tabs with icons, and the tools
 
 /// A line stands above these in their menu.
 bool begins_group(std::string_view id) {
-    constexpr std::array<std::string_view, 12> first{"file.save",
+    constexpr std::array<std::string_view, 13> first{"file.save",
                                                      "file.write_program",
                                                      "file.quit",
                                                      "edit.select_all",
@@ -56,6 +59,7 @@ bool begins_group(std::string_view id) {
                                                      "view.theme",
                                                      "grid.play",
                                                      "grid.use_uniform",
+                                                     "processor.thesis_arc",
                                                      "work.cancel"};
     return std::find(first.begin(), first.end(), id) != first.end();
 }
@@ -70,10 +74,15 @@ void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_menus(ui, now, ask);
     ui.beside();
     ui.move_by(0.0F, -ui.px(tabs_above));
-    const float tools = ui.px(tools_width);
+    const bool narrow = ui.rest().w < ui.px(roomy);
+    const float tools = ui.px(narrow ? narrow_tools : tools_width);
+    auto shown = workspaces;
+    for (widgets::Option& option : shown) {
+        option.icon = narrow ? std::string_view() : option.icon;
+    }
     {
         const auto width = ui.width(std::max(ui.rest().w - tools, ui.px(smallest_tabs)));
-        if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), workspaces)) {
+        if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), shown)) {
             ask.show(
                 [w = static_cast<Workspace>(*chosen)](actions::Session& session) { session.workspace = w; });
         }
@@ -112,6 +121,9 @@ void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
 
 void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     for (const std::string_view title : menus) {
+        if (title == "Processor" && now.session.workspace != Workspace::processor) {
+            continue; // there is room for it where it is wanted
+        }
         if (title != menus.front()) {
             ui.beside();
         }

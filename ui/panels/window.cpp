@@ -2,6 +2,7 @@
 
 #include "ui/actions/shortcut.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/processor_diagram.h"
 #include "ui/panels/status_bar.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/widgets/icons.h"
@@ -32,8 +33,22 @@ constexpr float smallest_view = 240.0F;
 constexpr double between_looks_at_pad = 0.02; ///< s
 constexpr double between_looks_for_pad = 0.5; ///< s
 
-bool is_wide(const actions::Session& session) {
-    return session.workspace == Workspace::program || session.workspace == Workspace::machine;
+/// Which of the sizes holds for the pane at the left, and for the lower one.
+float actions::PaneSizes::*left_size(const actions::Session& session) {
+    switch (session.workspace) {
+    case Workspace::program:
+    case Workspace::machine:
+        return &actions::PaneSizes::listing;
+    case Workspace::processor:
+        return &actions::PaneSizes::code;
+    default:
+        return &actions::PaneSizes::outline;
+    }
+}
+
+float actions::PaneSizes::*lower_size(const actions::Session& session) {
+    return session.workspace == Workspace::processor ? &actions::PaneSizes::processor
+                                                     : &actions::PaneSizes::lower;
 }
 
 /// Something that could hold a jog is down.
@@ -58,7 +73,8 @@ bool pressed(const actions::Shortcut& keys, bool typing) {
 Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()), dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
+      machine_(workshop.catalogue()), processor_(workshop.catalogue()), dialogs_(workshop.catalogue()),
+      view_(workshop.catalogue()) {}
 
 Window::Layout
 Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
@@ -66,10 +82,9 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float s = ui.px(seam);
     const float top = ui.px(menu_height);
     const float bottom = height - ui.px(status_height);
-    const float wanted = is_wide(session) ? sizes.listing : sizes.outline;
-    const float left = sizes.outline_shown ? ui.px(wanted) : 0.0F;
+    const float left = sizes.outline_shown ? ui.px(sizes.*left_size(session)) : 0.0F;
     const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
-    const float lower = sizes.lower_shown ? ui.px(sizes.lower) : 0.0F;
+    const float lower = sizes.lower_shown ? ui.px(sizes.*lower_size(session)) : 0.0F;
     const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
@@ -114,24 +129,39 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     if (place.outline.w > 0.0F) {
         draw_left(ui, now, place.outline);
     }
-    {
-        const auto pane = ui.bare_pane("view", place.view);
-        view_.draw(ui, now, ask_, place.view);
-    }
-    {
-        const auto pane = ui.pane("timeline", place.timeline);
-        timeline_.draw(ui, now, ask_);
-    }
+    draw_middle(ui, now, place);
     if (place.inspector.w > 0.0F) {
         const auto pane = ui.pane("inspector", place.inspector, "Inspector");
         draw_inspector(ui, now);
     }
     if (place.lower.h > 0.0F) {
         const auto pane = ui.pane("lower", place.lower);
-        lower_.draw(ui, now, ask_);
+        if (now.session.workspace == Workspace::processor) {
+            processor_.draw_plots(ui, now, ask_);
+        } else {
+            lower_.draw(ui, now, ask_);
+        }
     }
     const auto pane = ui.bare_pane("status", place.status);
     status_bar(ui, now, ask_, view_.under_mouse());
+}
+
+void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
+    const bool processor = now.session.workspace == Workspace::processor;
+    {
+        const auto pane = ui.bare_pane("view", place.view);
+        if (processor) {
+            processor_diagram(ui, now, place.view);
+        } else {
+            view_.draw(ui, now, ask_, place.view);
+        }
+    }
+    const auto pane = ui.pane("timeline", place.timeline);
+    if (processor) {
+        processor_.draw_steps(ui, now, ask_);
+    } else {
+        timeline_.draw(ui, now, ask_);
+    }
 }
 
 /// Acts when the mouse goes down on it, whatever menu or dialog is open.
@@ -165,6 +195,9 @@ void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
     } else if (now.session.workspace == Workspace::machine) {
         const auto pane = ui.pane("hand", place, "By hand");
         machine_.draw_left(ui, now, ask_);
+    } else if (now.session.workspace == Workspace::processor) {
+        const auto pane = ui.pane("code", place, "Code");
+        processor_.draw_code(ui, now, ask_);
     } else {
         const auto pane = ui.pane("outline", place, "Project");
         outline_.draw(ui, now, ask_);
@@ -183,6 +216,8 @@ void Window::draw_inspector(Ui& ui, const Workbench& now) {
         return program_.draw(ui, now, ask_);
     case Workspace::machine:
         return machine_.draw(ui, now, ask_);
+    case Workspace::processor:
+        return processor_.draw(ui, now, ask_);
     }
 }
 
@@ -208,7 +243,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
         drag("outline",
              {place.outline.w, place.outline.y, s, place.outline.h},
              widgets::SizeOf::left,
-             is_wide(now.session) ? &actions::PaneSizes::listing : &actions::PaneSizes::outline,
+             left_size(now.session),
              140.0F,
              spare - place.inspector.w);
     }
@@ -224,7 +259,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
         drag("lower",
              {0.0F, place.lower.y - s, place.lower.w, s},
              widgets::SizeOf::below,
-             &actions::PaneSizes::lower,
+             lower_size(now.session),
              90.0F,
              height - ui.px(smallest_view + timeline_height + menu_height));
     }
@@ -269,7 +304,8 @@ void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
 
 std::optional<double> Window::next_change() const {
     const auto& session = workshop_.look().session;
-    if (session.playback.playing || workshop_.jogging()) {
+    const bool runs = session.playback.playing || workshop_.processor().running();
+    if (runs || workshop_.jogging()) {
         return 0.0;
     }
     const Workbench now = workshop_.look();

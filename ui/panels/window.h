@@ -11,6 +11,7 @@
 #include "ui/panels/machine_panel.h"
 #include "ui/panels/menu_bar.h"
 #include "ui/panels/outline_panel.h"
+#include "ui/panels/processor_panel.h"
 #include "ui/panels/program_panel.h"
 #include "ui/panels/timeline_panel.h"
 #include "ui/panels/toolpath_panel.h"
@@ -40,6 +41,7 @@ private:
     layout(const Ui& ui, const actions::Session& session, float width, float height) const;
     void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
     void draw_emergency_stop(Ui& ui, const Workbench& now);
+    void draw_middle(Ui& ui, const Workbench& now, const Layout& place);
     void draw_left(Ui& ui, const Workbench& now, const widgets::Rect& place);
     void draw_inspector(Ui& ui, const Workbench& now);
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
@@ -56,6 +58,7 @@ private:
     ToolpathPanel toolpath_;
     ProgramPanel program_;
     MachinePanel machine_;
+    ProcessorPanel processor_;
     LowerPanel lower_;
     TimelinePanel timeline_;
     Dialogs dialogs_;

@@ -27,9 +27,9 @@ using cordic::Register;
 using cordic::Word;
 
 constexpr double seconds_a_minute = 60.0;
-constexpr double same_place = 1e-9;              // mm or degrees: rounding of offsets
-constexpr double widest_chord = pi / 4;          // rad
-constexpr std::int64_t most_chords = 10'000'000; // of one arc: what a person waits for, far below register N
+constexpr double same_place = 1e-9;             // mm or degrees: rounding of offsets
+constexpr double widest_chord = pi / 4;         // rad
+constexpr std::int64_t most_chords = 2'000'000; // of one arc: what a person waits for, far below register N
 
 /// The instructions of a line in the plane and of one that rises.
 struct LineOpcodes {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/cordic/debugger.h"
 #include "core/cordic/instruction.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/axes.h"
@@ -38,10 +39,11 @@ struct CordicProgramSettings {
 
 struct CordicProgram {
     cordic::Image image;
-    std::vector<cordic::ExactPoint> points; ///< what it will publish, in that order
-    std::vector<int> command_lines;         ///< of each command that it will hand over, in that order
-    std::vector<Diagnostic> faults;         ///< what the processor cannot do; such moves are left out
-    std::vector<Diagnostic> warnings;       ///< moves without length, which are left out
+    std::vector<cordic::ExactPoint> points;   ///< what it will publish, in that order
+    std::vector<cordic::CodeLine> code_lines; ///< of each instruction, in the order of their addresses
+    std::vector<int> command_lines;           ///< of each command that it will hand over, in that order
+    std::vector<Diagnostic> faults;           ///< what the processor cannot do; such moves are left out
+    std::vector<Diagnostic> warnings;         ///< moves without length, which are left out
 };
 
 class CordicProgramBuilder final : public CanonSink {

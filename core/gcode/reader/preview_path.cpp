@@ -182,8 +182,8 @@ std::int64_t PreviewPath::point_count() const {
 Box3 PreviewPath::bounds() const {
     Box3 box;
     for (const auto& chunk : chunks) {
-        box.extend(Vec3(chunk->min[0], chunk->min[1], chunk->min[2]));
-        box.extend(Vec3(chunk->max[0], chunk->max[1], chunk->max[2]));
+        box.extend(Vec3(Eigen::Vector3f(chunk->min.data()).cast<double>()));
+        box.extend(Vec3(Eigen::Vector3f(chunk->max.data()).cast<double>()));
     }
     return box;
 }

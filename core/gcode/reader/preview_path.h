@@ -28,7 +28,7 @@ public:
     /// Throws Defect if `step` is too large to be kept (2^30).
     PathPoint(const Vec3& position, Step step, PathKind kind);
 
-    [[nodiscard]] Vec3 position() const { return {x_, y_, z_}; }
+    [[nodiscard]] Vec3 position() const { return Eigen::Vector3f(x_, y_, z_).cast<double>(); }
     [[nodiscard]] const float* xyz() const { return &x_; }
     [[nodiscard]] Step step() const { return packed_ & step_mask; }
     [[nodiscard]] PathKind kind() const { return static_cast<PathKind>(packed_ >> step_bits); }

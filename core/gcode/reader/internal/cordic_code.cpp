@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace millwright::gcode::internal {
@@ -60,15 +62,21 @@ double CordicCode::as_held(Word word) const {
     });
 }
 
+void CordicCode::add(const cordic::Instruction& instruction) {
+    const auto address = static_cast<std::uint16_t>(std::min(result_.image.code.size(), std::size_t{0xffff}));
+    result_.code_lines.push_back({address, now_.place.line});
+    cordic::append(result_.image.code, instruction, settings_.format);
+}
+
 void CordicCode::op(Opcode opcode) {
-    cordic::append(result_.image.code, {.opcode = opcode}, settings_.format);
+    add({.opcode = opcode});
 }
 
 void CordicCode::mov(Register target, Word word) {
     auto& loaded = loaded_[static_cast<std::size_t>(target)];
     if (loaded != word) {
         const Word immediate = cordic::is_whole(target) ? word : cordic::to_immediate(settings_.format, word);
-        cordic::append(result_.image.code, {Opcode::mov, target, immediate}, settings_.format);
+        add({Opcode::mov, target, immediate});
         loaded = word;
     }
 }

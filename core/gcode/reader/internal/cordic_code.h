@@ -45,6 +45,7 @@ public:
 
 private:
     [[nodiscard]] Place place_of(const FaultyWord& word) const;
+    void add(const cordic::Instruction& instruction);
 
     std::filesystem::path file_;
     CordicProgramSettings settings_;

@@ -1,0 +1,237 @@
+// What a model of the thesis's processor has to do, one test a promise, from the core of the arithmetic to
+// the programs that run on it. The folders' own tests go deeper.
+#include "core/cordic/comparison.h"
+#include "core/cordic/fold.h"
+#include "core/cordic/interpolation.h"
+#include "core/cordic/processor.h"
+#include "core/cordic/run_report.h"
+#include "core/gcode/reader/cordic_program.h"
+#include "core/gcode/reader/interpreter.h"
+#include "tests/core/cordic/golden.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+using cordic::FloatArithmetic;
+using cordic::Kernel;
+using cordic::thesis_sequence;
+namespace golden = cordic::golden;
+
+constexpr double pi = 3.14159265358979323846;
+
+template <class Number> Kernel<FloatArithmetic<Number>> kernel() {
+    return {FloatArithmetic<Number>(), thesis_sequence()};
+}
+
+CordicProgramSettings in_binary64() {
+    CordicProgramSettings settings;
+    settings.format = cordic::binary64;
+    return settings;
+}
+
+CordicProgram compiled(const std::string& text, const CordicProgramSettings& settings) {
+    CordicProgramBuilder builder("thesis.ngc", settings);
+    Interpreter program(std::string_view(text), "thesis.ngc", {}, builder);
+    program.run();
+    EXPECT_TRUE(program.errors().empty());
+    return builder.take();
+}
+
+cordic::Processor executed(const CordicProgram& program) {
+    cordic::Processor processor({}, program.image);
+    processor.run(1'000'000'000);
+    EXPECT_EQ(processor.state().stop, cordic::Stop::halted);
+    return processor;
+}
+
+TEST(Thesis, CoreMatchesTheHexVectorsBitForBitInBinary64) {
+    bool overflow = false;
+    for (const auto& wanted : golden::rotations) {
+        const auto found = kernel<double>().rotated({wanted.x, wanted.y, wanted.z}, overflow);
+        EXPECT_EQ(found, (cordic::Vector3<double>{wanted.x_out, wanted.y_out, wanted.z_out}));
+    }
+    for (const auto& wanted : golden::vectorings) {
+        const auto found = kernel<double>().vectored({wanted.x, wanted.y, 0.0}, overflow);
+        EXPECT_EQ(found.x, wanted.length);
+        EXPECT_EQ(found.z, wanted.angle);
+    }
+    EXPECT_FALSE(overflow);
+}
+
+TEST(Thesis, GainsCorrectionsAndRangesEqualTheTableTo1e12) {
+    struct Row {
+        cordic::CoordinateSystem m;
+        double gain, correction, range;
+    };
+    using cordic::CoordinateSystem;
+    for (const Row& row :
+         {Row{CoordinateSystem::circular, 1.27544518598050299, 0.784039962994691197, 1.70857018578320988},
+          Row{CoordinateSystem::linear, 1.0, 1.0, 1.76574701070785522},
+          Row{CoordinateSystem::hyperbolic,
+              0.753126104724598985,
+              1.32779885129881577,
+              1.83745609184498476}}) {
+        const cordic::Sequence sequence = thesis_sequence(row.m);
+        EXPECT_NEAR(cordic::gain(sequence), row.gain, 1e-12);
+        EXPECT_NEAR(cordic::correction(sequence), row.correction, 1e-12);
+        EXPECT_NEAR(cordic::convergence_range(sequence), row.range, 1e-12);
+    }
+}
+
+TEST(Thesis, InputsOutsideTheConvergenceRangeAreDetected) {
+    const auto core = kernel<double>();
+    const auto rad = [](double degrees) { return degrees * pi / 180.0; };
+    EXPECT_EQ(core.reach_of_rotation(rad(97.8)), cordic::Reach::inside);
+    EXPECT_EQ(core.reach_of_rotation(rad(98.0)), cordic::Reach::outside);
+    EXPECT_EQ(core.reach_of_rotation(rad(-120.0)), cordic::Reach::outside);
+    EXPECT_EQ(core.reach_of_vectoring(std::cos(rad(97.0)), std::sin(rad(97.0))), cordic::Reach::inside);
+    EXPECT_EQ(core.reach_of_vectoring(std::cos(rad(100.0)), std::sin(rad(100.0))), cordic::Reach::outside);
+}
+
+TEST(Thesis, PreAndPostMakeAnExactRoundTripThroughTheSectors) {
+    const FloatArithmetic<double> numbers;
+    for (int tenth = -1800; tenth <= 1800; ++tenth) {
+        const double angle = tenth * pi / 1800.0;
+        const double x = std::cos(angle);
+        const double y = std::sin(angle);
+        bool overflow = false;
+        const auto folded = cordic::pre(numbers, x, y, overflow);
+        EXPECT_EQ(folded.f1, y >= x);
+        EXPECT_EQ(folded.f2, (y >= x ? y : x) < 0.0);
+        EXPECT_GE(folded.x, 0.0);
+        const auto back = cordic::post(numbers, folded, overflow);
+        EXPECT_EQ(back.x, x);
+        EXPECT_EQ(back.y, y);
+    }
+}
+
+TEST(Thesis, SignOfZeroIsPositiveAndTheMatlabDefectIsASwitch) {
+    const CordicProgram program = compiled("G21 F30 G1 X8\nM2\n", in_binary64());
+    EXPECT_NEAR(executed(program).set_point(executed(program).published()[0]).vx, 0.5, 2e-9);
+    cordic::ProcessorSettings matlab;
+    matlab.zero = cordic::SignOfZero::zero;
+    cordic::Processor short_of_speed(matlab, program.image);
+    short_of_speed.run(10'000);
+    EXPECT_NEAR(short_of_speed.set_point(short_of_speed.published()[0]).vx, 0.392019981, 1e-9);
+}
+
+template <class Number> double worst_speed_error(int count) {
+    std::mt19937 random(2002);
+    std::uniform_real_distribution<double> turn(-pi, pi);
+    std::uniform_real_distribution<double> power(-6.0, 3.0);
+    double worst = 0.0;
+    for (int n = 0; n < count; ++n) {
+        const double angle = turn(random);
+        const double length = std::pow(10.0, power(random));
+        const auto x = static_cast<Number>(length * std::cos(angle));
+        const auto y = static_cast<Number>(length * std::sin(angle));
+        bool overflow = false;
+        const auto set = cordic::line_set_point(
+            kernel<Number>(), x, y, Number{0}, Number{0}, Number{1}, Number{1}, overflow);
+        const double far = std::hypot(static_cast<double>(x), static_cast<double>(y));
+        worst = std::max({worst,
+                          std::abs(static_cast<double>(set.vx) - static_cast<double>(x) / far),
+                          std::abs(static_cast<double>(set.vy) - static_cast<double>(y) / far)});
+    }
+    return worst;
+}
+
+TEST(Thesis, LinesOfAnyDirectionAndLengthHaveTheirSpeedWithinTheBounds) {
+    EXPECT_LE(worst_speed_error<double>(100'000), 6e-8);
+    EXPECT_LE(worst_speed_error<float>(100'000), 8e-7);
+}
+
+TEST(Thesis, ArcsOfAnyNumberOfChordsAndBothDirectionsReachTheirEnd) {
+    for (const int chords : {4, 5, 50, 1000, 65536}) {
+        for (const double sweep : {-2.0 * pi, -1.5 * pi, 0.1, 2.0 * pi}) {
+            double x = 10.0;
+            double y = 10.0;
+            bool overflow = false;
+            for (int n = 0; n < chords; ++n) {
+                const auto next =
+                    cordic::arc_point(kernel<double>(), 5.0, 10.0, x, y, sweep / chords, overflow);
+                x = next.x;
+                y = next.y;
+            }
+            // Each chord shrinks the radius by 3.58e-9 of it and turns it by 6e-8 rad too much at most.
+            const double bound = 5.0 * chords * 6.4e-8;
+            EXPECT_NEAR(x, 5.0 + 5.0 * std::cos(sweep), bound) << chords << ' ' << sweep;
+            EXPECT_NEAR(y, 10.0 + 5.0 * std::sin(sweep), bound) << chords << ' ' << sweep;
+        }
+    }
+}
+
+TEST(Thesis, CompilerTakesAbsoluteAndIncrementalCentresAndRadiiAndReportsEndsThatDoNotMatch) {
+    const CordicProgramSettings settings = in_binary64();
+    const CordicProgram relative = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
+    const CordicProgram absolute = compiled("G21 F60 G90.1 G0 X10 Y10\nG3 X5 Y5 I5 J10\nM2\n", settings);
+    const CordicProgram radius = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 R-5\nM2\n", settings);
+    EXPECT_EQ(absolute.image, relative.image);
+    EXPECT_EQ(radius.points.size(), relative.points.size());
+    CordicProgramBuilder builder("thesis.ngc", settings);
+    Interpreter wrong(
+        std::string_view("G21 F60 G0 X10 Y10\nG3 X5 Y6 I-5 J0\nM2\n"), "thesis.ngc", {}, builder);
+    wrong.run();
+    ASSERT_EQ(wrong.errors().size(), 1U);
+    EXPECT_EQ(wrong.errors()[0].place.line, 2);
+}
+
+TEST(Thesis, TheLastChordLandsExactlyOnTheProgrammedEnd) {
+    const CordicProgram program = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", in_binary64());
+    const cordic::Processor processor = executed(program);
+    const auto end = processor.set_point(processor.published().back());
+    EXPECT_EQ(end.x, 5.0);
+    EXPECT_EQ(end.y, 5.0);
+}
+
+TEST(Thesis, ALineIs74ClocksOfCordicAndAChord111) {
+    CordicProgramSettings settings = in_binary64();
+    settings.arc_end = ArcEnd::rotated;
+    const CordicProgram program = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
+    const cordic::Processor processor = executed(program);
+    const auto chords = static_cast<std::int64_t>(processor.published().size()) - 1;
+    EXPECT_EQ(processor.state().clocks.cordic, 74 + 111 * chords);
+}
+
+TEST(Thesis, ComparisonHasTheNumbersOfItsSpeedExperiment) {
+    const auto slow = cordic::line_time(cordic::mcs51_line_clocks, cordic::mcs51_clock_hz);
+    const auto fast = cordic::line_time(74, 8e6);
+    EXPECT_NEAR(slow.seconds, 1.337e-3, 1e-9);
+    EXPECT_NEAR(100.0 * fast.reduction, 99.308, 5e-4);
+    EXPECT_NEAR(fast.times_fewer, 144.5, 0.05);
+    EXPECT_EQ(std::floor(slow.most_rpm), 44'876);
+    EXPECT_EQ(std::floor(fast.most_rpm), 6'486'486);
+    EXPECT_NEAR(cordic::stitch_times({}, slow.seconds).screw_rpm, 675.0, 1e-9);
+    EXPECT_NEAR(100.0 * cordic::stitch_times({}, slow.seconds).share, 6.68, 0.01);
+}
+
+TEST(Thesis, SewingMissesItsDeadlineOnlyWhereTheComputationTakesLongerThanAStitch) {
+    const std::array<double, 3> times{1e-3, 25e-3, 9.25e-6};
+    const std::array<double, 3> lengths{3.0, 3.0, 3.0};
+    const auto run = cordic::sew({}, times, lengths);
+    EXPECT_EQ(run.late_computations, 1);
+    EXPECT_EQ(run.first_late, 1);
+    EXPECT_EQ(run.late_moves, 0);
+}
+
+TEST(Thesis, ReferenceModelRunsSideBySideOverItsOwnPath) {
+    const std::string path =
+        "G21 G90.1 F60\nG1 X8\nY6\nX6\nG2 X4 Y4 I4 J6\nG1 X2\nG3 X0 Y2 I2 J2\nG1 Y0\nM2\n";
+    const CordicProgram program = compiled(path, in_binary64());
+    const auto report = cordic::report_of(executed(program), program.points, 8e6);
+    EXPECT_EQ(report.published, report.expected);
+    EXPECT_LT(report.position_error, 1e-5);
+    EXPECT_LT(report.speed_error, 1e-5);
+    EXPECT_GT(report.position_error, 0.0); // it is no copy of the model
+}
+
+} // namespace
+} // namespace millwright::gcode

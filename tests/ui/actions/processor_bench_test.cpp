@@ -1,0 +1,75 @@
+#include "ui/actions/processor_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::actions {
+namespace {
+
+const std::string square = "G21 F600\nG1 X10\nG1 Y10\nG1 X0\nG1 Y0\nM2\n";
+
+ProcessorBench loaded(const std::string& text) {
+    ProcessorBench bench;
+    bench.load(ProcessorSource::opened_file, text, "part.ngc");
+    return bench;
+}
+
+TEST(ProcessorBench, ShowsInstructionsWithTheLinesThatTheyComeFrom) {
+    const ProcessorBench bench = loaded(square);
+    ASSERT_FALSE(bench.failure());
+    EXPECT_EQ(bench.code().front().text, "MOV Vmax, 10");
+    EXPECT_EQ(bench.code().front().line, 2);
+    EXPECT_EQ(bench.code().back().text, "M02");
+    EXPECT_EQ(bench.code().back().line, 6);
+    EXPECT_EQ(bench.code_row(), 0);
+    EXPECT_EQ(bench.micro_address(bench.micro_row()), 0);
+    EXPECT_EQ(bench.differences().size(), 4U);
+}
+
+TEST(ProcessorBench, RunsAsFastAsAskedAndStopsAtTheEnd) {
+    ProcessorBench bench = loaded(square);
+    ProcessorChoice choice = bench.choice();
+    choice.clocks_a_second = 100.0;
+    bench.set(choice);
+    bench.run();
+    EXPECT_TRUE(bench.advance(0.5));
+    EXPECT_EQ(bench.debugger().state().clocks.total, 50);
+    EXPECT_FALSE(bench.advance(0.001)); // less than a clock
+    choice.clocks_a_second = 0.0;
+    bench.set(choice); // speed alone compiles nothing anew
+    EXPECT_EQ(bench.debugger().state().clocks.total, 50);
+    EXPECT_TRUE(bench.advance(0.0));
+    EXPECT_FALSE(bench.running());
+    EXPECT_EQ(bench.halt(), cordic::Halt::stopped);
+}
+
+TEST(ProcessorBench, TellsTheErrorOfAnotherFormatAtOnceAndKeepsMicroBreakpoints) {
+    ProcessorBench bench = loaded("G21 F600\nG0 X10\nG3 X0 Y10 I-10 J0\nM2\n");
+    bench.toggle_micro_breakpoint(3);
+    ProcessorChoice choice = bench.choice();
+    choice.format = cordic::binary64;
+    bench.set(choice);
+    const double exact = bench.report().position_error;
+    choice.format = cordic::fixed_format(10, 10);
+    bench.set(choice);
+    EXPECT_GT(bench.report().position_error, 100.0 * exact);
+    EXPECT_TRUE(bench.debugger().micro_breakpoints().contains(3));
+    EXPECT_EQ(bench.debugger().state().clocks.total, 0);
+}
+
+TEST(ProcessorBench, KeepsWhatIsWrongWithAProgramAndExecutesNothing) {
+    ProcessorBench bench = loaded("G21\nG0 X1 C5\nM2\n");
+    ASSERT_TRUE(bench.failure());
+    EXPECT_EQ(bench.failure()->place.line, 2);
+    EXPECT_EQ(bench.failure()->place.column, 7);
+    EXPECT_TRUE(bench.code().empty());
+    bench.run();
+    EXPECT_FALSE(bench.running());
+    EXPECT_TRUE(bench.differences().empty());
+    bench.load(ProcessorSource::opened_file, square, "part.ngc");
+    EXPECT_FALSE(bench.failure());
+}
+
+} // namespace
+} // namespace millwright::actions

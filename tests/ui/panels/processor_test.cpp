@@ -1,0 +1,179 @@
+// The Processor workspace with real mouse and keys in real OpenGL: stepping the thesis's arc.
+#include "tests/ui/panels/person.h"
+#include "ui/panels/window.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using actions::ProcessorBench;
+using actions::Workspace;
+using test::Person;
+
+/// A person who has come to the workspace by its key.
+struct Bench {
+    explicit Bench(const render::PixelSize& screen = {1280, 800}) : person(screen) {
+        person.press_key(render::Key::f7);
+        person.frames(3);
+    }
+    [[nodiscard]] const ProcessorBench& processor() { return person.workshop().look().processor; }
+    [[nodiscard]] const cordic::ProcessorState& state() { return processor().debugger().state(); }
+
+    Person person;
+};
+
+TEST(ProcessorWorkspace, OpensByItsKeyWithTheThesissArcAndShowsEveryPart) {
+    Bench bench;
+    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::processor);
+    EXPECT_EQ(bench.processor().name(), "thesis-arc.ngc");
+    for (const char* path : {"view/diagram",
+                             "view/blocks/sequencer",
+                             "code/instructions",
+                             "timeline/processor_run",
+                             "inspector/registers/XI",
+                             "lower/vector",
+                             "lower/path",
+                             "lower/map"}) {
+        EXPECT_TRUE(bench.person.sees(path)) << path;
+    }
+    EXPECT_GT(bench.processor().differences().size(), 10U);
+    bench.person.keep("processor-reset");
+}
+
+TEST(ProcessorWorkspace, StepsByClockMicroInstructionInstructionAndBlock) {
+    Bench bench;
+    Person& person = bench.person;
+    person.click("timeline/processor_clock");
+    EXPECT_EQ(bench.state().clocks.total, 1);
+    person.click("timeline/processor_instruction");
+    EXPECT_EQ(bench.state().instructions, 1);
+    EXPECT_TRUE(person.sees("inspector/registers/Vmax_changed"));
+    EXPECT_FALSE(person.sees("inspector/registers/Dz_changed"));
+    person.click("timeline/processor_micro");
+    EXPECT_EQ(bench.state().sequencer.address, 1); // from the fetch to its second word
+    const int line = bench.processor().debugger().line();
+    person.click("timeline/processor_block");
+    EXPECT_NE(bench.processor().debugger().line(), line);
+    person.click("timeline/processor_set_point");
+    EXPECT_GT(bench.processor().debugger().processor().published().size(), 0U);
+    person.press_key(render::Key::digit_1, true);
+    person.frames();
+    EXPECT_TRUE(person.sees("inspector/registers/PC") || person.sees("inspector/registers/PC_changed"));
+    person.click("timeline/processor_reset");
+    EXPECT_EQ(bench.state().clocks.total, 0);
+}
+
+// The session that the manual shows: to the middle of a rotation, clock by clock.
+TEST(ProcessorWorkspace, ShowsTheVectorConvergingStepByStep) {
+    Bench bench({1600, 1000});
+    Person& person = bench.person;
+    for (int n = 0; n < 20; ++n) {
+        person.click("timeline/processor_set_point");
+    }
+    for (int n = 0; n < 12; ++n) {
+        person.click("timeline/processor_clock");
+    }
+    const cordic::IterationTrace trace = bench.processor().debugger().iterations();
+    ASSERT_GT(trace.points.size(), 4U);
+    EXPECT_EQ(trace.mode, cordic::Mode::rotation);
+    EXPECT_LT(trace.points.back().angle_error, trace.points.front().angle_error);
+    EXPECT_TRUE(person.sees("lower/errors"));
+    const widgets::Rect tool = person.place("lower/tool");
+    person.click("timeline/processor_set_point");
+    person.frames();
+    const widgets::Rect moved = person.place("lower/tool");
+    EXPECT_TRUE(std::abs(moved.x - tool.x) + std::abs(moved.y - tool.y) > 0.0F); // in step with the processor
+    for (int n = 0; n < 12; ++n) {
+        person.click("timeline/processor_clock");
+    }
+    person.hover({5.0F, 990.0F});
+    person.keep("processor");
+}
+
+TEST(ProcessorWorkspace, StopsAtABreakpointThatIsClickedInTheListing) {
+    Bench bench;
+    Person& person = bench.person;
+    person.click("code/tabs/microprogram");
+    person.frames();
+    const widgets::Rect lines = person.place("code/microprogram");
+    person.click_at({lines.x + 0.5F * lines.w, lines.y + 66.0F});
+    ASSERT_EQ(bench.processor().debugger().micro_breakpoints().size(), 1U);
+    const auto address = *bench.processor().debugger().micro_breakpoints().begin();
+    EXPECT_NE(address, 0);
+    person.click("timeline/speed/full");
+    person.click("timeline/processor_run");
+    EXPECT_TRUE(person.live_until([&] { return !bench.processor().running(); }));
+    EXPECT_EQ(bench.processor().halt(), cordic::Halt::breakpoint);
+    EXPECT_EQ(bench.state().sequencer.address, address);
+    person.keep("processor-breakpoint");
+    person.click_at({lines.x + 0.5F * lines.w, lines.y + 66.0F});
+    EXPECT_TRUE(bench.processor().debugger().micro_breakpoints().empty());
+    person.click("timeline/processor_run");
+    EXPECT_TRUE(person.live_until([&] { return !bench.processor().running(); }));
+    EXPECT_EQ(bench.state().stop, cordic::Stop::halted);
+    EXPECT_FALSE(person.refusal("timeline/processor_clock").empty());
+}
+
+TEST(ProcessorWorkspace, RunsToABreakpointOfAnInstruction) {
+    Bench bench;
+    Person& person = bench.person;
+    const widgets::Rect lines = person.place("code/instructions");
+    person.click_at({lines.x + 0.5F * lines.w, lines.y + 60.0F});
+    ASSERT_EQ(bench.processor().debugger().breakpoints().size(), 1U);
+    const auto address = *bench.processor().debugger().breakpoints().begin();
+    person.click("timeline/speed/full");
+    person.click("timeline/processor_run");
+    EXPECT_TRUE(person.live_until([&] { return !bench.processor().running(); }));
+    EXPECT_EQ(bench.processor().debugger().instruction(), address);
+}
+
+TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {
+    Bench bench;
+    Person& person = bench.person;
+    const double thesis = bench.processor().report().position_error;
+    person.click("inspector/format/classic");
+    person.frames();
+    const widgets::Rect steps = person.place("inspector/format/iterations");
+    person.drag({steps.x + 0.5F * steps.w, steps.y + 0.5F * steps.h},
+                {steps.x + 0.12F * steps.w, steps.y + 0.5F * steps.h});
+    const int few = bench.processor().choice().iterations;
+    EXPECT_LT(few, 15);
+    EXPECT_GT(bench.processor().report().position_error, 10.0 * thesis);
+    person.keep("processor-few-iterations");
+    person.click("inspector/format/kind/fixed");
+    person.frames();
+    const widgets::Rect bits = person.place("inspector/format/fraction");
+    person.drag({bits.x + 0.5F * bits.w, bits.y + 0.5F * bits.h},
+                {bits.x + 0.2F * bits.w, bits.y + 0.5F * bits.h});
+    EXPECT_EQ(bench.processor().choice().format.kind, cordic::NumberKind::fixed);
+    EXPECT_LT(bench.processor().choice().format.fraction_bits, 22);
+    EXPECT_TRUE(person.sees("inspector/errors/position"));
+}
+
+TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
+    Bench bench;
+    bench.person.workshop().run("processor.project"); // the dome needs five axes
+    bench.person.frames(3);
+    ASSERT_TRUE(bench.processor().failure().has_value());
+    EXPECT_NE(bench.processor().failure()->message.find("no axis"), std::string::npos);
+    EXPECT_FALSE(bench.person.refusal("timeline/processor_run").empty());
+    bench.person.click("code/tabs/program");
+    bench.person.keep("processor-refused");
+}
+
+TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
+    Bench bench;
+    Person& person = bench.person;
+    person.click("timeline/processor_set_point");
+    person.frames();
+    for (const std::string& text : person.desktop().ui().cut_texts()) {
+        ADD_FAILURE() << text;
+    }
+}
+
+} // namespace
+} // namespace millwright::panels

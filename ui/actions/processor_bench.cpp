@@ -1,0 +1,201 @@
+#include "ui/actions/processor_bench.h"
+
+#include "core/base/error.h"
+#include "core/cordic/assembler.h"
+#include "core/cordic/microprogram.h"
+#include "core/gcode/reader/interpreter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+constexpr std::int64_t clocks_a_frame = 300'000;    // some milliseconds
+constexpr std::int64_t clocks_of_a_run = 1'000'000; // that are followed for the differences: 30 ms
+constexpr double clock_hz = 8e6;                    // as in the thesis
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        lines.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
+/// The instruction without the address behind it.
+std::string instruction_of(const std::string& row) {
+    const std::size_t begin = std::min(row.find_first_not_of(' '), row.size());
+    const std::size_t end = row.find_last_not_of(' ', row.find(';') - 1);
+    return row.substr(begin, end - begin + 1);
+}
+
+std::vector<CodeRow> rows_of(const gcode::CordicProgram& program) {
+    std::vector<CodeRow> rows;
+    const std::vector<std::string> lines = lines_of(cordic::disassemble(program.image));
+    for (std::size_t n = 1; n < lines.size(); ++n) { // the first one names the format
+        const std::size_t place = lines[n].find(';') + 2;
+        const auto address = static_cast<std::uint16_t>(std::stoul(lines[n].substr(place), nullptr, 16));
+        const auto after =
+            std::ranges::upper_bound(program.code_lines, address, {}, &cordic::CodeLine::address);
+        const int line = after == program.code_lines.begin() ? 0 : std::prev(after)->line;
+        rows.push_back({address, instruction_of(lines[n]), line});
+    }
+    return rows;
+}
+
+cordic::Processor nothing() {
+    return {{}, {cordic::binary32, {static_cast<std::uint8_t>(cordic::Opcode::hlt)}}};
+}
+
+} // namespace
+
+ProcessorBench::ProcessorBench() : debugger_(nothing(), {}) {
+    micro_lines_ = lines_of(cordic::microprogram_text(cordic::Publishing::latch));
+}
+
+cordic::ProcessorSettings ProcessorBench::settings() const {
+    cordic::ProcessorSettings settings;
+    if (choice_.iterations > 0) {
+        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice_.iterations);
+    }
+    return settings;
+}
+
+void ProcessorBench::load(ProcessorSource source, std::string text, std::filesystem::path name) {
+    expects(!name.empty(), "a program has a name");
+    choice_.source = source;
+    source_text_ = std::move(text);
+    name_ = std::move(name);
+    lines_ = lines_of(source_text_);
+    compile();
+}
+
+void ProcessorBench::set(const ProcessorChoice& choice) {
+    ProcessorChoice before = std::exchange(choice_, choice);
+    before.clocks_a_second = choice.clocks_a_second;
+    if (!(before == choice) && !name_.empty()) {
+        compile();
+    }
+}
+
+void ProcessorBench::compile() {
+    running_ = false;
+    gcode::CordicProgramSettings wanted;
+    wanted.format = choice_.format;
+    wanted.chord_tolerance = choice_.chord_tolerance;
+    gcode::CordicProgramBuilder builder(name_, wanted);
+    gcode::ReaderSettings reading;
+    reading.any_tool = true;
+    gcode::Interpreter program(std::string_view(source_text_), name_, std::move(reading), builder);
+    program.run();
+    program_ = builder.take();
+    failure_.reset();
+    if (!program.errors().empty()) {
+        failure_ = program.errors().front();
+    } else if (!program_.faults.empty()) {
+        failure_ = program_.faults.front();
+    }
+    const auto micro = debugger_.micro_breakpoints();
+    const cordic::Processor made = failure_ ? nothing() : cordic::Processor(settings(), program_.image);
+    debugger_ = cordic::Debugger(made, program_.code_lines);
+    for (const std::uint8_t address : micro) {
+        debugger_.toggle_micro_breakpoint(address);
+    }
+    code_ = failure_ ? std::vector<CodeRow>() : rows_of(program_);
+    micro_addresses_.assign(micro_lines_.size(), -1);
+    const cordic::Microprogram& words = made.microprogram();
+    for (int address = 0; address < words.count; ++address) {
+        const int line = words.lines[static_cast<std::size_t>(address)];
+        micro_addresses_[static_cast<std::size_t>(line - 1)] = address;
+    }
+    execute_all(made);
+    halt_ = cordic::Halt::done;
+}
+
+void ProcessorBench::execute_all(const cordic::Processor& processor) {
+    differences_.clear();
+    report_ = {};
+    if (failure_) {
+        return;
+    }
+    cordic::Processor whole = processor;
+    whole.run(clocks_of_a_run);
+    report_ = cordic::report_of(whole, program_.points, clock_hz);
+    differences_ = cordic::path_differences(whole, program_.points);
+}
+
+std::ptrdiff_t ProcessorBench::code_row() const {
+    const auto found = std::ranges::find(code_, debugger_.instruction(), &CodeRow::address);
+    return found == code_.end() ? -1 : found - code_.begin();
+}
+
+int ProcessorBench::micro_address(std::ptrdiff_t row) const {
+    const bool known = row >= 0 && row < std::ssize(micro_addresses_);
+    return known ? micro_addresses_[static_cast<std::size_t>(row)] : -1;
+}
+
+std::ptrdiff_t ProcessorBench::micro_row() const {
+    return debugger_.processor().microprogram().lines[debugger_.state().sequencer.address] - 1;
+}
+
+void ProcessorBench::step(ProcessorStep step) {
+    running_ = false;
+    switch (step) {
+    case ProcessorStep::clock:
+        halt_ = debugger_.step_clock();
+        return;
+    case ProcessorStep::micro_instruction:
+        halt_ = debugger_.step_micro_instruction(clocks_a_frame);
+        return;
+    case ProcessorStep::instruction:
+        halt_ = debugger_.step_instruction(clocks_a_frame);
+        return;
+    case ProcessorStep::block:
+        halt_ = debugger_.step_block(clocks_a_frame);
+        return;
+    case ProcessorStep::set_point:
+        halt_ = debugger_.run_to_set_point(clocks_a_frame);
+        return;
+    }
+}
+
+void ProcessorBench::run() {
+    running_ = !failure_ && debugger_.state().stop == cordic::Stop::none;
+    owed_clocks_ = 0.0;
+}
+
+void ProcessorBench::run_to(std::uint16_t address) {
+    running_ = false;
+    halt_ = debugger_.run_to(address, clocks_of_a_run);
+}
+
+void ProcessorBench::reset() {
+    running_ = false;
+    debugger_.reset();
+    halt_ = cordic::Halt::done;
+}
+
+bool ProcessorBench::advance(double seconds) {
+    if (!running_) {
+        return false;
+    }
+    std::int64_t clocks = clocks_a_frame;
+    if (choice_.clocks_a_second > 0.0) {
+        owed_clocks_ += seconds * choice_.clocks_a_second;
+        clocks = std::min(clocks, static_cast<std::int64_t>(owed_clocks_));
+        owed_clocks_ = std::min(owed_clocks_ - static_cast<double>(clocks), 1.0);
+    }
+    if (clocks > 0) {
+        halt_ = debugger_.run(clocks);
+        running_ = halt_ == cordic::Halt::limit;
+    }
+    return clocks > 0;
+}
+
+} // namespace millwright::actions

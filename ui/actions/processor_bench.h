@@ -1,0 +1,105 @@
+// The CORDIC processor on the bench: a program compiled for it, stepped by hand or running, and what a whole
+// run of it comes to. A run goes on a little in each frame, so that the window never waits for it.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/cordic/debugger.h"
+#include "core/cordic/run_report.h"
+#include "core/gcode/reader/cordic_program.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::actions {
+
+/// Which program it executes.
+enum class ProcessorSource : std::uint8_t { thesis_arc, thesis_path, opened_file, project };
+
+struct ProcessorChoice {
+    ProcessorSource source = ProcessorSource::thesis_arc;
+    cordic::NumberFormat format = cordic::binary32;
+    int iterations = 0;             ///< of the classic sequence; 0: the thesis's 29
+    double chord_tolerance = 0.01;  ///< mm
+    double clocks_a_second = 200.0; ///< while it runs, to be watched; 0: as fast as it goes
+
+    friend bool operator==(const ProcessorChoice&, const ProcessorChoice&) = default;
+};
+
+enum class ProcessorStep : std::uint8_t { clock, micro_instruction, instruction, block, set_point };
+
+/// An instruction, or a byte that is none.
+struct CodeRow {
+    std::uint16_t address = 0;
+    std::string text;
+    int line = 0; ///< of the program
+};
+
+class ProcessorBench {
+public:
+    ProcessorBench();
+
+    /// Takes a program in place of the present one and compiles it. `name` is not empty.
+    void load(ProcessorSource source, std::string text, std::filesystem::path name);
+    /// Compiles the same program anew where that changes anything. Breakpoints of instructions go.
+    void set(const ProcessorChoice& choice);
+
+    [[nodiscard]] const ProcessorChoice& choice() const { return choice_; }
+    [[nodiscard]] const std::filesystem::path& name() const { return name_; } ///< empty before load()
+    [[nodiscard]] const std::vector<std::string>& text() const { return lines_; }
+    /// Why it does not compile; there is then nothing to execute.
+    [[nodiscard]] const std::optional<Diagnostic>& failure() const { return failure_; }
+
+    [[nodiscard]] const cordic::Debugger& debugger() const { return debugger_; }
+    [[nodiscard]] const std::vector<CodeRow>& code() const { return code_; }
+    /// The row of the instruction that is executed or fetched next; -1 where there is none.
+    [[nodiscard]] std::ptrdiff_t code_row() const;
+    /// The text of the microprogram, and the address of each line that has one, else -1.
+    [[nodiscard]] const std::vector<std::string>& microprogram() const { return micro_lines_; }
+    [[nodiscard]] int micro_address(std::ptrdiff_t row) const;
+    [[nodiscard]] std::ptrdiff_t micro_row() const; ///< that is executed next
+
+    /// Of a run from reset to the end, or as far as it was followed.
+    [[nodiscard]] const cordic::RunReport& report() const { return report_; }
+    [[nodiscard]] const std::vector<cordic::PathDifference>& differences() const { return differences_; }
+
+    void step(ProcessorStep step);
+    void run();
+    void pause() { running_ = false; }
+    [[nodiscard]] bool running() const { return running_; }
+    /// Runs on until the instruction at `address` is fetched.
+    void run_to(std::uint16_t address);
+    void reset();
+    void toggle_breakpoint(std::uint16_t address) { debugger_.toggle_breakpoint(address); }
+    void toggle_micro_breakpoint(std::uint8_t address) { debugger_.toggle_micro_breakpoint(address); }
+    /// Why the last step or run ended.
+    [[nodiscard]] cordic::Halt halt() const { return halt_; }
+
+    /// Lets `seconds` of wall time pass. True if anything changed.
+    bool advance(double seconds);
+
+private:
+    void compile();
+    void execute_all(const cordic::Processor& processor);
+    [[nodiscard]] cordic::ProcessorSettings settings() const;
+
+    ProcessorChoice choice_;
+    std::filesystem::path name_;
+    std::string source_text_;
+    std::vector<std::string> lines_;
+    std::optional<Diagnostic> failure_;
+    gcode::CordicProgram program_;
+    cordic::Debugger debugger_;
+    std::vector<CodeRow> code_;
+    std::vector<std::string> micro_lines_;
+    std::vector<int> micro_addresses_;
+    cordic::RunReport report_;
+    std::vector<cordic::PathDifference> differences_;
+    bool running_ = false;
+    double owed_clocks_ = 0.0;
+    cordic::Halt halt_ = cordic::Halt::done;
+};
+
+} // namespace millwright::actions

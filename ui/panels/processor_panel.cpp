@@ -1,0 +1,353 @@
+#include "ui/panels/processor_panel.h"
+
+#include "core/base/text.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/processor_diagram.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/listing.h"
+#include "ui/widgets/sketch.h"
+#include "ui/widgets/slider.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ProcessorBench;
+using actions::ProcessorChoice;
+using actions::ProcessorSource;
+using cordic::NumberKind;
+using cordic::Register;
+
+constexpr int thesis_steps = 29;
+
+constexpr std::array<widgets::Option, 3> kinds{
+    {{"f32", "f32", {}, "IEEE binary32, the presumed hardware"},
+     {"f64", "f64", {}, "IEEE binary64, as the thesis's own experiments"},
+     {"fixed", "Fixed", {}, "Two's complement: 10 bits before the point, and as many behind as chosen"}}};
+constexpr std::array<NumberKind, 3> kind_of{NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
+
+constexpr std::array<widgets::Option, 3> tabs{
+    {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "G-code"}}};
+
+constexpr std::array<double, 4> speeds{20.0, 200.0, 5000.0, 0.0};
+constexpr std::array<widgets::Option, 4> speed_options{
+    {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "All"}}};
+
+constexpr int integer_bits = 10; // mm up to 511, and the speed of rapids
+
+void choose(ActionQueue& ask, const ProcessorChoice& choice) {
+    ask.processor([choice](ProcessorBench& bench) { bench.set(choice); });
+}
+
+std::string halt_text(const ProcessorBench& bench) {
+    if (bench.running()) {
+        return "Running";
+    }
+    const cordic::ProcessorState& state = bench.debugger().state();
+    if (state.stop != cordic::Stop::none) {
+        std::string text(cordic::to_text(state.stop));
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+        return text;
+    }
+    return state.clocks.total == 0                    ? "Reset"
+           : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
+                                                      : "Stands between two clocks";
+}
+
+std::string register_text(const cordic::Processor& processor, Register name) {
+    const cordic::Word word = processor.state().registers[static_cast<std::size_t>(name)];
+    if (name == Register::PC) {
+        return fmt::format("{:04x}", word);
+    }
+    return cordic::is_whole(name) ? fmt::format("{}", word) : word_text(processor, word);
+}
+
+std::string bits_text(const cordic::Processor& processor, Register name) {
+    const int digits = cordic::is_whole(name) ? 8 : (processor.format().word() + 3) / 4;
+    const cordic::Word word = processor.state().registers[static_cast<std::size_t>(name)];
+    const cordic::Word mask = digits >= 16 ? ~cordic::Word{0} : (cordic::Word{1} << (4 * digits)) - 1;
+    return fmt::format("{:0{}x}", word & mask, digits);
+}
+
+} // namespace
+
+void ProcessorPanel::draw_code(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
+        tab_ = static_cast<CodeTab>(*chosen);
+    }
+    ui.note(tab_ == CodeTab::program ? "In step with the instructions."
+                                     : "A click sets or clears a breakpoint.");
+    switch (tab_) {
+    case CodeTab::instructions:
+        return draw_instructions(ui, now, ask);
+    case CodeTab::microprogram:
+        return draw_microprogram(ui, now, ask);
+    case CodeTab::program:
+        return draw_program(ui, now);
+    }
+}
+
+void ProcessorPanel::draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    const auto& code = bench.code();
+    widgets::ListingView view;
+    view.lines = std::ssize(code);
+    view.line = [&](std::ptrdiff_t row) {
+        const actions::CodeRow& at = code[static_cast<std::size_t>(row)];
+        return fmt::format("{:04x} {:>4}  {}", at.address, at.line, at.text);
+    };
+    view.current = bench.code_row();
+    view.mark = [&](std::ptrdiff_t row) {
+        const std::uint16_t address = code[static_cast<std::size_t>(row)].address;
+        return bench.debugger().breakpoints().contains(address) ? ui.colours().danger : widgets::Colour{0};
+    };
+    view.numbers = false;
+    view.coloured = false;
+    if (const auto row = widgets::listing(ui, "instructions", view)) {
+        ask.processor([address = code[static_cast<std::size_t>(*row)].address](ProcessorBench& processor) {
+            processor.toggle_breakpoint(address);
+        });
+    }
+}
+
+void ProcessorPanel::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    widgets::ListingView view;
+    view.lines = std::ssize(bench.microprogram());
+    view.line = [&](std::ptrdiff_t row) {
+        const int address = bench.micro_address(row);
+        const std::string& text = bench.microprogram()[static_cast<std::size_t>(row)];
+        return address < 0 ? text : fmt::format("{:02x} {}", address, text);
+    };
+    view.current = bench.micro_row();
+    view.mark = [&](std::ptrdiff_t row) {
+        const int address = bench.micro_address(row);
+        const bool marked =
+            address >= 0 && bench.debugger().micro_breakpoints().contains(static_cast<std::uint8_t>(address));
+        return marked ? ui.colours().danger : widgets::Colour{0};
+    };
+    view.numbers = false;
+    view.coloured = false;
+    const auto row = widgets::listing(ui, "microprogram", view);
+    const int address = row ? bench.micro_address(*row) : -1;
+    if (address >= 0) {
+        ask.processor([address](ProcessorBench& processor) {
+            processor.toggle_micro_breakpoint(static_cast<std::uint8_t>(address));
+        });
+    }
+}
+
+void ProcessorPanel::draw_program(Ui& ui, const Workbench& now) const {
+    const ProcessorBench& bench = now.processor;
+    widgets::ListingView view;
+    view.lines = std::ssize(bench.text());
+    view.line = [&](std::ptrdiff_t row) { return bench.text()[static_cast<std::size_t>(row)]; };
+    view.current = bench.debugger().line() - 1;
+    const auto& failure = bench.failure();
+    view.fault = [&](std::ptrdiff_t row) -> std::optional<widgets::LineFault> {
+        if (failure && failure->place.line == row + 1) {
+            return widgets::LineFault{failure->place.column, failure->message};
+        }
+        return std::nullopt;
+    };
+    (void)widgets::listing(ui, "program", view);
+}
+
+void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    const auto step = [&](std::string_view id, std::string_view label) {
+        action_button(ui, now, ask, catalogue_, id, widgets::Rank::normal, label);
+    };
+    {
+        const auto row = ui.row(7);
+        step("processor.reset", "Reset");
+        step("processor.clock", "Clock");
+        step("processor.micro", "Micro");
+        step("processor.instruction", "Instr.");
+        step("processor.block", "Block");
+        step("processor.set_point", "Point");
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      bench.running() ? "processor.pause" : "processor.run",
+                      widgets::Rank::primary,
+                      bench.running() ? "Pause" : "Run");
+    }
+    const cordic::ProcessorState& state = bench.debugger().state();
+    {
+        const auto width = ui.width(ui.px(300.0F));
+        const auto found = std::ranges::find(speeds, bench.choice().clocks_a_second);
+        const auto index = found == speeds.end() ? 0 : static_cast<int>(found - speeds.begin());
+        const auto labels = ui.label_share(0.18F);
+        if (const auto chosen =
+                ui.segmented("speed", "Clocks", index, speed_options, "How fast Run goes, to be watched")) {
+            ProcessorChoice choice = bench.choice();
+            choice.clocks_a_second = speeds[static_cast<std::size_t>(*chosen)];
+            choose(ask, choice);
+        }
+    }
+    ui.beside();
+    ui.words(fmt::format("{} clocks", state.clocks.total));
+    ui.beside();
+    const bool fault = state.stop != cordic::Stop::none && state.stop != cordic::Stop::halted;
+    ui.words(halt_text(bench), fault ? widgets::Tone::danger : widgets::Tone::good);
+}
+
+void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_choice(ui, now, ask);
+    draw_errors(ui, now);
+    draw_registers(ui, now);
+    draw_clocks(ui, now);
+}
+
+void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("format", "Program and numbers");
+    if (!section) {
+        return;
+    }
+    const ProcessorChoice& choice = now.processor.choice();
+    constexpr std::array<std::string_view, 4> ids{
+        "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
+    std::array<widgets::Option, 4> sources{{{"arc", "Thesis: arc"},
+                                            {"path", "Thesis: path"},
+                                            {"file", "G-code file"},
+                                            {"project", "This project"}}};
+    for (std::size_t n = 0; n < sources.size(); ++n) {
+        sources[n].permission = catalogue_.find(ids[n]).permission(now);
+    }
+    if (const auto chosen = ui.choice("source", "Program", static_cast<int>(choice.source), sources)) {
+        ask.run(std::string(ids[static_cast<std::size_t>(*chosen)]));
+    }
+    const auto kind = static_cast<int>(std::ranges::find(kind_of, choice.format.kind) - kind_of.begin());
+    if (const auto chosen = ui.segmented("kind", "Format", kind, kinds)) {
+        ProcessorChoice wanted = choice;
+        constexpr int usual_fraction_bits = 22;
+        wanted.format = *chosen == 0   ? cordic::binary32
+                        : *chosen == 1 ? cordic::binary64
+                                       : cordic::fixed_format(integer_bits, usual_fraction_bits);
+        choose(ask, wanted);
+    }
+    if (choice.format.kind == NumberKind::fixed) {
+        const widgets::FieldInfo bits{
+            "fraction", "Bits behind the point", {}, "10 before it, sign included", 4.0, 54.0};
+        if (const auto value = widgets::slider(ui, choice.format.fraction_bits, bits)) {
+            ProcessorChoice wanted = choice;
+            wanted.format = cordic::fixed_format(integer_bits, *value);
+            choose(ask, wanted);
+        }
+    }
+    const bool classic = choice.iterations > 0;
+    if (const auto on = ui.toggle("classic",
+                                  "Classic sequence",
+                                  classic,
+                                  "Shifts 0, 1, 2 ... in place of the thesis's 29, and one multiplication")) {
+        ProcessorChoice wanted = choice;
+        wanted.iterations = *on ? thesis_steps : 0;
+        choose(ask, wanted);
+    }
+    const widgets::FieldInfo steps{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
+    const auto allowed =
+        classic ? widgets::Permission{} : widgets::Permission::refused("The thesis's sequence has 29.");
+    if (const auto value = widgets::slider(ui, classic ? choice.iterations : thesis_steps, steps, allowed)) {
+        ProcessorChoice wanted = choice;
+        wanted.iterations = *value;
+        choose(ask, wanted);
+    }
+    const widgets::FieldInfo tolerance{"tolerance",
+                                       "Chord tolerance",
+                                       "mm",
+                                       "Farthest that a chord may be from its arc",
+                                       1e-5,
+                                       10.0,
+                                       0.01,
+                                       5};
+    if (const auto value = ui.number(choice.chord_tolerance, tolerance)) {
+        ProcessorChoice wanted = choice;
+        wanted.chord_tolerance = *value;
+        choose(ask, wanted);
+    }
+}
+
+void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("errors", "Errors of the whole program");
+    if (!section) {
+        return;
+    }
+    if (now.processor.failure()) {
+        ui.text(to_text(*now.processor.failure()));
+        return;
+    }
+    const cordic::RunReport& report = now.processor.report();
+    constexpr double micrometres = 1e3;
+    ui.value("position", "Position", fmt::format("{:.4g}", micrometres * report.position_error), "\u00b5m");
+    ui.value("speed", "Speed", fmt::format("{:.3g}", 100.0 * report.speed_error), "% of the feed");
+    ui.value("clocks", "Clocks", fmt::format("{}", report.clocks.total));
+    if (report.stop != cordic::Stop::halted) {
+        ui.text(report.stop == cordic::Stop::none
+                    ? "Longer than what is followed here: the errors are those of its beginning."
+                    : "Stops: " + std::string(cordic::to_text(report.stop)) + ".");
+    }
+}
+
+void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("registers", "Register file");
+    if (!section) {
+        return;
+    }
+    const cordic::Debugger& debugger = now.processor.debugger();
+    const float line = ui.px(19.0F);
+    for (int n = 0; n < cordic::register_count; ++n) {
+        const auto name = static_cast<Register>(n);
+        const auto index = static_cast<std::size_t>(n);
+        const bool changed = debugger.state().registers[index] != debugger.before().registers[index];
+        const widgets::Rect rest = ui.rest();
+        const widgets::Rect row{rest.x, rest.y, rest.w, line};
+        {
+            widgets::Sketch sketch(ui, row);
+            if (changed) {
+                sketch.box(row, widgets::faded(ui.colours().accent, 0.28), ui.colours().accent, 3.0F);
+            }
+            const widgets::Colour tone = changed ? ui.colours().text : ui.colours().muted;
+            const float third = row.w / 3.0F;
+            using widgets::TextAlign;
+            using widgets::TextFont;
+            sketch.text({row.x + ui.px(6.0F), row.y, 0.5F * third, row.h}, cordic::to_text(name), tone);
+            sketch.text({row.x + 0.5F * third, row.y, 1.25F * third, row.h},
+                        register_text(debugger.processor(), name),
+                        ui.colours().text,
+                        TextAlign::right,
+                        TextFont::mono);
+            sketch.text({row.x + 1.75F * third, row.y, 1.25F * third - ui.px(6.0F), row.h},
+                        bits_text(debugger.processor(), name),
+                        ui.colours().muted,
+                        TextAlign::right,
+                        TextFont::mono);
+        }
+        ui.record(changed ? fmt::format("{}_changed", cordic::to_text(name))
+                          : std::string(cordic::to_text(name)),
+                  row);
+        ui.move_by(0.0F, line);
+    }
+}
+
+void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("spent", "Clocks by what they were spent on");
+    if (!section) {
+        return;
+    }
+    const cordic::ClockCounts& clocks = now.processor.debugger().state().clocks;
+    ui.value("cordic", "CORDIC steps", fmt::format("{}", clocks.cordic));
+    ui.value("fetch", "Fetch", fmt::format("{}", clocks.fetch));
+    ui.value("immediate", "Immediates", fmt::format("{}", clocks.immediate));
+    ui.value("control", "Control", fmt::format("{}", clocks.control()));
+}
+
+} // namespace millwright::panels

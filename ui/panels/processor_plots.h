@@ -1,0 +1,25 @@
+// What the processor computes, drawn: the vector of the CORDIC pass that is under way, its angle error a
+// step, the tool path in step with it, and how far that is from the exact path.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/render/camera.h"
+
+namespace millwright::panels {
+
+class ProcessorPlots final : public Panel {
+public:
+    /// Side by side, as high as the pane.
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void draw_vector(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
+    void draw_errors(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
+    void draw_path(Ui& ui, const Workbench& now, const widgets::Rect& place);
+    void draw_map(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
+
+    render::Camera camera_{{.yaw = -1.35, .pitch = 0.75}};
+    double zoom_ = 1.0;
+};
+
+} // namespace millwright::panels

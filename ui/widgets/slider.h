@@ -1,0 +1,13 @@
+// A number between two ends, dragged along a line; what it changes is seen at once.
+#pragma once
+
+#include "ui/widgets/ui.h"
+
+#include <optional>
+
+namespace millwright::widgets {
+
+/// A whole number from info.min to info.max, committed while it is dragged; the arrow keys step it.
+std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permission& permission = {});
+
+} // namespace millwright::widgets
