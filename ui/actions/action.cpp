@@ -64,6 +64,10 @@ void ActionQueue::tell(std::function<void(machine::Driver&)> what) {
         [what = std::move(what)](Workshop& workshop) { workshop.controller().tell(what); });
 }
 
+void ActionQueue::queue(std::function<void(machine::JobQueue&)> change) {
+    requests_.emplace_back([change = std::move(change)](Workshop& workshop) { change(workshop.queue()); });
+}
+
 void ActionQueue::set_overrides(const machine::Overrides& wanted) {
     requests_.emplace_back([wanted](Workshop& workshop) {
         if (workshop.look().job.running) {

@@ -89,6 +89,8 @@ public:
     void processor(std::function<void(ProcessorBench&)> what);
     /// What the connected machine is to do, at once.
     void tell(std::function<void(machine::Driver&)> what);
+    /// A change of the job queue.
+    void queue(std::function<void(machine::JobQueue&)> change);
     /// At once, of the running job or of what the machine does next.
     void set_overrides(const machine::Overrides& wanted);
     /// Wanted in this frame alone: the machine moves while every frame says so.

@@ -23,9 +23,6 @@ std::vector<std::string> lines_before(const machine::Job& job) {
 Approach approach_for(const ApproachWish& wish) {
     Approach answer{wish, std::nullopt, {}, std::nullopt};
     try {
-        if (!wish.source.as_text) {
-            throw Error("only a controller that reads G-code can begin at a line", {}, "connect one");
-        }
         const machine::Job whole = make_job(wish.source);
         if (!wish.begin.hash.empty() && machine::program_hash(whole.listing->text) != wish.begin.hash) {
             throw Error("the program is not the one that was broken off: it was changed since",

@@ -10,6 +10,7 @@ Catalogue::Catalogue() {
     add_grid_actions(actions_);
     add_playback_actions(actions_);
     add_machine_actions(actions_);
+    add_queue_actions(actions_);
     add_controller_actions(actions_);
     add_processor_actions(actions_);
     add_dialog_actions(actions_);

@@ -17,8 +17,9 @@ public:
         std::shared_ptr<machine::Driver> driver,
         double speed,
         const std::filesystem::path& log_folder,
-        std::function<void()> wake)
-        : job_(std::move(job)), wake_(std::move(wake)),
+        std::function<void()> wake,
+        Ended ended)
+        : job_(std::move(job)), wake_(std::move(wake)), ended_(std::move(ended)),
           own_(driver ? nullptr
                       : std::make_shared<machine::VirtualMachine>(
                             job_.program->start, machine::VirtualSpeed{speed}, clock_)),
@@ -67,10 +68,13 @@ private:
                     publish([&](JobView& view) { view.report = report; });
                 });
             publish([&](JobView& view) { view.outcome = outcome; });
+            tell_end({outcome, {}});
         } catch (const Error& error) {
             publish([&](JobView& view) { view.failure = error.diagnostic(); });
+            tell_end({std::nullopt, error.what()});
         } catch (const std::exception& defect) {
             publish([&](JobView& view) { view.failure = Diagnostic{{}, defect.what(), {}}; });
+            tell_end({std::nullopt, defect.what()});
         }
         if (own_) {
             own_->close();
@@ -78,8 +82,15 @@ private:
         publish([](JobView& view) { view.running = false; });
     }
 
+    void tell_end(const JobEnding& ending) const {
+        if (ended_) {
+            ended_(ending);
+        }
+    }
+
     machine::Job job_;
     std::function<void()> wake_;
+    Ended ended_;
     machine::SteadyClock clock_;
     std::shared_ptr<machine::VirtualMachine> own_; ///< null on a connected machine
     std::shared_ptr<machine::Driver> driver_;
@@ -94,18 +105,19 @@ JobRunner::JobRunner(std::filesystem::path log_folder, std::function<void()> wak
 
 JobRunner::~JobRunner() = default;
 
-void JobRunner::start(machine::Job job, double speed) {
-    start(std::move(job), nullptr, speed);
+void JobRunner::start(machine::Job job, double speed, Ended ended) {
+    start(std::move(job), nullptr, speed, std::move(ended));
 }
 
-void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver) {
-    start(std::move(job), std::move(driver), 1.0);
+void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, Ended ended) {
+    start(std::move(job), std::move(driver), 1.0, std::move(ended));
 }
 
-void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed) {
+void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed, Ended ended) {
     expects(!view().running, "one job at a time");
     run_.reset();
-    run_ = std::make_unique<Run>(std::move(job), std::move(driver), speed, log_folder_, wake_);
+    run_ =
+        std::make_unique<Run>(std::move(job), std::move(driver), speed, log_folder_, wake_, std::move(ended));
 }
 
 void JobRunner::hold() {

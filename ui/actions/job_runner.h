@@ -24,8 +24,17 @@ struct JobView {
     std::optional<Diagnostic> failure;             ///< it did not start, or its log could not be written
 };
 
+/// What a job leaves behind: how it ended, or else why it came to no end.
+struct JobEnding {
+    std::optional<machine::JobOutcome> outcome;
+    std::string failure; ///< empty where there is an outcome
+};
+
 class JobRunner {
 public:
+    /// Called once from the job's thread when it has ended. Must not throw.
+    using Ended = std::function<void(const JobEnding&)>;
+
     /// `wake` is called from the job's thread whenever there is something new to see.
     JobRunner(std::filesystem::path log_folder, std::function<void()> wake);
     JobRunner(const JobRunner&) = delete;
@@ -35,9 +44,9 @@ public:
 
     /// Starts `job` on a virtual machine at `speed` times real time (0: as fast as can be computed). Throws
     /// Defect if one is running.
-    void start(machine::Job job, double speed);
+    void start(machine::Job job, double speed, Ended ended = {});
     /// Starts `job` on a connected machine, which stays connected.
-    void start(machine::Job job, std::shared_ptr<machine::Driver> driver);
+    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, Ended ended = {});
     void hold();
     void resume();
     void stop();
@@ -53,7 +62,7 @@ public:
 
 private:
     class Run;
-    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed);
+    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed, Ended ended);
 
     std::filesystem::path log_folder_;
     std::function<void()> wake_;

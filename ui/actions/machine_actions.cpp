@@ -1,4 +1,6 @@
+#include "core/base/error.h"
 #include "core/machine/driver.h"
+#include "core/machine/job_queue.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/workshop.h"
@@ -6,7 +8,9 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
+#include <utility>
 
 namespace millwright::actions {
 
@@ -70,9 +74,8 @@ Permission job_runs(const Workbench& now) {
     return now.job.running ? Permission{} : Permission::refused("No job is running.");
 }
 
-void run_job(Hands& hands) {
-    const Workbench& now = hands.now;
-    machine::Job job = hands.session.begin.on ? *now.approach->job : make_job(job_source(now));
+/// On what is connected, else on a virtual machine.
+void start(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {}) {
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
     hands.session.playback.playing = false;
     hands.session.file.step.reset();
@@ -80,9 +83,57 @@ void run_job(Hands& hands) {
     hands.session.workspace = Workspace::machine;
     if (auto driver = hands.workshop.controller().driver()) {
         driver->check(*job.listing, job.project);
-        hands.jobs.start(std::move(job), std::move(driver));
+        hands.jobs.start(std::move(job), std::move(driver), ended);
     } else {
-        hands.jobs.start(std::move(job), hands.session.machine_speed);
+        hands.jobs.start(std::move(job), hands.session.machine_speed, ended);
+    }
+}
+
+machine::Job wanted_job(const Workbench& now) {
+    return now.session.begin.on ? *now.approach->job : make_job(job_source(now));
+}
+
+Permission can_add(const Workbench& now) {
+    const Permission program = program_ready(now);
+    return program.allowed ? approach_ready(now) : program;
+}
+
+void add_to_queue(Hands& hands) {
+    (void)hands.workshop.queue().add(wanted_job(hands.now));
+    hands.session.begin = {};
+}
+
+Permission can_run_next(const Workbench& now) {
+    if (now.job.running) {
+        return Permission::refused("A job is running.");
+    }
+    const auto next = std::ranges::find_if(
+        now.queue, [](const machine::QueuedJob& job) { return job.state != machine::QueueState::done; });
+    if (next == now.queue.end()) {
+        return Permission::refused("No job waits.");
+    }
+    if (next->state == machine::QueueState::held) {
+        return Permission::refused(next->name + " did not end well and holds the queue: look at the machine, "
+                                                "then release or remove it.");
+    }
+    return machine_ready(now);
+}
+
+/// The queue hears how it ends; what keeps it from starting holds the queue, too.
+void run_next(Hands& hands) {
+    machine::JobQueue& queue = hands.workshop.queue();
+    machine::Job job = queue.begin(queue.next().value().id);
+    try {
+        start(hands, std::move(job), [&queue](const JobEnding& ending) {
+            if (ending.outcome) {
+                queue.ended(*ending.outcome);
+            } else {
+                queue.failed(ending.failure);
+            }
+        });
+    } catch (const Error& error) {
+        queue.failed(error.what());
+        throw;
     }
 }
 
@@ -98,6 +149,42 @@ void stop_at_once(Hands& hands) {
 
 } // namespace
 
+void add_queue_actions(Actions& actions) {
+    add(actions,
+        {"queue.add",
+         "Machine",
+         "Add to the queue",
+         "Puts the program that is shown behind the jobs that wait. Nothing moves.",
+         "",
+         icons::program},
+        can_add,
+        add_to_queue);
+    add(actions,
+        {"queue.run_next",
+         "Machine",
+         "Run the next job",
+         "Starts the first job that waits. The one behind it waits until you press this again.",
+         "",
+         icons::play},
+        can_run_next,
+        run_next);
+    add(
+        actions,
+        {"queue.remove_done",
+         "Machine",
+         "Remove finished jobs",
+         "Out of the queue; their logs stay.",
+         "",
+         icons::cancel},
+        [](const Workbench& now) {
+            const bool any = std::ranges::any_of(now.queue, [](const machine::QueuedJob& job) {
+                return job.state == machine::QueueState::done;
+            });
+            return any ? Permission{} : Permission::refused("No job is done.");
+        },
+        [](Hands& hands) { hands.workshop.queue().remove_done(); });
+}
+
 void add_machine_actions(Actions& actions) {
     add(actions,
         {"machine.run",
@@ -107,7 +194,7 @@ void add_machine_actions(Actions& actions) {
          "F9",
          icons::play},
         can_run,
-        run_job);
+        [](Hands& hands) { start(hands, wanted_job(hands.now)); });
     add(actions,
         {"machine.hold",
          "Machine",

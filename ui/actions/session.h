@@ -23,7 +23,7 @@ enum class Workspace { design, grid, toolpath, program, machine, processor };
 inline constexpr int workspace_count = 6;
 
 /// What the lower pane shows.
-enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, jobs, log };
+enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, queue, jobs, log };
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
 struct PaneSizes {

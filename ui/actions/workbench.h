@@ -1,6 +1,7 @@
 // What a panel may look at in one frame. Panels show it and ask for actions; they change nothing.
 #pragma once
 
+#include "core/machine/job_queue.h"
 #include "core/project/pipeline.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
@@ -42,6 +43,7 @@ struct Workbench {
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
     const ProcessorBench& processor;
+    std::vector<machine::QueuedJob> queue;                   ///< in their order
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

@@ -65,7 +65,8 @@ Workbench Workshop::look() const {
             left_behind_,
             job_recovery_->broken(),
             gamepad_,
-            processor_};
+            processor_,
+            queue_.jobs()};
 }
 
 void Workshop::request_plan() {

@@ -2,6 +2,7 @@
 // app builds it and hands it to the window. Everything that changes passes through perform().
 #pragma once
 
+#include "core/machine/job_queue.h"
 #include "core/project/autosave.h"
 #include "ui/actions/action.h"
 
@@ -87,6 +88,8 @@ public:
     /// Of the newest job that was broken off: opens its program and sets up a run from the line that comes
     /// next. Nothing moves. Throws Error if it cannot be opened.
     void continue_broken_job();
+    /// Of jobs that wait for a person's word.
+    [[nodiscard]] machine::JobQueue& queue() { return queue_; }
     [[nodiscard]] JobRecovery& job_recovery() { return *job_recovery_; }
 
     /// The good end: no copy of unsaved work stays.
@@ -144,6 +147,7 @@ private:
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<project::Pipeline> pipeline_;
     std::unique_ptr<project::ProgramReader> reader_;
+    machine::JobQueue queue_;                ///< before the jobs that it hears of
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
     ProcessorBench processor_;

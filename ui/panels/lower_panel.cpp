@@ -34,10 +34,11 @@ constexpr std::array<Tab, 6> making{{{LowerTab::plots, {"plots", "Error along th
                                      {LowerTab::compare, {"compare", "Side by side", icons::table}},
                                      {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                      {LowerTab::log, {"log", "Log", icons::info}}}};
-constexpr std::array<Tab, 7> driving{{{LowerTab::console, {"console", "Console", icons::keyboard}},
+constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console", icons::keyboard}},
                                       {LowerTab::listing, {"listing", "Listing", icons::program}},
                                       {LowerTab::offsets, {"offsets", "Offsets", icons::table}},
                                       {LowerTab::settings, {"settings", "Settings", icons::settings}},
+                                      {LowerTab::queue, {"queue", "Queue", icons::program}},
                                       {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
                                       {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                       {LowerTab::log, {"log", "Log", icons::info}}}};
@@ -103,6 +104,8 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return offsets_.draw(ui, now, ask);
     case LowerTab::settings:
         return settings_.draw(ui, now, ask);
+    case LowerTab::queue:
+        return queue_.draw(ui, now, ask);
     case LowerTab::jobs:
         return draw_jobs(ui, now);
     case LowerTab::log:

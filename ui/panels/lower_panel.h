@@ -6,6 +6,7 @@
 #include "ui/panels/listing_panel.h"
 #include "ui/panels/motion_plots.h"
 #include "ui/panels/panel.h"
+#include "ui/panels/queue_panel.h"
 
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,7 @@ namespace millwright::panels {
 
 class LowerPanel final : public Panel {
 public:
+    explicit LowerPanel(const actions::Catalogue& catalogue) : queue_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -26,6 +28,7 @@ private:
     ConsolePanel console_;
     OffsetTable offsets_;
     SettingTable settings_;
+    QueuePanel queue_;
 };
 
 } // namespace millwright::panels

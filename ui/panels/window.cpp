@@ -73,7 +73,8 @@ bool pressed(const actions::Shortcut& keys, bool typing) {
 Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()), processor_(workshop.catalogue()), dialogs_(workshop.catalogue()),
+      machine_(workshop.catalogue()), processor_(workshop.catalogue()), lower_(workshop.catalogue()),
+      dialogs_(workshop.catalogue()),
       view_(workshop.catalogue()) {}
 
 Window::Layout

@@ -2,6 +2,7 @@
 #include "core/base/files.h"
 #include "core/machine/job.h"
 #include "core/machine/job_log.h"
+#include "core/machine/job_queue.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
@@ -140,6 +141,84 @@ TEST_F(MachineJobs, SayWhyALineIsNoPlaceToBegin) {
     person.workshop().run("machine.run");
     person.frames(5);
     EXPECT_FALSE(person.workshop().look().job.running);
+}
+
+TEST_F(MachineJobs, WaitInAQueueAndBeginOneByOneByAPersonsWord) {
+    GrblBench grbl;
+    Person person;
+    connect(person, grbl);
+    const auto to_x = [&](const std::string& name, int x) {
+        const auto file = person.folder() / (name + ".ngc");
+        write_file(file, "G21 G90 G94\nG1 F3000 X" + std::to_string(x) + "\nM2\n");
+        person.open(file);
+        person.workshop().run("view.machine");
+        person.frames(3);
+        person.click("lower/queue/queue_add");
+    };
+    person.click("lower/tabs/queue");
+    to_x("first", 2);
+    to_x("second", 4);
+    to_x("third", 6);
+    person.click("lower/queue/jobs/job2");
+    person.click("lower/queue/later"); // first, third, second
+    person.keep("machine-queue");
+    EXPECT_FALSE(grbl.moving());
+    const auto done = [&] {
+        return std::ranges::count(
+            person.workshop().look().queue, machine::QueueState::done, &machine::QueuedJob::state);
+    };
+    const auto run_next = [&](double x) {
+        ASSERT_TRUE(person.live_until([&] { return is(person, DriverState::idle); }));
+        person.frames(2);
+        const auto before = done();
+        person.click("lower/queue/queue_run_next");
+        ASSERT_TRUE(person.live_until(
+            [&] { return done() == before + 1 && !person.workshop().look().job.running; }, 60.0));
+        EXPECT_NEAR(grbl.position()[0], x, 0.01);
+        person.frames(20);
+        EXPECT_FALSE(person.workshop().look().job.running); // the next waits for its word
+    };
+    run_next(2.0);
+    run_next(6.0);
+    const auto queue = person.workshop().look().queue;
+    ASSERT_EQ(queue.size(), 3U);
+    EXPECT_EQ(queue[1].name, "third");
+    EXPECT_EQ(queue[1].state, machine::QueueState::done);
+    EXPECT_EQ(queue[2].state, machine::QueueState::waiting);
+
+    // A job that does not end well holds what is behind it until a person has decided.
+    ASSERT_TRUE(person.live_until([&] { return is(person, DriverState::idle); }));
+    person.frames(2);
+    person.click("lower/queue/queue_run_next");
+    person.workshop().run("machine.emergency_stop");
+    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+    ASSERT_TRUE(person.live_until(
+        [&] { return person.workshop().look().queue[2].state == machine::QueueState::held; }));
+    person.frames(3);
+    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("second did not end well"));
+    person.keep("machine-queue-held");
+    person.click("lower/queue/queue_remove_done");
+    EXPECT_EQ(person.workshop().look().queue.size(), 1U);
+    person.click("lower/queue/jobs/job2");
+    person.click("lower/queue/release");
+    EXPECT_EQ(person.workshop().look().queue[0].state, machine::QueueState::waiting);
+}
+
+TEST_F(MachineJobs, OfTheVirtualMachineBeginAtALineToo) {
+    Person person;
+    person.open(program(person.folder()));
+    person.workshop().run("view.machine");
+    person.workshop().session().machine_speed = 0.0;
+    person.workshop().session().begin = {true, middle, std::nullopt, {}};
+    person.wait_idle();
+    const auto approach = person.workshop().look().approach;
+    ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
+    person.workshop().run("machine.run");
+    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }, 60.0));
+    const auto outcome = *person.workshop().look().job.outcome;
+    EXPECT_EQ(outcome.end, machine::JobEnd::done) << outcome.sentence;
+    EXPECT_NEAR(outcome.position[0], 2.0, 1e-6);
+    EXPECT_LT(outcome.executed_blocks, 16);
 }
 
 TEST_F(MachineJobs, LogTheOverridesOfAPerson) {

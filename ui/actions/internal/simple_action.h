@@ -53,6 +53,7 @@ void add_layer_actions(Actions& actions);
 void add_grid_actions(Actions& actions);
 void add_playback_actions(Actions& actions);
 void add_machine_actions(Actions& actions);
+void add_queue_actions(Actions& actions);
 void add_controller_actions(Actions& actions);
 void add_processor_actions(Actions& actions);
 void add_dialog_actions(Actions& actions);

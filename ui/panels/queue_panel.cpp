@@ -1,0 +1,132 @@
+#include "ui/panels/queue_panel.h"
+
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+namespace icons = widgets::icons;
+using machine::JobQueue;
+using machine::QueuedJob;
+using machine::QueuedJobId;
+using machine::QueueState;
+using widgets::Permission;
+using widgets::Rank;
+
+/// Among those that wait; -1 where `id` does not.
+int waiting_place(const Workbench& now, QueuedJobId id) {
+    int place = 0;
+    for (const QueuedJob& job : now.queue) {
+        if (job.id == id) {
+            return job.state == QueueState::waiting ? place : -1;
+        }
+        place += job.state == QueueState::waiting ? 1 : 0;
+    }
+    return -1;
+}
+
+int waiting_count(const Workbench& now) {
+    return static_cast<int>(std::ranges::count(now.queue, QueueState::waiting, &QueuedJob::state));
+}
+
+} // namespace
+
+const QueuedJob* QueuePanel::chosen(const Workbench& now) const {
+    const auto found = chosen_ ? std::ranges::find(now.queue, *chosen_, &QueuedJob::id) : now.queue.end();
+    return found == now.queue.end() ? nullptr : &*found;
+}
+
+void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto scope = ui.scope("queue");
+    draw_buttons(ui, now, ask);
+    draw_table(ui, now);
+}
+
+void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const QueuedJob* job = chosen(now);
+    const Permission none = Permission::refused("Click a job first.");
+    const int place = job != nullptr ? waiting_place(now, job->id) : -1;
+    const Permission waits = job == nullptr ? none
+                             : place < 0 ? Permission::refused("Only a job that waits can be put elsewhere.")
+                                         : Permission{};
+    const Permission removable = job == nullptr                      ? none
+                                 : job->state == QueueState::running ? Permission::refused("It is running.")
+                                                                     : Permission{};
+    const Permission held = job == nullptr                   ? none
+                            : job->state == QueueState::held ? Permission{}
+                                                             : Permission::refused("It is not held.");
+    const auto row = ui.row(7);
+    action_button(ui, now, ask, catalogue_, "queue.run_next", Rank::primary, "Run next");
+    action_button(ui, now, ask, catalogue_, "queue.add", Rank::normal, "Add this");
+    const auto on_chosen = [&](std::string_view id,
+                               std::string_view label,
+                               const Permission& can,
+                               std::string_view tip,
+                               auto&& change) {
+        if (ui.button(id, label, can, {{}, Rank::normal, -1.0F, tip})) {
+            ask.queue([change, which = job->id](JobQueue& queue) { change(queue, which); });
+        }
+    };
+    on_chosen("earlier",
+              "Earlier",
+              waits.allowed && place == 0 ? Permission::refused("It is the first that waits.") : waits,
+              "Before the job above it",
+              [to = place - 1](JobQueue& queue, QueuedJobId which) { queue.move(which, to); });
+    on_chosen("later",
+              "Later",
+              waits.allowed && place + 1 == waiting_count(now)
+                  ? Permission::refused("It is the last that waits.")
+                  : waits,
+              "Behind the job below it",
+              [to = place + 1](JobQueue& queue, QueuedJobId which) { queue.move(which, to); });
+    on_chosen("release",
+              "Release",
+              held,
+              "After looking at the machine: the job waits again, from its beginning",
+              [](JobQueue& queue, QueuedJobId which) { queue.release(which); });
+    on_chosen("remove", "Remove", removable, "Out of the queue", [](JobQueue& queue, QueuedJobId which) {
+        queue.remove(which);
+    });
+    action_button(ui, now, ask, catalogue_, "queue.remove_done", Rank::normal, "Clear done");
+}
+
+void QueuePanel::draw_table(Ui& ui, const Workbench& now) {
+    constexpr std::array<widgets::Column, 5> columns{{{"Job", "", 1.6F, false},
+                                                      {"State", "", 0.8F, false},
+                                                      {"Blocks", "", 0.8F, true},
+                                                      {"From line", "", 0.8F, true},
+                                                      {"What happened", "", 5.0F, false}}};
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(now.queue);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const QueuedJob& job = now.queue[static_cast<std::size_t>(row)];
+        const std::array<std::string, 5> cells{job.name,
+                                               std::string(to_text(job.state)),
+                                               fmt::format("{}", job.blocks),
+                                               fmt::format("{}", job.from_line),
+                                               job.sentence};
+        return cells[static_cast<std::size_t>(column)];
+    };
+    view.row_id = [&](std::ptrdiff_t row) {
+        return fmt::format("job{}", static_cast<int>(now.queue[static_cast<std::size_t>(row)].id));
+    };
+    const QueuedJob* job = chosen(now);
+    view.chosen = job == nullptr ? -1 : job - now.queue.data();
+    view.height = ui.rest().h;
+    view.when_empty = "No job waits. \u201cAdd this\u201d puts the program that is shown here.";
+    if (const auto row = widgets::table(ui, "jobs", view)) {
+        chosen_ = now.queue[static_cast<std::size_t>(*row)].id;
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,25 @@
+// Jobs that wait one behind the other: added, put in order, and begun one by one by a person.
+#pragma once
+
+#include "core/machine/job_queue.h"
+#include "ui/panels/panel.h"
+
+#include <optional>
+
+namespace millwright::panels {
+
+class QueuePanel final : public Panel {
+public:
+    explicit QueuePanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_table(Ui& ui, const Workbench& now);
+    [[nodiscard]] const machine::QueuedJob* chosen(const Workbench& now) const;
+
+    const actions::Catalogue& catalogue_;
+    std::optional<machine::QueuedJobId> chosen_;
+};
+
+} // namespace millwright::panels
