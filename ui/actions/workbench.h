@@ -43,7 +43,7 @@ struct Workbench {
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
     const ProcessorBench& processor;
-    std::vector<machine::QueuedJob> queue;                   ///< in their order
+    std::vector<machine::QueuedJob> queue; ///< in their order
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

@@ -74,8 +74,7 @@ Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
       machine_(workshop.catalogue()), processor_(workshop.catalogue()), lower_(workshop.catalogue()),
-      dialogs_(workshop.catalogue()),
-      view_(workshop.catalogue()) {}
+      dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
 
 Window::Layout
 Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
