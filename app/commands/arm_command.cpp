@@ -1,11 +1,14 @@
 #include "app/commands/arm_command.h"
 
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_file.h"
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_motion_file.h"
+#include "core/kinematics/arm_simulation.h"
 #include "core/kinematics/arm_solver.h"
 #include "core/project/assets.h"
 
@@ -36,6 +39,9 @@ constexpr double rounding_deg = 0.01;
 struct ArmOptions {
     std::string arm = "motoman-l3";
     std::vector<double> numbers;
+    std::string file;
+    std::string out;
+    double step_mm = 5.0;
     bool project = false;
     bool json = false;
 };
@@ -199,13 +205,22 @@ int inverse(const ArmOptions& options) {
     return 0;
 }
 
+int simulate(const ArmOptions& options) {
+    const ArmModel arm = arm_of(options);
+    const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
+    const auto records =
+        kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file);
+    write_file(options.out, kinematics::arm_result_text(records));
+    fmt::print("{} blocks, {} points in {}\n", blocks.size(), records.size(), options.out);
+    return 0;
+}
+
 CLI::App&
 add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<ArmOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("--arm", options->arm, "Arm that ships with the program, or an arm file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    command.add_flag("--json", options->json, "Print the answer as JSON");
     return command;
 }
 
@@ -215,13 +230,18 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     CLI::App& group = *app.add_subcommand("arm", "Robot arms: where joints bring the tool, and which do");
     group.require_subcommand(1);
     const auto options = std::make_shared<ArmOptions>();
+    const auto answers_in_json = [&](CLI::App& command) {
+        command.add_flag("--json", options->json, "Print the answer as JSON");
+    };
     CLI::App& fk = add(group, "fk", "The tool for given joints", options);
+    answers_in_json(fk);
     fk.add_option("JOINTS", options->numbers, "Position of every joint: degrees, mm of a sliding one")
         ->required()
         ->expected(1, 9)
         ->type_name("J1 J2 ...");
     fk.callback([&chosen, options] { chosen = [options] { return forward(*options); }; });
     CLI::App& ik = add(group, "ik", "Every position of the joints for a given tool", options);
+    answers_in_json(ik);
     ik.add_option("GOAL", options->numbers, "Tip in mm and direction of the tool axis")
         ->required()
         ->expected(6)
@@ -230,6 +250,13 @@ void add_arm_command(CLI::App& app, Command& chosen) {
                 options->project,
                 "Turn the axis by the smallest angle into the plane of an arm with five joints");
     ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
+    CLI::App& path = add(group, "simulate", "Work off a motion file, from the home of the thesis", options);
+    path.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
+    path.add_option("--step", options->step_mm, "Distance of the points, mm")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
+    path.add_option("--out", options->out, "File for the positions and joints")->required();
+    path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
 }
 
 } // namespace millwright::app

@@ -1,4 +1,5 @@
 #include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,6 +54,21 @@ TEST(Arm, SolvesOtherArmsToo) {
                   .at("solutions")
                   .size(),
               2U);
+}
+
+TEST(Arm, SimulatesTheFileOfTheThesis) {
+    const ScratchFolder scratch;
+    const std::string file = (scratch / "three-lines.mot").string(), out = (scratch / "result.txt").string();
+    write_content(file, "G1 X300 Y0 Z0 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;\n");
+    const Ended ended = run({"arm", "simulate", file, "--step", "10", "--out", out});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("3 blocks, 75 points"));
+    EXPECT_THAT(content_of(out),
+                testing::StartsWith("next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n"
+                                    " 2 := -90.00000 \n 3 := 90.00000 \n"));
+    write_content(file, "X300 ;\nX3000 ;");
+    EXPECT_THAT(run({"arm", "simulate", file, "--out", out}).err,
+                HasSubstr("three-lines.mot:2: the arm does not"));
 }
 
 TEST(Arm, RefusesWhatIsNoPoseAndNoArm) {

@@ -1,0 +1,270 @@
+#include "core/kinematics/arm_simulation.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_inverse.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace millwright::kinematics {
+
+namespace {
+
+constexpr double radius_tolerance = 0.01; // mm between the radii at both ends of an arc
+constexpr std::size_t most_records = 10'000'000;
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, std::string message) {
+    throw Error(Diagnostic{.place = {.file = file, .line = line}, .message = std::move(message), .hint = {}});
+}
+
+/// By arithmetic: where it vectorises, g++ 12 leaves out conversions of a double to float and back.
+double in_single_precision(double value) {
+    constexpr int digits = std::numeric_limits<float>::digits;
+    int exponent = 0;
+    const double fraction = std::frexp(value, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(fraction, digits)), exponent - digits);
+}
+
+/// A way with its length: the point at u in 0 ... 1, counted from its start.
+struct Way {
+    double length = 0.0;
+    std::function<Vec3(double)> at;
+};
+
+/// From the start to the center, for an arc given by its radius in the XY plane.
+Vec3 center_by_radius(const ArmBlock& block, const std::filesystem::path& file) {
+    const Vec3& way = block.way;
+    const double chord = way.head<2>().norm();
+    const double radius = std::abs(*block.radius);
+    if (!(chord > 0.0) || std::abs(way.z()) > 0.0) {
+        fail(file, block.line, "an arc by its radius needs an end elsewhere in the XY plane");
+    }
+    if (radius < 0.5 * chord - radius_tolerance) {
+        fail(
+            file,
+            block.line,
+            fmt::format("the radius {} is shorter than half the way, {:.4f}", shortest(radius), 0.5 * chord));
+    }
+    const double height = std::sqrt(std::max(radius * radius - 0.25 * chord * chord, 0.0));
+    const Vec3 left(-way.y() / chord, way.x() / chord, 0.0);
+    const bool is_left = (block.motion == ArmMotion::counter_clockwise) == (*block.radius > 0.0);
+    return 0.5 * way + (is_left ? height : -height) * left;
+}
+
+Way arc(const ArmBlock& block, const std::filesystem::path& file) {
+    const Vec3 center = block.center ? *block.center : center_by_radius(block, file);
+    const Vec3 from = -center, to = block.way - center;
+    const double radius = from.norm();
+    if (!(radius > 0.0) || std::abs(to.norm() - radius) > radius_tolerance) {
+        fail(file,
+             block.line,
+             fmt::format("the end is {:.4f} mm from the center, the start {:.4f}", to.norm(), radius));
+    }
+    // Counter-clockwise as seen from above; of a plane on edge, from its positive side.
+    Vec3 normal = from.cross(to);
+    normal = normal.norm() > 1e-9 * radius * radius ? normal.normalized() : Vec3(Vec3::UnitZ());
+    const double above = std::abs(normal.z()) > 1e-9 ? normal.z() : normal.x() + normal.y();
+    normal = above < 0.0 ? Vec3(-normal) : normal;
+    normal = block.motion == ArmMotion::clockwise ? Vec3(-normal) : normal;
+    const double turned = std::atan2(normal.dot(from.cross(to)), from.dot(to));
+    constexpr double nothing = 1e-12; // the end at the start: a full circle
+    const double angle = turned > nothing ? turned : turned + 2.0 * pi;
+    return {radius * angle,
+            [=](double u) { return Vec3(center + Eigen::AngleAxisd(u * angle, normal) * from); }};
+}
+
+Way way_of(const ArmBlock& block, const std::filesystem::path& file) {
+    if (block.motion != ArmMotion::line) {
+        return arc(block, file);
+    }
+    return {block.way.norm(), [way = block.way](double u) { return Vec3(u * way); }};
+}
+
+/// The tool axis nearest to `wanted` in the plane of the arm.
+Vec3 axis_at(const Vec3& tip, const Vec3& wanted, const std::filesystem::path& file, int line) {
+    Frame goal = Frame::Identity();
+    goal.translation() = tip;
+    goal.linear() = frame_along(wanted);
+    const auto projected = projected_goal(goal);
+    if (!projected) {
+        fail(file, line, "the tool axis is across the plane of the arm");
+    }
+    return projected->linear().col(2);
+}
+
+class Simulation {
+public:
+    Simulation(const ArmModel& arm,
+               const JointPositions& start,
+               double step,
+               const std::filesystem::path& file)
+        : arm_(arm), file_(file), step_(step), joints_(start) {
+        const Frame tool = base_T_tool(arm, start);
+        tip_ = 1e-9 * (1e9 * tool.translation()).array().round(); // the home of the thesis is 800 0 650
+        axis_ = tool.linear().col(2);
+    }
+
+    void run(const ArmBlock& block, int number) {
+        axis_ = block.tool_axis.value_or(axis_);
+        const Way way = way_of(block, file_);
+        const Vec3 target = tip_ + block.way;
+        if (way.length > 0.0) {
+            const double du = step_ / std::ceil(way.length);
+            for (double u = 0.0; u <= 1.0; u += du) {
+                add(tip_ + way.at(u), block, number);
+            }
+        }
+        if (records_.empty() || records_.back().block != number || single(target) != records_.back().tip) {
+            add(target, block, number);
+        }
+        tip_ = target;
+    }
+    [[nodiscard]] std::vector<ArmRecord> take() { return std::move(records_); }
+
+private:
+    static Vec3 single(const Vec3& point) { return point.unaryExpr(&in_single_precision); }
+
+    void add(const Vec3& exact, const ArmBlock& block, int number) {
+        if (records_.size() >= most_records) {
+            fail(file_, block.line, fmt::format("more than {} points; take longer steps", most_records));
+        }
+        const Vec3 tip = single(exact);
+        const Vec3 axis = axis_at(tip, axis_, file_, block.line);
+        const InverseSolution found = arm_inverse(arm_, PointedGoal{tip, axis}, joints_);
+        if (found.branches.empty()) {
+            fail(
+                file_,
+                block.line,
+                fmt::format(
+                    "the arm does not reach {:.3f} {:.3f} {:.3f}: {}", tip.x(), tip.y(), tip.z(), found.why));
+        }
+        const auto distance = [&](const JointPositions& q) { return (q - joints_).cwiseAbs().maxCoeff(); };
+        joints_ = *std::ranges::min_element(found.branches, {}, distance);
+        records_.push_back({tip, joints_, number});
+    }
+
+    const ArmModel& arm_;
+    const std::filesystem::path& file_;
+    double step_;
+    JointPositions joints_;
+    Vec3 tip_;
+    Vec3 axis_;
+    std::vector<ArmRecord> records_;
+};
+
+/// One line of a result after another.
+class Lines {
+public:
+    Lines(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+
+    [[nodiscard]] bool at_end() const { return text_.empty(); }
+    [[nodiscard]] int number() const { return number_; }
+    [[nodiscard]] std::string_view next() {
+        const std::size_t end = std::min(text_.find('\n'), text_.size());
+        const std::string_view line = text_.substr(0, end);
+        text_.remove_prefix(std::min(end + 1, text_.size()));
+        ++number_;
+        return line;
+    }
+    /// Takes `words` from the front of `line`.
+    void expect(std::string_view& line, std::string_view words) const {
+        if (!line.starts_with(words)) {
+            fail(file_, number_, fmt::format("'{}' is expected here", words));
+        }
+        line.remove_prefix(words.size());
+    }
+    /// A number and the blank behind it.
+    [[nodiscard]] double value(std::string_view& line) const {
+        double found = 0.0;
+        const auto [end, failure] = std::from_chars(line.data(), line.data() + line.size(), found);
+        if (failure != std::errc() || !std::isfinite(found)) {
+            fail(file_, number_, "a number is expected here");
+        }
+        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+        expect(line, " ");
+        return found;
+    }
+    void expect_end(std::string_view line) const {
+        if (!line.empty()) {
+            fail(file_, number_, "nothing more is expected in this line");
+        }
+    }
+
+private:
+    std::string_view text_;
+    const std::filesystem::path& file_;
+    int number_ = 0;
+};
+
+} // namespace
+
+JointPositions arm_home() {
+    JointPositions home(5);
+    home << 0.0, -0.5 * pi, 0.5 * pi, 0.0, 0.0;
+    return home;
+}
+
+std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
+                                    const std::vector<ArmBlock>& blocks,
+                                    const JointPositions& start,
+                                    double step_mm,
+                                    const std::filesystem::path& file) {
+    expects(step_mm > 0.0 && std::isfinite(step_mm), "a step has a length");
+    if (!arm.planar_elbow()) {
+        throw Error(
+            "motion files are for arms like the Motoman L-3: three parallel joints between base and roll");
+    }
+    Simulation simulation(arm, start, step_mm, file);
+    int number = 0;
+    for (const ArmBlock& block : blocks) {
+        simulation.run(block, number++);
+    }
+    return simulation.take();
+}
+
+std::string arm_result_text(const std::vector<ArmRecord>& records) {
+    std::string text;
+    for (const ArmRecord& record : records) {
+        text += fmt::format("next position {} {} {} \n\n",
+                            fixed(record.tip.x(), 5),
+                            fixed(record.tip.y(), 5),
+                            fixed(record.tip.z(), 5));
+        for (Eigen::Index n = 0; n < record.joints.size(); ++n) {
+            text += fmt::format(" {} := {} \n", n + 1, fixed(to_degrees(record.joints[n]), 5));
+        }
+    }
+    return text;
+}
+
+std::vector<ArmRecord> parse_arm_result(std::string_view text, const std::filesystem::path& file) {
+    Lines lines(text, file);
+    std::vector<ArmRecord> records;
+    while (!lines.at_end()) {
+        ArmRecord record;
+        std::string_view line = lines.next();
+        lines.expect(line, "next position ");
+        for (int n = 0; n < 3; ++n) {
+            record.tip[n] = lines.value(line);
+        }
+        lines.expect_end(line);
+        lines.expect_end(lines.next());
+        record.joints.resize(5);
+        for (int n = 0; n < 5; ++n) {
+            line = lines.next();
+            lines.expect(line, fmt::format(" {} := ", n + 1));
+            record.joints[n] = from_degrees(lines.value(line));
+            lines.expect_end(line);
+        }
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
+} // namespace millwright::kinematics

@@ -1,0 +1,143 @@
+#include "core/kinematics/arm_simulation.h"
+
+#include "core/base/error.h"
+#include "core/kinematics/arm_forward.h"
+#include "tests/support/arms.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+namespace millwright::kinematics {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The command file of both printed runs.
+constexpr std::string_view printed_file = "G1 X300 Y0 Z0 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;\n";
+
+std::string reason(const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "none";
+}
+
+std::vector<ArmRecord> simulated(std::string_view text, double step) {
+    return simulate_arm(test::arm("motoman-l3"), parse_arm_motion(text, "a.mot"), arm_home(), step, "a.mot");
+}
+
+TEST(ArmMotionFile, ReadsWordsOfEitherCaseInAnyOrder) {
+    const auto blocks =
+        parse_arm_motion("g1x10 y-2.5;Z+3 F20\n;; G3 X5 I2.5 A0 B0 C-2 S100 M3;\nG1 X1;", "a.mot");
+    ASSERT_EQ(blocks.size(), 4U);
+    EXPECT_EQ(blocks[0].way, Vec3(10.0, -2.5, 0.0));
+    EXPECT_EQ(blocks[1].way, Vec3(0.0, 0.0, 3.0));
+    EXPECT_EQ(blocks[1].feed, 20.0);
+    EXPECT_EQ(blocks[2].motion, ArmMotion::counter_clockwise);
+    EXPECT_EQ(blocks[2].center, Vec3(2.5, 0.0, 0.0));
+    EXPECT_EQ(blocks[2].tool_axis, Vec3(0.0, 0.0, -1.0));
+    EXPECT_EQ(blocks[2].line, 2);
+}
+
+TEST(ArmMotionFile, SaysWhereItIsWrong) {
+    const auto why = [](std::string_view text) {
+        return reason([&] { (void)parse_arm_motion(text, "a.mot"); });
+    };
+    EXPECT_THAT(why("X1 ;\nY2 Q3 ;"), HasSubstr("a.mot:2:4: 'Q' is no word"));
+    EXPECT_THAT(why("X ;"), HasSubstr("a.mot:1:3: X needs a number"));
+    EXPECT_THAT(why("X1 X2 ;"), HasSubstr("a.mot:1:4: X stands twice"));
+    EXPECT_THAT(why("X1"), HasSubstr("no ';'"));
+    EXPECT_THAT(why("G4 X1 ;"), HasSubstr("a.mot:1:1: G needs a whole number from 1 to 3"));
+    EXPECT_THAT(why("G2 X1 ;"), HasSubstr("either its center (I J K) or its radius (R)"));
+    EXPECT_THAT(why("A0 B0 C0 ;"), HasSubstr("no direction"));
+    EXPECT_THAT(why("X1e300 ;"), HasSubstr("X needs a number"));
+    EXPECT_THAT(why(std::string("X1\x01;", 4)), HasSubstr("byte 1 is no text"));
+}
+
+TEST(ArmSimulation, HasThePointsOfThePrintedRuns) {
+    EXPECT_EQ(simulated(printed_file, 10.0).size(), 75U);
+    EXPECT_EQ(simulated(printed_file, 50.0).size(), 18U);
+    EXPECT_EQ(simulated("G1 X300;G1 Z-100;G1 X-300 Z100;", 10.0).size(),
+              75U); // with or without a last newline
+    std::ifstream golden("tests/golden/arm/path-10.txt");
+    std::string line;
+    const auto records = simulated(printed_file, 10.0);
+    std::size_t n = 0;
+    while (std::getline(golden, line)) {
+        if (line[0] == '#') {
+            continue;
+        }
+        const std::string begin = fmt::format("{:.5f} {:.5f} ", records[n].tip.x(), records[n].tip.z());
+        EXPECT_EQ(line.substr(0, begin.size()), begin);
+        ++n;
+    }
+    EXPECT_EQ(n, 75U);
+}
+
+TEST(ArmSimulation, EveryRecordIsWhereItSays) {
+    const ArmModel arm = test::arm("motoman-l3");
+    for (const ArmRecord& record : simulated("G1 X100 Y200 Z-50 ; G3 X-80 Y80 I-80 ; G1 Z30 A1 C1 ;", 5.0)) {
+        EXPECT_LT((base_T_tool(arm, record.joints).translation() - record.tip).norm(), 1e-9);
+    }
+}
+
+TEST(ArmSimulation, GoesAroundArcs) {
+    struct Arc {
+        const char* text;
+        Vec3 end;    ///< from the start
+        Vec3 middle; ///< of the arc, from the start
+    };
+    const double q = 50.0 * std::sqrt(0.5);
+    for (const Arc& arc : {Arc{"G3 X-50 Y50 I-50;", {-50, 50, 0}, {q - 50, q, 0}},
+                           Arc{"G3 X-50 Y-50 J-50;", {-50, -50, 0}, {-q, q - 50, 0}},
+                           Arc{"G3 X50 Y-50 I50;", {50, -50, 0}, {50 - q, -q, 0}},
+                           Arc{"G3 X50 Y50 J50;", {50, 50, 0}, {q, 50 - q, 0}},
+                           Arc{"G2 X-50 Y50 J50;", {-50, 50, 0}, {-q, 50 - q, 0}},
+                           Arc{"G2 X50 Y50 I50;", {50, 50, 0}, {50 - q, q, 0}},
+                           Arc{"G2 X-50 Y50 I-50;", {-50, 50, 0}, {-50 - q, -q, 0}}, // three quarters
+                           Arc{"G3 X-50 Y50 R50;", {-50, 50, 0}, {q - 50, q, 0}},
+                           Arc{"G3 X-50 Y50 R-50;", {-50, 50, 0}, {q, 50 + q, 0}},
+                           Arc{"G3 I-50;", {0, 0, 0}, {-100, 0, 0}}, // a full circle
+                           Arc{"G3 X-50 Z50 I-50;", {-50, 0, 50}, {-50 - q, 0, -q}}}) {
+        const auto records = simulated(arc.text, 0.5);
+        const Vec3 start = records.front().tip;
+        EXPECT_LT((records.back().tip - start - arc.end).norm(), 1e-3) << arc.text;
+        const Vec3 middle = records[records.size() / 2].tip - start;
+        EXPECT_LT((middle - arc.middle).norm(), 1.0) << arc.text << " " << middle.transpose();
+    }
+}
+
+TEST(ArmSimulation, RefusesWhatTheArmCannotDo) {
+    const auto why = [](std::string_view text) { return reason([&] { (void)simulated(text, 10.0); }); };
+    EXPECT_THAT(why("X100 ;\nX2000 ;"), HasSubstr("a.mot:2: the arm does not reach"));
+    EXPECT_THAT(why("G2 X50 I10 ;"), HasSubstr("a.mot:1: the end is 40.0000 mm from the center"));
+    EXPECT_THAT(why("G2 X50 R10 ;"), HasSubstr("shorter than half the way"));
+    EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("across the plane"));
+}
+
+TEST(ArmResult, HasTheLayoutOfTheThesis) {
+    JointPositions printed = test::degrees({0.0, -84.09386, 90.0, -5.90614, 0.0});
+    EXPECT_EQ(arm_result_text({{Vec3(800.0, 0.0, 650.0), printed, 0}}),
+              "next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n 2 := -84.09386 \n"
+              " 3 := 90.00000 \n 4 := -5.90614 \n 5 := 0.00000 \n");
+}
+
+TEST(ArmResult, ReadsBackWhatItWrote) {
+    const auto records = simulated(printed_file, 10.0);
+    const std::string text = arm_result_text(records);
+    const auto back = parse_arm_result(text, "a.res");
+    ASSERT_EQ(back.size(), records.size());
+    EXPECT_EQ(arm_result_text(back), text);
+    EXPECT_THAT(reason([&] { (void)parse_arm_result(text.substr(0, 200), "a.res"); }), HasSubstr("a.res:"));
+    EXPECT_THAT(reason([&] { (void)parse_arm_result("nonsense\n", "a.res"); }),
+                HasSubstr("a.res:1: 'next position '"));
+}
+
+} // namespace
+} // namespace millwright::kinematics
