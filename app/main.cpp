@@ -31,9 +31,18 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
+/// A full disk shows when what is left is written.
+void expect_output_written() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw Error("standard output could not be written");
+    }
+}
+
 int run(const Command& command) {
     try {
-        return command();
+        const int exit_code = command();
+        expect_output_written();
+        return exit_code;
     } catch (const Error& error) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
     } catch (const Cancelled&) {

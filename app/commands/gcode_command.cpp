@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,8 @@ namespace {
 
 /// `check` shows so many errors of a program at most.
 constexpr int most_errors_shown = 100;
+constexpr double grbl_junction_deviation = 0.01; ///< mm: $11 as Grbl ships
+constexpr int grbl_look_ahead = 15;              ///< moves
 
 /// The tools that rs274 knows when it is given no table.
 constexpr std::string_view rs274_tools = "T1 P1 Z0.511 D0.125\n"
@@ -43,9 +46,9 @@ struct Options {
     std::string dialect = "linuxcnc";
     std::string tools;
     std::string machine;
-    double path_tolerance = 0.0;     ///< mm; 0: exact path
-    double junction_deviation = 0.0; ///< mm; 0: corners by small steps
-    int look_ahead = 0;
+    double path_tolerance = 0.0;              ///< mm; 0: exact path
+    std::optional<double> junction_deviation; ///< mm; 0: corners by small steps
+    std::optional<int> look_ahead;            ///< moves; 0: all
     std::string out;
     PostChoice post;
     bool block_delete = false;
@@ -142,11 +145,13 @@ motion::PlannerSettings planner_settings(const Options& options) {
     if (options.path_tolerance > 0.0) {
         settings.path = {gcode::PathMode::continuous, options.path_tolerance};
     }
-    if (options.junction_deviation > 0.0) {
+    const bool is_grbl = options.dialect == "grbl";
+    const double deviation = options.junction_deviation.value_or(is_grbl ? grbl_junction_deviation : 0.0);
+    if (deviation > 0.0) {
         settings.corner_rule = motion::CornerRule::junction_deviation;
-        settings.junction_deviation = options.junction_deviation;
+        settings.junction_deviation = deviation;
     }
-    settings.look_ahead = options.look_ahead;
+    settings.look_ahead = options.look_ahead.value_or(is_grbl ? grbl_look_ahead : 0);
     return settings;
 }
 

@@ -255,8 +255,11 @@ private:
         for (const int n : {axes.first, axes.second}) {
             words_[static_cast<std::size_t>(n)].clear();
         }
+        const AxisSet named = axes_named(program_, arc);
         for (int n = 0; n < std::ssize(program_.axes); ++n) {
-            append_if_new(text, n, to[n]);
+            if (named.contains(n)) {
+                append_if_new(text, n, to[n]);
+            }
         }
         append_centre(text, arc, axes, from);
         double duration = 0.0;

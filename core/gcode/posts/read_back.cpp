@@ -313,7 +313,7 @@ private:
         const WrittenStep& step = next(StepKind::arc);
         const BlockWords& begin = wording_.blocks[static_cast<std::size_t>(arc.first)];
         const BlockWords& end = wording_.blocks[static_cast<std::size_t>(arc.last)];
-        compare_positions(end, AxisSet::all(static_cast<int>(program_.axes.size())), step.target);
+        compare_positions(end, axes_named(program_, arc), step.target);
         if (step.plane != arc.plane || (step.sweep > 0.0) != (arc.sweep > 0.0)) {
             differ("the arc turns another way than meant");
         }

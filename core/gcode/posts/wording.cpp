@@ -65,4 +65,19 @@ PlaneAxes plane_axes(const std::vector<ProgramAxis>& axes, Plane plane) {
     return {index_of(axes, letters[0]), index_of(axes, letters[1]), index_of(axes, letters[2])};
 }
 
+AxisSet axes_named(const Program& program, const FittedArc& arc) {
+    const PlaneAxes plane = plane_axes(program.axes, arc.plane);
+    AxisSet named;
+    for (int axis = 0; axis < static_cast<int>(program.axes.size()); ++axis) {
+        bool is_named = axis == plane.first || axis == plane.second;
+        for (int n = arc.first; n <= arc.last && !is_named; ++n) {
+            is_named = program.blocks[static_cast<std::size_t>(n)].named.contains(axis);
+        }
+        if (is_named) {
+            named.insert(axis);
+        }
+    }
+    return named;
+}
+
 } // namespace millwright::gcode

@@ -53,4 +53,8 @@ struct PlaneAxes {
 };
 [[nodiscard]] PlaneAxes plane_axes(const std::vector<ProgramAxis>& axes, Plane plane);
 
+/// The axes of the arc's plane, and those that any of its feeds names. The others are not touched: nobody may
+/// know where they stand.
+[[nodiscard]] AxisSet axes_named(const Program& program, const FittedArc& arc);
+
 } // namespace millwright::gcode

@@ -208,7 +208,7 @@ void Interpreter::Parts::execute(std::string_view text) {
         internal::check_grbl_text(text);
     }
     if (cursor.take('N')) {
-        static_cast<void>(internal::read_unsigned(cursor));
+        internal::read_line_number(cursor);
     }
     if (!execute_flow(cursor)) {
         execute_words(cursor);

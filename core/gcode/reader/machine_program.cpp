@@ -167,6 +167,12 @@ private:
 
     Block& add(BlockKind kind, SourcePlace source) {
         Program& program = result_.program;
+        if (program.blocks.size() >= settings_.most_blocks) {
+            throw Error(Diagnostic{
+                .place = {.file = file_, .line = source.line},
+                .message = fmt::format("the program has more than {} moves", settings_.most_blocks),
+                .hint = "split it"});
+        }
         kinematics::AxisPositions here =
             program.blocks.empty() ? program.start : program.blocks.back().target;
         Block& block = program.blocks.emplace_back();

@@ -19,6 +19,7 @@ namespace millwright::gcode {
 struct MachineProgramSettings {
     double chord_tolerance = 0.002; ///< mm: of arcs and splines
     std::size_t most_faults = 100;
+    std::size_t most_blocks = 8'000'000; ///< more are an Error: a few lines can ask for any number
     /// Where the axes stand at the start, in machine coordinates; none: at zero, or at their nearest limit.
     std::optional<kinematics::AxisPositions> start{};
 };

@@ -53,7 +53,8 @@ ArcTolerances arc_tolerances(LengthUnit unit, Dialect dialect) {
         within.free_difference = 0.005 * mm; // of gcode.c, as the next one
         within.greatest_difference = 0.5 * mm;
     } else {
-        within.greatest_difference = unit == LengthUnit::inch ? radius_difference_inch : radius_difference_mm;
+        within.free_difference = unit == LengthUnit::inch ? radius_difference_inch : radius_difference_mm;
+        within.greatest_difference = 100.0 * within.free_difference;
     }
     return within;
 }

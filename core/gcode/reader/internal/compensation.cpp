@@ -286,7 +286,7 @@ void compensate_arc(Run& run, const Move& arc, int column) {
     next.is_arc = true;
     next.centre = {arc.centre_1, arc.centre_2};
     next.turns = arc.turns;
-    next.offset_radius = (next.centre - to).norm() + (inside ? -s.cutter.radius : s.cutter.radius);
+    next.offset_radius = (next.centre - corner).norm() + (inside ? -s.cutter.radius : s.cutter.radius);
     const Vec2 inward = (next.centre - corner).normalized();
     next.direction = arc.turns > 0 ? Vec2(inward.y(), -inward.x()) : Vec2(-inward.y(), inward.x());
     const double sign = inside ? 1.0 : -1.0;

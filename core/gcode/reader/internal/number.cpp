@@ -81,4 +81,11 @@ int read_unsigned(Cursor& cursor) {
     return value;
 }
 
+void read_line_number(Cursor& cursor) {
+    static_cast<void>(read_unsigned(cursor));
+    if (cursor.take('.')) {
+        static_cast<void>(read_unsigned(cursor));
+    }
+}
+
 } // namespace millwright::gcode::internal

@@ -58,4 +58,7 @@ inline constexpr std::array<double, exact_digits + 1> powers_of_ten{
 /// Digits only; refuses anything else and more than nine digits.
 [[nodiscard]] int read_unsigned(Cursor& cursor);
 
+/// What stands behind N: 10 or 10.5. It has no meaning.
+void read_line_number(Cursor& cursor);
+
 } // namespace millwright::gcode::internal

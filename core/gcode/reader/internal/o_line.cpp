@@ -36,7 +36,7 @@ constexpr std::array<Keyword, 15> keywords{{
 void skip_line_number(Cursor& cursor) {
     static_cast<void>(cursor.take('/'));
     if (cursor.take('N')) {
-        while (is_digit(cursor.peek())) {
+        while (is_digit(cursor.peek()) || cursor.peek() == '.') {
             cursor.advance();
         }
     }

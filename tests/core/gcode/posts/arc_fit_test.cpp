@@ -262,5 +262,21 @@ TEST(ArcFit, OneLineStandsForAllItsBlocks) {
     EXPECT_EQ(text.listing.block_at_line(4), 60);
 }
 
+TEST(AxesNamed, AreThoseOfThePlaneAndOfTheFeedsOnly) {
+    Program program;
+    program.axes = {{'X', kinematics::AxisKind::linear},
+                    {'Y', kinematics::AxisKind::linear},
+                    {'Z', kinematics::AxisKind::linear},
+                    {'A', kinematics::AxisKind::rotary}};
+    program.blocks.resize(3);
+    const FittedArc arc{0, 2, Plane::xy, Vec2(1.0, 2.0), 5.0, 1.0};
+    const auto names = [&](int axis) { return axes_named(program, arc).contains(axis); };
+    EXPECT_TRUE(names(0) && names(1));
+    EXPECT_FALSE(names(2) || names(3)); // an arc must not take Z where nobody said it is
+    program.blocks[1].named.insert(2);
+    EXPECT_TRUE(names(2));
+    EXPECT_FALSE(names(3));
+}
+
 } // namespace
 } // namespace millwright::gcode

@@ -98,6 +98,16 @@ TEST(Compensation, ANegativeDiameterChangesTheSide) {
     EXPECT_EQ(left.lines_of("ARC_FEED"), negative.lines_of("ARC_FEED"));
 }
 
+TEST(Compensation, MeetsAnArcWithTheRadiusOfItsBeginning) {
+    // The ends of the arc were rounded; where rs274 meets the corner, to a thousandth.
+    const auto program =
+        test::read("G21 F100\nG18\nG42.1 D4.00\nG1 X8.761 Z9.350\nG0 X3.798 Z11.549\n"
+                   "G1 X-9.063 Z5.056\nG3 X-14.445 Z12.095 I-2.2252 K3.8760\nG1 X-8.801 Z17.419");
+    ASSERT_GE(program.moves.size(), 3U);
+    EXPECT_NEAR(program.moves[2].target[Axis::x], -8.1184, 1e-3);
+    EXPECT_NEAR(program.moves[2].target[Axis::z], 3.2931, 1e-3);
+}
+
 TEST(Compensation, SweepsBelongToTheTrimmedArcs) {
     const auto program = test::read("F9\nG0 X-30 Y-40\nG41.1 D6\n" + closed_contour + "\nG40");
     for (std::size_t n = 1; n < program.moves.size(); ++n) {

@@ -6,6 +6,7 @@
 #include "tests/core/gcode/reader/random_program.h"
 #include "tests/support/oracle.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -146,6 +147,25 @@ TEST_F(Rs274Reader, OffsetsTheSameContoursAndRefusesTheSameOnes) {
         expect_same_text(test::random_contour(seed), "seed " + std::to_string(seed));
     }
     EXPECT_GT(compared_, 1000);
+}
+
+TEST_F(Rs274Reader, TakesArcsWhoseEndsWereRoundedAndRefusesTheSameOnes) {
+    int number = 0;
+    for (const std::string unit : {"G21", "G20"}) {
+        for (const double radius : {0.05, 0.5, 5.0, 50.0, 500.0}) {
+            for (const double off : {0.0005, 0.002, 0.0035, 0.01, 0.02, 0.04, 0.2, 0.4, 2.0}) {
+                expect_same_text(
+                    fmt::format(
+                        "{} G90 F100\nG2 X{:.4f} Y0 I{:.4f} J0\nM2\n", unit, 2.0 * radius - off, radius),
+                    "arc " + std::to_string(++number));
+            }
+        }
+    }
+    EXPECT_EQ(number, 90);
+}
+
+TEST_F(Rs274Reader, CountsLinesInFractionsToo) {
+    expect_same_text("N10.5 G21 G90 F100\nN10.75 G1 X1\nN10 M2\n", "numbers");
 }
 
 TEST_F(Rs274Reader, RefusesMostOfTheBadProgramsToo) {
