@@ -1,5 +1,6 @@
 #include "app/controller.h"
 
+#include "app/job_keys.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -23,6 +24,7 @@ namespace millwright::app {
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice) {
     command.add_flag("--one-by-one", choice.one_by_one, "Wait for the answer to each line before the next");
     command.add_flag("--unlock", choice.unlock, "Unlock a locked controller without homing");
+    command.add_flag("--keys", choice.keys, "Obey p r + - 0 b q from an input that is no terminal, too");
     return *command
                 .add_option("--port",
                             choice.port,
@@ -76,7 +78,9 @@ Controller::run(const machine::Job& job, const std::string& log_folder, const st
     show_warnings(job);
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
     ProgressPrinter printer;
+    const JobKeys keys(dispatcher, choice_.keys);
     const Progress progress([](const Progress::Report&) {}, stop);
+    const std::string how = keys.listening() ? " (r goes on)" : "";
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
         const auto& now = report.driver;
         printer.show(
@@ -84,7 +88,8 @@ Controller::run(const machine::Job& job, const std::string& log_folder, const st
              fmt::format("Block {} of {}{}",
                          now.executed_blocks,
                          report.blocks,
-                         now.state == machine::DriverState::holding ? ", holding: " + now.message : "")});
+                         now.state == machine::DriverState::holding ? ", holding: " + now.message + how
+                                                                    : "")});
     });
 }
 

@@ -22,10 +22,11 @@ struct ControllerChoice {
     std::string port;
     bool one_by_one = false;
     bool unlock = false;
+    bool keys = false;        ///< of JobKeys also from an input that is no terminal
     std::string axes = "XYZ"; ///< of a LinuxCNC
 };
 
-/// Adds these three to `command`; returns --port.
+/// Adds --port, --one-by-one, --unlock and --keys to `command`; returns --port.
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice);
 
 /// A controller on which jobs are run one after another, over one connection.

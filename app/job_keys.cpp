@@ -74,7 +74,8 @@ void JobKeys::listen(const std::stop_token& over) {
     const KeyByKey keys;
     while (!over.stop_requested()) {
         std::array<pollfd, 2> waiting{{{STDIN_FILENO, POLLIN, 0}, {over_, POLLIN, 0}}};
-        if (::poll(waiting.data(), waiting.size(), -1) < 0 || (waiting[1].revents & POLLIN) != 0) {
+        const bool woken = ::poll(waiting.data(), waiting.size(), -1) > 0;
+        if (!woken || waiting[0].revents == 0) {
             continue;
         }
         char key = 0;

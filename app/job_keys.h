@@ -1,5 +1,5 @@
-// A running job under the keys of the person at the terminal: p holds, r resumes (also after M0), + and - change the
-// feed by 10 %, 0 makes it 100 % again, b switches single block, q stops.
+// A running job under the keys of the person at the terminal: p holds, r resumes (also after M0), + and -
+// change the feed by 10 %, 0 makes it 100 % again, b switches single block, q stops.
 #pragma once
 
 #include "core/machine/dispatcher.h"

@@ -45,9 +45,11 @@ void show(const machine::JobStory& story) {
                story.start.project,
                story.sentence);
     if (story.broken_off() && story.next_line > 0 && story.executed_blocks < story.start.blocks) {
+        const bool is_project = story.start.project.ends_with(".json");
         fmt::print(
             "    Look at the machine and the part. To go on before the first line that is not certain:\n"
-            "    millwright send {} --from-line {} ...\n",
+            "    millwright {} {} --from-line {} ...\n",
+            is_project ? "run" : "send",
             story.start.project,
             story.next_line);
     }

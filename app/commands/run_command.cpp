@@ -2,6 +2,7 @@
 
 #include "app/controller.h"
 #include "app/interrupt.h"
+#include "app/job_keys.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
 #include "app/record_choice.h"
@@ -95,6 +96,7 @@ public:
         ProgressPrinter printer;
         const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
         machine::Dispatcher dispatcher(*driver_, clock_, options_.series.log);
+        const JobKeys keys(dispatcher, options_.controller.keys);
         return dispatcher.run(job, progress);
     }
 

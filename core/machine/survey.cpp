@@ -30,7 +30,7 @@ public:
 
     void move(const Move& move, const gcode::SourceLine&) override {
         const AxisValues begin = frame_.from_machine(at_);
-        if (move.kind != MoveKind::traverse) {
+        if (move.kind != MoveKind::traverse && move.kind != MoveKind::probe) {
             cut(move.source.line);
         }
         if (move.kind == MoveKind::arc) {
@@ -168,6 +168,19 @@ int first_parameter(std::string_view name) {
     return name == "G28" ? 5161 : name == "G30" ? 5181 : name == "G92" ? 5211 : 0;
 }
 
+/// A % at the begin and at the end of a program is left out when it is sent to Grbl.
+std::string without_percent_lines(std::string_view text) {
+    std::string kept(text);
+    for (std::size_t begin = 0; begin < kept.size();) {
+        const std::size_t end = std::min(kept.find('\n', begin), kept.size());
+        if (kept[begin] == '%') {
+            kept.replace(begin, end - begin, end - begin, ' ');
+        }
+        begin = end + 1;
+    }
+    return kept;
+}
+
 } // namespace
 
 Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
@@ -192,7 +205,10 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
         }
     }
     Surveyor surveyor(found, reading.start);
-    gcode::Interpreter reader(text, file, std::move(reading), surveyor);
+    const std::string sent =
+        settings.dialect == gcode::Dialect::grbl ? without_percent_lines(text) : std::string();
+    gcode::Interpreter reader(
+        sent.empty() ? text : std::string_view(sent), file, std::move(reading), surveyor);
     reader.run();
     found.errors = reader.errors();
     return found;

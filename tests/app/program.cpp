@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace millwright::test {
 
@@ -56,7 +57,7 @@ Program::Program(const std::vector<std::string>& arguments, const std::string& i
     if (::write(in[1], input.data(), input.size()) != static_cast<ssize_t>(input.size())) {
         throw std::runtime_error("the input does not fit into a pipe");
     }
-    ::close(in[1]);
+    in_ = in[1];
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, in[0], STDIN_FILENO);
@@ -87,7 +88,7 @@ Program::~Program() {
         ::kill(child_, SIGKILL);
         ::waitpid(child_, nullptr, 0);
     }
-    for (const int handle : {out_, err_}) {
+    for (const int handle : {in_, out_, err_}) {
         if (handle >= 0) {
             ::close(handle);
         }
@@ -118,7 +119,14 @@ void Program::send(int signal) const {
     ::kill(child_, signal);
 }
 
+void Program::type(const std::string& keys) const {
+    if (::write(in_, keys.data(), keys.size()) != static_cast<ssize_t>(keys.size())) {
+        throw std::runtime_error("nobody takes the keys");
+    }
+}
+
 Ended Program::end() {
+    ::close(std::exchange(in_, -1));
     while (read_some()) {
     }
     int status = 0;

@@ -27,7 +27,9 @@ public:
     /// Blocks until `text` stood in standard error, or the program ended.
     void wait_for_error_text(const std::string& text);
     void send(int signal) const;
-    /// Blocks until it ended.
+    /// More for its standard input.
+    void type(const std::string& keys) const;
+    /// Blocks until it ended; its standard input ends before.
     [[nodiscard]] Ended end();
 
 private:
@@ -35,6 +37,7 @@ private:
     bool read_some();
 
     pid_t child_ = -1;
+    int in_ = -1;
     int out_ = -1;
     int err_ = -1;
     Ended ended_;

@@ -59,6 +59,48 @@ TEST_F(Send, SendsAFileToAnEmulatedController) {
     EXPECT_FALSE(fs::is_symlink(port));
 }
 
+TEST_F(Send, ObeysKeysWhileItRuns) {
+    write_content(file, "G21 G90 F3000\nG1 X10\nM0\nG1 X0\nM30\n");
+    Emulator emulator(port, {"--speed", "20"});
+    auto listening = words();
+    listening.emplace_back("--keys");
+    Program sender(listening);
+    sender.wait_for_error_text("holding");
+    sender.type("+");
+    sender.type("r"); // M0 is over when somebody says so
+    const Ended ended = sender.end();
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("(r goes on)"));
+    EXPECT_EQ(last_record(logs).at("end"), "done");
+}
+
+TEST_F(Send, IsStoppedByItsKey) {
+    write_content(file, zigzag(2000));
+    Emulator emulator(port, {"--speed", "5"});
+    auto listening = words();
+    listening.emplace_back("--keys");
+    Program sender(listening);
+    sender.wait_for_error_text("Block ");
+    sender.type("q");
+    EXPECT_EQ(sender.end().exit_code, 1);
+    EXPECT_NE(last_record(logs).at("end"), "done");
+}
+
+TEST_F(Send, TellsOfAnEmergencyStop) {
+    write_content(file, zigzag(2000));
+    Emulator emulator(port, {"--speed", "20", "--faults", "estop=3000"});
+    const Ended ended = run(words());
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(last_record(logs).at("end"), "fault");
+}
+
+TEST_F(Send, LeavesThePercentSignsOfAProgramOut) {
+    write_content(file, "%\nG21 G90 F3000\nG1 X1\nM30\n%\n");
+    Emulator emulator(port, {"--speed", "20"});
+    const Ended ended = run(words());
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
 TEST_F(Send, BrakesAndStopsAtCtrlC) {
     write_content(file, zigzag(2000));
     Emulator emulator(port, {"--speed", "5"});

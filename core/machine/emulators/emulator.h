@@ -20,6 +20,8 @@ public:
 
     /// What happens to machines: somebody or something stops it at once.
     virtual void raise_alarm() = 0;
+    /// Its emergency stop was pressed: an alarm, where the controller knows nothing else.
+    virtual void emergency_stop() { raise_alarm(); }
     /// It was switched off and on again, and knows nothing of what came before.
     virtual void power_cycle() = 0;
 };

@@ -68,6 +68,10 @@ void EmulatorServer::happen() {
         faults_.alarm.reset();
         emulator_->raise_alarm();
     }
+    if (faults_.emergency_stop && passed_ >= *faults_.emergency_stop) {
+        faults_.emergency_stop.reset();
+        emulator_->emergency_stop();
+    }
 }
 
 } // namespace millwright::machine

@@ -56,14 +56,17 @@ void set_word(FaultSpec& spec, std::string_view word) {
         spec.reset = bytes();
     } else if (name == "alarm") {
         spec.alarm = bytes();
+    } else if (name == "estop") {
+        spec.emergency_stop = bytes();
     } else if (name == "toward") {
         set_direction(spec, word, value);
     } else if (name == "seed") {
         spec.seed = number_in(word, value, ~std::uint64_t{});
     } else {
-        throw Error("there is no fault '" + std::string(name) + "'",
-                    {},
-                    "drop, garble, duplicate, lost-ok, delay, disconnect, stall, reset, alarm, toward, seed");
+        throw Error(
+            "there is no fault '" + std::string(name) + "'",
+            {},
+            "drop, garble, duplicate, lost-ok, delay, disconnect, stall, reset, alarm, estop, toward, seed");
     }
 }
 

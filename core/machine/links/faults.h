@@ -21,6 +21,7 @@ struct FaultSpec {
     std::optional<std::int64_t> disconnect{};     ///< after so many bytes
     std::optional<std::int64_t> stall{};          ///< after so many bytes nothing passes any more
     std::optional<std::int64_t> reset{}, alarm{}; ///< of the controller, after so many bytes; for emulators
+    std::optional<std::int64_t> emergency_stop{}; ///< pressed after so many bytes; for emulators
     bool toward_host = true;
     bool toward_controller = true;
     std::uint64_t seed = 1;
@@ -28,7 +29,8 @@ struct FaultSpec {
     friend bool operator==(const FaultSpec&, const FaultSpec&) = default;
 };
 
-/// Reads `drop=P,garble=P,duplicate=P,lost-ok=P,delay=S,disconnect=N,stall=N,reset=N,alarm=N,toward=host,
+/// Reads
+/// `drop=P,garble=P,duplicate=P,lost-ok=P,delay=S,disconnect=N,stall=N,reset=N,alarm=N,estop=N,toward=host,
 /// seed=N`, each word at most once and all of them optional; `toward` is host, controller or both. Throws
 /// Error naming the word at fault.
 [[nodiscard]] FaultSpec read_fault_spec(std::string_view text);

@@ -48,6 +48,15 @@ void check_letters(const Block& block) {
     }
 }
 
+void check_tool_length(const Block& block) {
+    constexpr int dynamic = 431;
+    const bool only_z = block.has('Z') && !block.has_any(words_of("XYABCUVW"));
+    if (block.code(GGroup::tool_length) == dynamic && !only_z) {
+        refuse(block.column_of(GGroup::tool_length),
+               "G43.1 of Grbl needs Z and no other axis word (error 37)");
+    }
+}
+
 void check_arc(const Block& block) {
     constexpr int clockwise = 20;
     constexpr int counterclockwise = 30;
@@ -99,6 +108,7 @@ void apply_grbl_rules(const Block& block) {
     check_codes(block);
     check_letters(block);
     check_arc(block);
+    check_tool_length(block);
     check_g10(block);
 }
 

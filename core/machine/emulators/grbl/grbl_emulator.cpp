@@ -60,6 +60,11 @@ void GrblEmulator::raise_alarm() {
     body_->raise_alarm();
 }
 
+void GrblEmulator::emergency_stop() {
+    constexpr std::string_view soft_reset = "\x18";
+    receive(soft_reset);
+}
+
 void GrblEmulator::set_door(bool open) {
     body_->set_door(open);
 }

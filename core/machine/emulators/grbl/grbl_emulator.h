@@ -62,6 +62,8 @@ public:
     void hit_limit_switch();
     /// As if a limit switch had been hit, whatever the settings.
     void raise_alarm() override;
+    /// The switch is at its reset input: as a soft reset, an alarm if it moved.
+    void emergency_stop() override;
     void set_door(bool open);
     void break_limit_switches();
     void power_cycle() override;
