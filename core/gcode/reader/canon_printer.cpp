@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -185,6 +187,31 @@ std::string_view move_name(MoveKind kind) {
     return "STRAIGHT_TRAVERSE(";
 }
 
+/// As "{:.4f}" writes it, several times as fast: most of the time of a long program goes here.
+void append_number(std::string& text, double value) {
+    constexpr double largest = 1e11;  // so that the rounding of the product stays far below `doubtful`
+    constexpr double doubtful = 1e-3; // nearer to a tie the exact decimals decide
+    const double scaled = std::abs(value) * 1e4;
+    const double whole = std::floor(scaled);
+    const double rest = scaled - whole;
+    const bool minus_nothing = std::signbit(value) && scaled < 1.0;
+    if (!(scaled < largest) || std::abs(rest - 0.5) < doubtful || minus_nothing) {
+        fmt::format_to(std::back_inserter(text), "{:.4f}", value);
+        return;
+    }
+    auto units = static_cast<std::uint64_t>(whole) + (rest > 0.5 ? 1U : 0U);
+    std::array<char, 24> digits{};
+    char* begin = digits.data() + digits.size();
+    for (int n = 0; n < 6 || units > 0; ++n) { // four decimals, the point and a digit before it
+        *--begin = n == 4 ? '.' : static_cast<char>('0' + units % 10);
+        units = n == 4 ? units : units / 10;
+    }
+    if (std::signbit(value)) {
+        *--begin = '-';
+    }
+    text.append(begin, digits.data() + digits.size());
+}
+
 } // namespace
 
 CanonPrinter::CanonPrinter(Write write) : write_(std::move(write)) {
@@ -221,7 +248,8 @@ void CanonPrinter::end_line() {
 }
 
 void CanonPrinter::argument(double value) {
-    fmt::format_to(std::back_inserter(text_), "{:.4f}, ", value);
+    append_number(text_, value);
+    text_ += ", ";
 }
 
 /// Those behind the first three, or all.
