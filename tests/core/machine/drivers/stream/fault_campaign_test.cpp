@@ -142,7 +142,13 @@ public:
     std::string run() {
         driver_->connect();
         Dispatcher dispatcher(*driver_, clock_, logs_);
-        outcome_ = dispatcher.run(job_, {}, [&](const JobReport& report) { act(dispatcher, report.driver); });
+        try {
+            outcome_ =
+                dispatcher.run(job_, {}, [&](const JobReport& report) { act(dispatcher, report.driver); });
+        } catch (const Error& error) {
+            check_refusal(error);
+            return wrong_;
+        }
         check_log();
         check_quiet();
         check_machine();
@@ -206,6 +212,16 @@ private:
             break;
         default:
             break;
+        }
+    }
+
+    /// The plug may be out before the job begins: then it must not begin.
+    void check_refusal(const Error& error) {
+        if (kind_ != Kind::disconnect || driver_->status().state != DriverState::alarm) {
+            wrong(fmt::format("refused: {}", error.what()));
+        }
+        if (driver_->status().executed_blocks > 0) {
+            wrong("refused, and yet something was executed");
         }
     }
 
