@@ -1,7 +1,9 @@
-// How fast programs are read: plain XYZ and XYZAC programs with full semantics, beside LinuxCNC's rs274 on
-// the same file in the same run (processor time of both, where rs274 is installed), and the memory that a
-// long program takes.
+// How fast programs are read: plain XYZ and XYZAC programs with full semantics, and the memory that a long
+// program takes; and how fast they are printed as canonical commands, beside LinuxCNC's rs274, which prints
+// the same of the same file in the same run (processor time of both, where rs274 is installed).
+#include "bench/processor_time.h"
 #include "core/base/files.h"
+#include "core/gcode/reader/canon_printer.h"
 #include "core/gcode/reader/interpreter.h"
 
 #include <benchmark/benchmark.h>
@@ -9,6 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -78,13 +81,18 @@ double read_program(const std::filesystem::path& file) {
     return sum.sum();
 }
 
-double processor_time(int who) {
-    rusage usage{};
-    getrusage(who, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+/// Its canonical commands, written to nowhere, as rs274 writes its own.
+void print_program(const std::filesystem::path& file) {
+    std::FILE* nowhere = std::fopen("/dev/null", "w");
+    gcode::CanonPrinter printer(
+        [nowhere](std::string_view text) { std::fwrite(text.data(), 1, text.size(), nowhere); });
+    gcode::Interpreter program(file, {}, printer);
+    program.run();
+    printer.flush();
+    std::fclose(nowhere);
+    if (!program.errors().empty()) {
+        throw std::runtime_error(to_text(program.errors().front()));
+    }
 }
 
 /// First of all, since the peak of a process never falls; and the file is made by another one.
@@ -130,7 +138,7 @@ void beside_rs274(benchmark::State& state, bool five_axes) {
     double theirs = 0.0;
     for (auto _ : state) {
         const double self = processor_time(RUSAGE_SELF);
-        benchmark::DoNotOptimize(read_program(file.path()));
+        print_program(file.path());
         ours += processor_time(RUSAGE_SELF) - self;
         const double children = processor_time(RUSAGE_CHILDREN);
         if (std::system(command.c_str()) != 0) { // NOLINT(bugprone-command-processor,cert-env33-c)

@@ -1,5 +1,6 @@
 // How fast plot files are read, beside hp2xx on the same file in the same run (processor time of both, where
 // hp2xx is installed), and how fast strokes are ordered.
+#include "bench/processor_time.h"
 #include "core/base/files.h"
 #include "core/plot/decode.h"
 #include "core/plot/hpgl/reader.h"
@@ -7,7 +8,6 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -42,15 +42,6 @@ public:
 private:
     std::filesystem::path file_;
 };
-
-double processor_time(int who) {
-    rusage usage{};
-    getrusage(who, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 void beside_hp2xx(benchmark::State& state) {
     constexpr int count = 400'000;

@@ -1,12 +1,12 @@
 // How fast pictures are traced, from file to SVG file, beside the potrace program on the same picture in the
 // same run (processor time of both, where potrace is installed).
+#include "bench/processor_time.h"
 #include "core/base/files.h"
 #include "core/plot/picture/png_writer.h"
 #include "core/plot/picture/trace.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -50,15 +50,6 @@ public:
 private:
     std::filesystem::path folder_;
 };
-
-double processor_time(int who) {
-    rusage usage{};
-    getrusage(who, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 void beside_potrace(benchmark::State& state) {
     const PictureFiles files(static_cast<int>(state.range(0)));

@@ -199,17 +199,17 @@ void append_number(std::string& text, double value) {
         fmt::format_to(std::back_inserter(text), "{:.4f}", value);
         return;
     }
-    auto units = static_cast<std::uint64_t>(whole) + (rest > 0.5 ? 1U : 0U);
-    std::array<char, 24> digits{};
-    char* begin = digits.data() + digits.size();
-    for (int n = 0; n < 6 || units > 0; ++n) { // four decimals, the point and a digit before it
-        *--begin = n == 4 ? '.' : static_cast<char>('0' + units % 10);
-        units = n == 4 ? units : units / 10;
-    }
+    const auto units = static_cast<std::uint64_t>(whole) + (rest > 0.5 ? 1U : 0U);
     if (std::signbit(value)) {
-        *--begin = '-';
+        text += '-';
     }
-    text.append(begin, digits.data() + digits.size());
+    const fmt::format_int ones(units / 10'000);
+    text.append(ones.data(), ones.size());
+    const auto decimals = static_cast<std::uint32_t>(units % 10'000);
+    const auto digit = [](std::uint32_t n) { return static_cast<char>('0' + n % 10); };
+    const std::array<char, 5> fraction{
+        '.', digit(decimals / 1000), digit(decimals / 100), digit(decimals / 10), digit(decimals)};
+    text.append(fraction.data(), fraction.size());
 }
 
 } // namespace
@@ -227,7 +227,10 @@ void CanonPrinter::flush() {
 
 /// The running number and the N number of the program's line.
 void CanonPrinter::begin_line(const SourceLine& now) {
-    fmt::format_to(std::back_inserter(text_), "{:5} ", ++number_);
+    const fmt::format_int number(++number_);
+    text_.append(number.size() < 5 ? 5 - number.size() : 0, ' ');
+    text_.append(number.data(), number.size());
+    text_ += ' ';
     std::string_view line = now.text;
     const std::size_t begin = line.find_first_not_of("\t /");
     line.remove_prefix(begin == std::string_view::npos ? line.size() : begin);
