@@ -12,10 +12,6 @@ namespace millwright::machine::grbl {
 
 namespace {
 
-constexpr int report_inches = 13;
-constexpr double mm_per_inch = 25.4;
-constexpr double stale_time = 0.5; // s in which a report may still tell of the time before
-
 std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') {
         text.pop_back();
@@ -304,125 +300,6 @@ void Session::take_feedback(const Feedback& feedback) {
         if (const auto offset = read_offset(feedback.text)) {
             readout_.offsets[feedback.tag] = scaled(*offset);
         }
-    }
-}
-
-/// mm of a unit of the controller's reports.
-double Session::report_unit() const {
-    const auto inches = readout_.settings.find(report_inches);
-    return inches != readout_.settings.end() && inches->second > 0.0 ? mm_per_inch : 1.0;
-}
-
-Axes Session::scaled(Axes axes) const {
-    for (double& axis : axes) {
-        axis *= report_unit();
-    }
-    return axes;
-}
-
-double Session::feed() const {
-    constexpr double seconds_per_minute = 60.0;
-    return report_ ? report_->feed.value_or(0.0) * report_unit() / seconds_per_minute : 0.0;
-}
-
-void Session::take_readout(const StatusMessage& report) {
-    readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
-    if (report.machine_position) {
-        readout_.machine_position = scaled(*report.machine_position);
-    } else if (report.work_position) {
-        const Axes work = scaled(*report.work_position);
-        for (std::size_t n = 0; n < work.size(); ++n) {
-            readout_.machine_position[n] = work[n] + readout_.offset[n];
-        }
-    }
-    readout_.pins = report.pins;
-    if (report.overrides) {
-        overrides_ = {(*report.overrides)[0], (*report.overrides)[1], (*report.overrides)[2]};
-    }
-    if (report.accessories) {
-        using gcode::SpindleTurning;
-        const auto on = [&report](char letter) {
-            return report.accessories->find(letter) != std::string::npos;
-        };
-        readout_.modes.spindle = on('S')   ? SpindleTurning::clockwise
-                                 : on('C') ? SpindleTurning::counterclockwise
-                                           : SpindleTurning::stopped;
-        readout_.modes.flood = on('F');
-        readout_.modes.mist = on('M');
-    }
-}
-
-void Session::handle(const StatusMessage& report, double now) {
-    if (resets_due_ > 0) {
-        return; // of the time before the reset
-    }
-    take_readout(report);
-    report_ = report;
-    rest_reports_ = report.moving() ? 0 : rest_reports_ + 1;
-    if (stage_ == Stage::greeting) {
-        if (report.moving()) {
-            stage_ = Stage::alarm;
-            message_ = "the machine is moving for somebody else";
-        } else {
-            begin_asking(now, false);
-        }
-        return;
-    }
-    if (stage_ == Stage::asking && questions_.empty() && window_.empty()) {
-        finish_asking(report);
-    }
-    if ((active() || stage_ == Stage::braking) && !proof_closed_) {
-        proof_.reported(report, window_.empty());
-    }
-    watch_state(report, now);
-}
-
-void Session::watch_state(const StatusMessage& report, double now) {
-    const bool alarm = report.state == MachineState::alarm;
-    if (alarm && (active() || stage_ == Stage::ready || stage_ == Stage::stopped) &&
-        stage_ != Stage::homing) {
-        if (active()) {
-            end(true, "the controller raised an alarm", now);
-        } else {
-            stage_ = Stage::alarm;
-            message_ = "the controller raised an alarm";
-        }
-        return;
-    }
-    if (report.state == MachineState::sleep || report.state == MachineState::check) {
-        fail("the controller was put to sleep or into check mode", now);
-        return;
-    }
-    if (stage_ == Stage::running) {
-        watch_motion(report, now);
-        const bool all = next_line_ == std::ssize(program_.lines) && window_.empty() &&
-                         (at_ == Activity::command || proof_.executed_lines() == std::ssize(program_.lines));
-        if (stage_ == Stage::running && all && proof_.settled() && !hold_wanted_ && !held_) {
-            finish(now);
-        }
-    }
-    constexpr int enough_reports = 2;
-    if (stage_ == Stage::jogging && window_.empty() && jog_feed_.empty() &&
-        report.state == MachineState::idle && rest_reports_ >= enough_reports) {
-        stage_ = Stage::ready;
-        jog_stopping_ = false;
-        jog_until_.reset();
-    }
-}
-
-void Session::watch_motion(const StatusMessage& report, double now) {
-    const bool held = report.state == MachineState::hold || report.state == MachineState::door;
-    const bool stale = resume_sent_ >= 0.0 && now - resume_sent_ < stale_time;
-    if (held && !stale) {
-        if (!hold_wanted_ && !held_) {
-            message_ = report.state == MachineState::door
-                           ? "the safety door is open: close it, then resume"
-                           : "the program pauses (M0), or hold was pressed at the machine";
-        }
-        held_ = hold_wanted_ = true;
-    } else if (!held && held_) { // resumed at the machine
-        held_ = hold_wanted_ = false;
-        message_.clear();
     }
 }
 

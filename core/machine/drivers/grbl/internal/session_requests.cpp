@@ -1,0 +1,167 @@
+// What a person or a job wants of a session.
+#include "core/base/error.h"
+#include "core/machine/drivers/grbl/internal/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::machine::grbl {
+
+void Session::require_rest(std::string_view what) const {
+    if (stage_ == Stage::ready || stage_ == Stage::stopped) {
+        return;
+    }
+    throw Error(fmt::format("Grbl is {} and takes no {}", to_text(status().state), what),
+                {},
+                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+}
+
+void Session::start(ProgramLines program, double now, std::optional<int> allowed_blocks) {
+    require_rest("program");
+    allowed_blocks_ = allowed_blocks.value_or(program.blocks);
+    begin(std::move(program), Activity::program, now);
+}
+
+void Session::allow(int blocks) {
+    allowed_blocks_ = std::max(allowed_blocks_, blocks);
+    pump();
+}
+
+int Session::command(ProgramLines lines, double now) {
+    require_rest("command");
+    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    allowed_blocks_ = lines.blocks;
+    begin(std::move(lines), Activity::command, now);
+    return answer_.number;
+}
+
+void Session::begin(ProgramLines program, Activity activity, double now) {
+    program_ = std::move(program);
+    at_ = activity;
+    proof_ = Proof(program_, readout_.planner_blocks);
+    window_ = Window(readout_.buffer_bytes, settings_.one_by_one || activity == Activity::command);
+    proof_closed_ = false;
+    next_line_ = 0;
+    stage_ = Stage::running;
+    hold_wanted_ = held_ = block_wait_ = false;
+    resume_sent_ = -1.0;
+    spare_welcomes_ = 0;
+    message_.clear();
+    readout_.modes.text.clear();
+    readout_.modes.work_system = 0;
+    last_answer_ = last_heard_ = now;
+    next_poll_ = now;
+    pump();
+}
+
+void Session::set_single_block(bool on) {
+    single_block_ = on;
+    if (on && stage_ == Stage::running && at_ == Activity::program) {
+        block_wait_ = true;
+    }
+}
+
+/// Everything that was sent so far is done and the next line waits for resume().
+bool Session::waits_between_blocks() const {
+    return block_wait_ && window_.empty() && proof_.settled() && next_line_ < std::ssize(program_.lines);
+}
+
+void Session::hold(double now) {
+    if (stage_ == Stage::running && !hold_wanted_) {
+        hold_wanted_ = true;
+        held_ = false;
+        hold_sent_ = now;
+        output_ += '!';
+    } else if (stage_ == Stage::jogging) {
+        stop_jog(now);
+    }
+}
+
+void Session::resume(double now) {
+    if (stage_ == Stage::running && waits_between_blocks()) {
+        block_wait_ = false;
+        last_answer_ = now;
+        pump();
+        return;
+    }
+    if (stage_ == Stage::running && (hold_wanted_ || held_)) {
+        hold_wanted_ = held_ = false;
+        resume_sent_ = now;
+        message_.clear();
+        output_ += '~';
+        pump();
+    }
+}
+
+void Session::stop(double now) {
+    const bool homing = stage_ == Stage::homing;
+    if (active()) {
+        end(false, {}, now);
+    }
+    if (homing) { // a homing cycle knows no hold
+        stage_ = Stage::flushing;
+        send_reset(now);
+    }
+}
+
+void Session::emergency_stop(double now) {
+    if (stage_ == Stage::closed) {
+        return;
+    }
+    output_.clear();
+    if (link_lost_) {
+        return;
+    }
+    stage_ = Stage::flushing;
+    ending_in_fault_ = true;
+    ending_message_ = message_ = "emergency stop";
+    ending_since_ = now;
+    send_reset(now);
+}
+
+void Session::reset(double now) {
+    if (stage_ == Stage::alarm && !link_lost_) {
+        begin_asking(now, true);
+    }
+}
+
+void Session::home(double now) {
+    if (stage_ != Stage::alarm || link_lost_) {
+        require_rest("homing");
+    }
+    proof_closed_ = true;
+    window_ = Window(readout_.buffer_bytes, true);
+    window_.push({LineKind::home, "$H\n", -1, 0.0});
+    output_ += "$H\n";
+    stage_ = Stage::homing;
+    message_.clear();
+    last_heard_ = now;
+}
+
+/// From the standard value on, so that it does not matter what is known of the present one.
+void Session::set_overrides(const Overrides& wanted) {
+    if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
+        throw Error(fmt::format("Grbl is {} and takes no overrides", to_text(status().state)));
+    }
+    const auto steps = [this](int percent, char standard) {
+        constexpr int least = 10;
+        constexpr int most = 200;
+        int difference = std::clamp(percent, least, most) - 100;
+        output_ += standard;
+        for (const int step : {10, -10, 1, -1}) {
+            const int code = step == 10 ? 1 : step == -10 ? 2 : step == 1 ? 3 : 4;
+            for (; step > 0 ? difference >= step : difference <= step; difference -= step) {
+                output_ += static_cast<char>(standard + code);
+            }
+        }
+    };
+    steps(wanted.feed, '\x90');
+    constexpr int above_half = 75;
+    constexpr int above_quarter = 37;
+    output_ += wanted.rapid > above_half ? '\x95' : wanted.rapid > above_quarter ? '\x96' : '\x97';
+    steps(wanted.spindle, '\x99');
+}
+
+} // namespace millwright::machine::grbl

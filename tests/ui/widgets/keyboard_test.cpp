@@ -1,0 +1,116 @@
+// The keyboard alone reaches and presses everything.
+#include "tests/ui/stage/stage.h"
+#include "ui/widgets/widgets.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace millwright::widgets {
+namespace {
+
+using test::Key;
+using test::Stage;
+
+constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+
+TEST(Keyboard, SpacePressesWhatTheArrowsReached) {
+    int first = 0;
+    int second = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("main", whole);
+        first += ui.button("first", "First") ? 1 : 0;
+        second += ui.button("second", "Second") ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("main/first");
+    stage.key(Key::down);
+    stage.frames(2);
+    stage.key(Key::space);
+    stage.frames(2);
+    EXPECT_EQ(first, 1);
+    EXPECT_EQ(second, 1);
+}
+
+class TabOrder : public testing::Test {
+protected:
+    int presses = 0;
+    bool on = false;
+    double radius = 3.0;
+    Stage stage{[this](Ui& ui) {
+        const auto pane = ui.pane("main", whole);
+        const FieldInfo info{.id = "radius", .label = "Radius", .unit = "mm"};
+        radius = ui.number(radius, info).value_or(radius);
+        presses += ui.button("adapt", "Adapt") ? 1 : 0;
+        ui.button("reset", "Reset", Permission::refused("Nothing to reset."));
+        on = ui.checkbox("net", "Net", on).value_or(on);
+    }};
+
+    void SetUp() override {
+        stage.frames(2);
+        stage.fill_in("main/radius", "4");
+    }
+    void tab() {
+        stage.key(Key::tab);
+        stage.frames(2);
+    }
+    void space() {
+        stage.key(Key::space);
+        stage.frames(2);
+    }
+};
+
+TEST_F(TabOrder, TabReachesAButtonWithoutPressingIt) {
+    tab();
+    EXPECT_DOUBLE_EQ(radius, 4.0);
+    EXPECT_EQ(presses, 0);
+    space();
+    EXPECT_EQ(presses, 1);
+}
+
+TEST_F(TabOrder, TabPassesOverWhatIsNotAllowed) {
+    tab();
+    tab();
+    space();
+    EXPECT_EQ(presses, 0);
+    EXPECT_TRUE(on);
+}
+
+TEST_F(TabOrder, TabComesBackToTheFieldAndTypes) {
+    tab();
+    tab();
+    tab();
+    stage.type("5");
+    stage.key(Key::enter);
+    EXPECT_DOUBLE_EQ(radius, 5.0);
+}
+
+TEST(Keyboard, APaneThatIsGivenItIsWalkedThroughByTab) {
+    std::vector<std::string> pressed;
+    bool give = false;
+    Stage stage([&](Ui& ui) {
+        for (const std::string id : {"left", "right"}) {
+            const auto pane = ui.pane(id, {id == "left" ? 0.0F : 400.0F, 0.0F, 400.0F, 600.0F});
+            if (ui.button("go", "Go")) {
+                pressed.push_back(id);
+            }
+        }
+        if (give) {
+            ui.focus_pane("right");
+            give = false;
+        }
+    });
+    stage.frames(2);
+    stage.click("left/go");
+    give = true;
+    stage.frames(2);
+    stage.key(Key::tab);
+    stage.frames(2);
+    stage.key(Key::space);
+    stage.frames(2);
+    EXPECT_EQ(pressed, (std::vector<std::string>{"left", "right"}));
+}
+
+} // namespace
+} // namespace millwright::widgets

@@ -1,0 +1,99 @@
+// Curves over an axis, and their legend.
+#include "core/base/error.h"
+#include "tests/ui/stage/stage.h"
+#include "ui/widgets/widgets.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace millwright::widgets {
+namespace {
+
+using test::Stage;
+
+constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+
+class Plot : public testing::Test {
+protected:
+    std::vector<double> x{0.0, 1.0, 2.0, 3.0, 4.0};
+    std::vector<double> y{1.0, 3.0, 2.0, 5.0, 4.0};
+    bool is_log = false;
+    std::optional<double> clicked;
+    Stage stage{[this](Ui& ui) {
+        const auto pane = ui.pane("plots", whole);
+        const Series series{"Error", x, y, 0, true};
+        if (const auto at = line_plot(ui,
+                                      "error",
+                                      {.x_label = "Path",
+                                       .y_label = "Error",
+                                       .series = std::span(&series, 1),
+                                       .cursor_x = 1e300,
+                                       .limit_y = -1.0,
+                                       .y_is_log = is_log,
+                                       .height = 200.0F})) {
+            clicked = at;
+        }
+    }};
+};
+
+TEST_F(Plot, AClickGivesTheXThere) {
+    stage.frames(2);
+    const Rect box = stage.place("plots/error");
+    stage.click_at({box.x + 0.75F * box.w, box.centre().y});
+    ASSERT_TRUE(clicked.has_value());
+    EXPECT_NEAR(*clicked, 3.0, 0.02);
+}
+
+TEST_F(Plot, ValuesThatAreNotNumbersLeaveGaps) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& values : {std::vector{nan, 1.0, inf, 2.0, -inf},
+                                              std::vector{nan, nan, nan, nan, nan},
+                                              std::vector{0.0, 0.0, 0.0, 0.0, 0.0},
+                                              std::vector{-1e308, 1e308, 0.0, 1e-300, 1.0}}) {
+        y = values;
+        for (const bool log : {false, true}) {
+            is_log = log;
+            stage.frames(2);
+            stage.move(stage.place("plots/error").centre());
+            EXPECT_NO_THROW(stage.frames(2));
+        }
+    }
+    x.clear();
+    y.clear();
+    EXPECT_NO_THROW(stage.frames(2));
+}
+
+TEST_F(Plot, ManyPointsStayDrawable) {
+    x.clear();
+    y.clear();
+    for (int i = 0; i < 200'000; ++i) {
+        x.push_back(i);
+        y.push_back(i % 7);
+    }
+    EXPECT_NO_THROW(stage.frames(2));
+}
+
+TEST_F(Plot, ASeriesWithMoreXThanYIsADefect) {
+    y.pop_back();
+    EXPECT_THROW(stage.frames(), Defect);
+}
+
+TEST(Legend, IsClickedForItsSettings) {
+    int clicks = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.bare_pane("view", whole);
+        const LegendView view{.title = "Error", .unit = "mm", .high = 0.25, .map = [](double t) {
+                                  return rgb(t > 0.5 ? 0 : 255);
+                              }};
+        clicks += legend(ui, "legend", {600.0F, 10.0F, 90.0F, 250.0F}, view) ? 1 : 0;
+    });
+    stage.frames(2);
+    stage.click("view/legend");
+    EXPECT_EQ(clicks, 1);
+}
+
+} // namespace
+} // namespace millwright::widgets
