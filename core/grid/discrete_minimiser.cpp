@@ -11,33 +11,9 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr std::size_t memory_length = 8;
 constexpr double longest_step = 0.3;         // of a uniform cell, for one node in one iteration
 constexpr double sufficient_decrease = 1e-4; // Armijo
 constexpr int most_halvings = 40;
-constexpr double least_curvature = 1e-12; // s.y against |s||y|; below, the pair says nothing
-
-double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        sum += a[k].dot(b[k]);
-    }
-    return sum;
-}
-
-void add(std::vector<Vec2>& to, double factor, const std::vector<Vec2>& step) {
-    for (std::size_t k = 0; k < to.size(); ++k) {
-        to[k] += factor * step[k];
-    }
-}
-
-double longest(const std::vector<Vec2>& steps) {
-    double found = 0.0;
-    for (const Vec2& step : steps) {
-        found = std::max(found, step.norm());
-    }
-    return found;
-}
 
 double norm_of(const NodeArray& gradient) {
     double largest = 0.0;
@@ -80,26 +56,6 @@ DiscreteFunctional DiscreteMinimiser::evaluate(const NodeArray& nodes) const {
     return found;
 }
 
-/// The two-loop recursion (Nocedal 1980).
-std::vector<Vec2> DiscreteMinimiser::direction() const {
-    std::vector<Vec2> d = now_.gradient.nodes;
-    std::vector<double> alpha(memory_.size());
-    for (std::size_t k = memory_.size(); k-- > 0;) {
-        alpha[k] = memory_[k].inverse_sy * dot(memory_[k].s, d);
-        add(d, -alpha[k], memory_[k].y);
-    }
-    const double scale =
-        memory_.empty() ? 1.0 : 1.0 / (memory_.back().inverse_sy * dot(memory_.back().y, memory_.back().y));
-    for (Vec2& step : d) {
-        step *= -scale;
-    }
-    for (std::size_t k = 0; k < memory_.size(); ++k) {
-        const double beta = memory_[k].inverse_sy * dot(memory_[k].y, d);
-        add(d, -alpha[k] - beta, memory_[k].s);
-    }
-    return d;
-}
-
 /// Takes the longest of the halved steps that decreases the functional enough; false if none does.
 bool DiscreteMinimiser::search(const std::vector<Vec2>& direction) {
     const double slope = dot(now_.gradient.nodes, direction);
@@ -123,18 +79,11 @@ bool DiscreteMinimiser::search(const std::vector<Vec2>& direction) {
 }
 
 void DiscreteMinimiser::remember(const NodeArray& old_nodes, const DiscreteFunctional& old) {
-    Pair pair{nodes_.nodes, now_.gradient.nodes, 0.0};
-    add(pair.s, -1.0, old_nodes.nodes);
-    add(pair.y, -1.0, old.gradient.nodes);
-    const double sy = dot(pair.s, pair.y);
-    if (!(sy > least_curvature * std::sqrt(dot(pair.s, pair.s) * dot(pair.y, pair.y)))) {
-        return;
-    }
-    pair.inverse_sy = 1.0 / sy;
-    memory_.push_back(std::move(pair));
-    if (memory_.size() > memory_length) {
-        memory_.pop_front();
-    }
+    std::vector<Vec2> step = nodes_.nodes;
+    std::vector<Vec2> change = now_.gradient.nodes;
+    add(step, -1.0, old_nodes.nodes);
+    add(change, -1.0, old.gradient.nodes);
+    memory_.remember(std::move(step), std::move(change));
 }
 
 bool DiscreteMinimiser::iterate() {
@@ -142,7 +91,7 @@ bool DiscreteMinimiser::iterate() {
         return false;
     }
     const bool gradient_alone = memory_.empty();
-    const bool moved = search(direction());
+    const bool moved = search(memory_.direction(now_.gradient.nodes));
     ++iterations_;
     norm_ = norm_of(now_.gradient);
     if (norm_ <= settings_.tolerance) {

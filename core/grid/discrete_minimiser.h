@@ -2,10 +2,9 @@
 // close a corner triangle is shortened, so no iteration ever folds a cell, however strong the weight.
 #pragma once
 
+#include "core/grid/descent.h"
 #include "core/grid/discrete_functional.h"
 #include "core/grid/elliptic_solver.h"
-
-#include <deque>
 
 namespace millwright::grid {
 
@@ -29,14 +28,7 @@ public:
     [[nodiscard]] double value() const { return now_.value; }
 
 private:
-    /// One remembered step and the change of the gradient along it.
-    struct Pair {
-        std::vector<Vec2> s, y;
-        double inverse_sy = 0.0;
-    };
-
     [[nodiscard]] DiscreteFunctional evaluate(const NodeArray& nodes) const;
-    [[nodiscard]] std::vector<Vec2> direction() const;
     bool search(const std::vector<Vec2>& direction);
     void remember(const NodeArray& old_nodes, const DiscreteFunctional& old);
 
@@ -44,7 +36,7 @@ private:
     WeightPtr weight_;
     EllipticSettings settings_;
     DiscreteFunctional now_;
-    std::deque<Pair> memory_;
+    DescentMemory memory_;
     SolverStatus status_ = SolverStatus::running;
     int iterations_ = 0;
     double norm_ = norm_at_start;

@@ -1,0 +1,266 @@
+#include "core/grid/chain_optimiser.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/grid/internal/each_track.h"
+#include "core/grid/polish.h"
+#include "core/grid/track_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr int iterations_a_step = 5;
+constexpr double still = 1e-4; // cells: an iteration that moves no node further has settled
+constexpr double negligible_mm = 1e-6;
+constexpr double negligible_rad = 1e-8;
+constexpr double room_for_corners = 0.9; // of the start's smallest corner triangle, where that is small
+constexpr double usual_corner = 0.02;
+
+bool within(double value, double least, double most) {
+    return value >= least && value <= most;
+}
+
+void check(const ChainSettings& s) {
+    expects(s.candidates_a_gap >= 1 && s.candidates_a_gap <= 64, "there are 1 to 64 candidates a gap");
+    expects(within(s.narrowest_gap, 0.1, 1.0), "the narrowest gap is from 0.1 to 1");
+    expects(within(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
+    expects(s.first_descent >= 0 && s.first_descent <= 100'000, "a descent has 0 to 100 000 iterations");
+    expects(s.later_descents >= 0 && s.later_descents <= 100'000, "a descent has 0 to 100 000 iterations");
+    expects(std::ranges::all_of(s.exponents, [](double p) { return within(p, 1.0, 64.0); }),
+            "the exponents are from 1 to 64");
+    expects(within(s.least_jacobian, 0.0, 1.0), "the least corner triangle is from 0 to 1");
+}
+
+/// Between two tracks, `share` of the way; nodes go along.
+PlacedTrack between(const PlacedTrack& a, const PlacedTrack& b, double share) {
+    PlacedTrack found{{a.track.direction, mix(a.track.across, b.track.across, share)}, {}};
+    for (std::size_t n = 0; n < a.places.size(); ++n) {
+        found.places.push_back(mix(a.places[n], b.places[n], share));
+    }
+    return found;
+}
+
+std::vector<PlacedTrack> candidates_of(const std::vector<PlacedTrack>& tracks, int a_gap) {
+    std::vector<PlacedTrack> found;
+    for (std::size_t t = 0; t + 1 < tracks.size(); ++t) {
+        for (int k = 0; k < a_gap; ++k) {
+            found.push_back(between(tracks[t], tracks[t + 1], static_cast<double>(k) / a_gap));
+        }
+    }
+    found.push_back(tracks.back());
+    return found;
+}
+
+/// The best nodes of one track, and what they cost.
+struct BestNodes {
+    PlacedTrack placed;
+    double cost = 0.0;
+};
+
+/// The start's own nodes if no path is in reach.
+BestNodes best_nodes(const ErrorModel& model,
+                     const PlacedTrack& start,
+                     const TrackSettings& settings,
+                     const Progress& progress) {
+    const MoveTable table = moves_by(model, start, settings, progress);
+    const int moves = static_cast<int>(std::ssize(start.places)) - 1;
+    const auto path = cheapest_path(table, moves, cost_by(settings, 1.0), {});
+    if (!path) {
+        return {start, std::numeric_limits<double>::infinity()};
+    }
+    return {{start.track, places_of(table, *path)}, path->value};
+}
+
+PlacedTrack polished(const ErrorModel& model,
+                     const PlacedTrack& track,
+                     const TrackSettings& settings,
+                     const Progress& progress) {
+    const double step = mean_step(track);
+    TrackPolish polish(
+        model,
+        track,
+        {.cost = cost_by(settings, 1.0), .limits = {}, .min_gap = settings.shortest_move * step});
+    for (int sweep = 0; sweep < settings.polish_sweeps; ++sweep) {
+        if (polish.sweep(progress) < still * step) {
+            break;
+        }
+    }
+    return polish.track();
+}
+
+double length_of(const std::vector<MoveError>& moves) {
+    double length = 0.0;
+    for (const MoveError& move : moves) {
+        length += move.length;
+    }
+    return length;
+}
+
+/// Smaller is better: neither the worst move nor the mean is bought at any price of the other.
+double score(const ErrorSummary& s) {
+    return s.max * s.mean;
+}
+
+bool not_above(const ErrorSummary& now, const ErrorSummary& before) {
+    return now.max <= before.max + negligible_mm && now.mean <= before.mean + negligible_mm &&
+           now.lmean <= before.lmean + negligible_mm && now.axis_max <= before.axis_max + negligible_rad;
+}
+
+} // namespace
+
+ChainOptimiser::ChainOptimiser(const ErrorModel& model,
+                               const Grid& start,
+                               TrackDirection direction,
+                               ChainSettings settings)
+    : model_(model), direction_(direction), settings_(std::move(settings)),
+      state_{.current = start.array(), .best = start, .start = {}, .now = {}, .of_best = {}, .note = {}},
+      start_(straight_tracks(start, direction)), accepted_(start.array()) {
+    check(settings_);
+    settings_.tracks = checked(settings_.tracks, start.nodes_per_track(direction));
+}
+
+bool ChainOptimiser::advance(const Progress& progress) {
+    switch (stage_) {
+    case Stage::start:
+        measure_start(progress);
+        break;
+    case Stage::tracks:
+        choose_tracks(progress);
+        break;
+    case Stage::descent:
+        descend(progress);
+        break;
+    case Stage::done:
+        break;
+    }
+    return stage_ != Stage::done;
+}
+
+void ChainOptimiser::measure_start(const Progress& progress) {
+    progress.report(0.0, "Measuring the start");
+    const ErrorSummary found = summary(measure(model_, state_.best, direction_, fine, progress));
+    widest_gap_mm_ = (1.0 + settings_.tracks.gap_allowance) * model_.track_gap(state_.best, direction_);
+    state_.start = state_.now = state_.of_best = found;
+    state_.note = "Start measured";
+    links_.push_back({"start", found, true});
+    stage_ = Stage::tracks;
+}
+
+/// Makes `nodes` the best grid if they keep the promise and score better. True if they keep it.
+bool ChainOptimiser::consider(const NodeArray& nodes, const Progress& progress) {
+    state_.current = nodes;
+    if (!(min_corner_jacobian(nodes) >= settings_.least_jacobian)) {
+        return false;
+    }
+    const Grid grid(nodes);
+    state_.now = summary(measure(model_, grid, direction_, fine, progress));
+    if (!not_above(state_.now, state_.start) || model_.track_gap(grid, direction_) > widest_gap_mm_) {
+        return false;
+    }
+    accepted_ = nodes;
+    if (score(state_.now) < score(state_.of_best)) {
+        state_.best = grid;
+        state_.of_best = state_.now;
+    }
+    return true;
+}
+
+/// Where a choice of tracks breaks the promise, the start's own tracks with their best nodes are next.
+void ChainOptimiser::choose_tracks(const Progress& progress) {
+    progress.report(0.0, "Measuring the candidates for tracks");
+    const std::vector<PlacedTrack> candidates = candidates_of(start_, settings_.candidates_a_gap);
+    std::vector<BestNodes> best(candidates.size());
+    each_track(std::ssize(candidates), progress.part(0.0, 0.85), [&](std::size_t c) {
+        best[c] = best_nodes(model_, candidates[c], settings_.tracks, progress);
+    });
+    std::vector<double> costs;
+    for (const BestNodes& nodes : best) {
+        costs.push_back(nodes.cost);
+    }
+    const int a_gap = settings_.candidates_a_gap;
+    const int nearest = static_cast<int>(std::ceil(settings_.narrowest_gap * a_gap));
+    const int furthest = static_cast<int>(std::floor(settings_.widest_gap * a_gap));
+    const int count = static_cast<int>(std::ssize(start_));
+    for (const auto& [name, least, most] :
+         {std::tuple{"best tracks and nodes", std::max(1, nearest), furthest},
+          std::tuple{"best nodes of the start's tracks", a_gap, a_gap}}) {
+        const auto chosen = cheapest_choice(costs, count, least, most);
+        if (!chosen) {
+            continue;
+        }
+        std::vector<PlacedTrack> tracks(chosen->size());
+        each_track(count, progress.part(0.85, 1.0), [&](std::size_t t) {
+            const auto c = static_cast<std::size_t>((*chosen)[t]);
+            tracks[t] = polished(model_, best[c].placed, settings_.tracks, progress);
+        });
+        const bool kept = consider(array_of(tracks), progress);
+        links_.push_back({name, state_.now, kept});
+        if (kept) {
+            break;
+        }
+    }
+    ++state_.round;
+    state_.note = links_.back().name;
+    begin_descent(progress);
+}
+
+void ChainOptimiser::begin_descent(const Progress& progress) {
+    const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
+    if (level_ > settings_.exponents.size() || allowed == 0) {
+        descent_.reset();
+        state_.status =
+            score(state_.of_best) < score(state_.start) ? ImproverStatus::converged : ImproverStatus::no_gain;
+        state_.current = state_.best.array();
+        state_.now = state_.of_best;
+        stage_ = Stage::done;
+        return;
+    }
+    const std::vector<MoveError> moves = measure(model_, Grid(accepted_), direction_, fine, progress);
+    const ErrorSummary now = summary(moves);
+    MoveCost cost = cost_by(settings_.tracks, length_of(moves) / static_cast<double>(moves.size()));
+    cost.exponent = level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
+    const double usual_error = std::max(negligible_mm, level_ == 0 ? now.lmean : now.max / 2.0);
+    PathObjectiveSettings objective{.cost = cost,
+                                    .unit_cost = cost.even_length * std::pow(usual_error, cost.exponent)};
+    objective.least_jacobian = std::min(usual_corner, room_for_corners * min_corner_jacobian(accepted_));
+    descent_.emplace(PathObjective(model_, direction_, accepted_, objective), accepted_, progress);
+    iterations_of_level_ = 0;
+    stage_ = Stage::descent;
+}
+
+void ChainOptimiser::descend(const Progress& progress) {
+    const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
+    progress.report(0.0, "Moving all nodes at once");
+    PathDescent next = *descent_;
+    bool going = true;
+    int done = 0;
+    while (going && done < iterations_a_step && iterations_of_level_ + done < allowed) {
+        going = next.iterate(progress) && next.last_step() > still;
+        ++done;
+    }
+    const bool kept = consider(next.nodes(), progress);
+    descent_ = std::move(next);
+    iterations_of_level_ += done;
+    state_.iteration += done;
+    state_.norm = descent_->last_step();
+    const double exponent = level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
+    state_.note =
+        fmt::format("All nodes at once, exponent {:g}, iteration {}", exponent, iterations_of_level_);
+    if (!going || iterations_of_level_ >= allowed) {
+        links_.push_back({fmt::format("all nodes at once, exponent {:g}", exponent), state_.now, kept});
+        ++state_.round;
+        ++level_;
+        begin_descent(progress);
+    }
+}
+
+} // namespace millwright::grid

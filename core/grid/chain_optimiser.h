@@ -1,0 +1,74 @@
+// The whole chain that cuts the error, each link by its own method: which tracks (dynamic programming over
+// candidates), the best nodes on each (shortest path on a lattice, then a polish), then all nodes at once,
+// tracks bending, downhill in the error with exponents that rise from the mean to the worst move.
+#pragma once
+
+#include "core/grid/improver.h"
+#include "core/grid/path_descent.h"
+#include "core/grid/track_optimiser.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::grid {
+
+/// Values outside their range throw Defect when the optimiser is made.
+struct ChainSettings {
+    TrackSettings tracks{.tip_share = 1.0, .param_share = 0.0, .length_share = 1.0, .polish_sweeps = 15};
+    int candidates_a_gap = 8;    ///< places that a track may take between two of the start's, 1 to 64
+    double narrowest_gap = 0.75; ///< of chosen tracks, in gaps of the start, 0.1 to 1
+    double widest_gap = 1.125;   ///< the same, 1 to 2
+    int first_descent = 300;     ///< iterations at the exponent of `tracks`, at most, 0 to 100 000
+    int later_descents = 150;    ///< the same at each later exponent
+    std::vector<double> exponents{4.0, 8.0, 16.0}; ///< of the error, one descent each
+    double least_jacobian = 0.015; ///< of a corner triangle in a grid that is accepted, 1 on a uniform grid
+};
+
+/// What one link of the chain brought.
+struct ChainLink {
+    std::string name;
+    ErrorSummary reached; ///< of the grid after it, finely
+    bool accepted = true; ///< whether that grid keeps the promise
+};
+
+/// First step: measures the start. Second: the tracks and their nodes. Then a few iterations of a descent a
+/// step. `best` has the least product of max and mean of the grids that keep the promise: max, mean, lmean
+/// and axis_max not above the start's, the track gap not above it by more than the allowance, no corner
+/// triangle below the least. `norm` is the furthest way of a node in the last iteration, in cells.
+class ChainOptimiser final : public GridImprover {
+public:
+    /// `model` must outlive the optimiser. Throws Defect if a track of `start` is not straight.
+    ChainOptimiser(const ErrorModel& model,
+                   const Grid& start,
+                   TrackDirection direction,
+                   ChainSettings settings);
+
+    bool advance(const Progress& progress) override;
+    [[nodiscard]] const ImproverState& state() const override { return state_; }
+    [[nodiscard]] const std::vector<ChainLink>& links() const { return links_; }
+
+private:
+    enum class Stage { start, tracks, descent, done };
+
+    void measure_start(const Progress& progress);
+    void choose_tracks(const Progress& progress);
+    void begin_descent(const Progress& progress);
+    void descend(const Progress& progress);
+    bool consider(const NodeArray& nodes, const Progress& progress);
+
+    const ErrorModel& model_;
+    TrackDirection direction_;
+    ChainSettings settings_;
+    Stage stage_ = Stage::start;
+    ImproverState state_;
+    std::vector<PlacedTrack> start_;
+    double widest_gap_mm_ = 0.0;
+    std::optional<PathDescent> descent_;
+    std::size_t level_ = 0; // 0: the exponent of the tracks; n: exponents[n - 1]
+    int iterations_of_level_ = 0;
+    NodeArray accepted_; // where the next descent begins
+    std::vector<ChainLink> links_;
+};
+
+} // namespace millwright::grid

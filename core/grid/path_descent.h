@@ -1,0 +1,34 @@
+// Descends in a PathObjective by L-BFGS. No step folds a cell or leaves the machine's reach, since the
+// objective is infinite there.
+#pragma once
+
+#include "core/grid/descent.h"
+#include "core/grid/path_objective.h"
+
+namespace millwright::grid {
+
+class PathDescent {
+public:
+    /// Throws Defect if the objective is infinite at `start`. Throws Cancelled.
+    PathDescent(PathObjective objective, NodeArray start, const Progress& progress);
+
+    /// One step downhill; false if there is none. Throws Cancelled, leaving all as it was.
+    bool iterate(const Progress& progress);
+
+    [[nodiscard]] const NodeArray& nodes() const { return nodes_; }
+    [[nodiscard]] double value() const { return value_; }
+    /// Of the last step, the way of the node that went furthest, in cells.
+    [[nodiscard]] double last_step() const { return last_step_; }
+
+private:
+    bool search(const std::vector<Vec2>& direction, const Progress& progress);
+
+    PathObjective objective_;
+    NodeArray nodes_;
+    double value_;
+    std::vector<Vec2> gradient_;
+    DescentMemory memory_;
+    double last_step_ = 0.0;
+};
+
+} // namespace millwright::grid

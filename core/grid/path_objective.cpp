@@ -1,0 +1,181 @@
+#include "core/grid/path_objective.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/parallel.h"
+#include "core/grid/internal/outline.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double difference = 2e-4; // cells: below the error's own kinks where branches change
+
+} // namespace
+
+/// An array with one node elsewhere.
+class PathObjective::Around {
+public:
+    Around(const NodeArray& nodes, int i, int j, const Vec2& place)
+        : nodes_(nodes), node_(nodes.index(i, j)), place_(place) {}
+
+    [[nodiscard]] const Vec2& at(int i, int j) const {
+        const std::size_t n = nodes_.index(i, j);
+        return n == node_ ? place_ : nodes_.nodes[n];
+    }
+
+private:
+    const NodeArray& nodes_;
+    std::size_t node_;
+    Vec2 place_;
+};
+
+PathObjective::PathObjective(const ErrorModel& model,
+                             TrackDirection direction,
+                             const NodeArray& outline,
+                             const PathObjectiveSettings& settings)
+    : model_(&model), direction_(direction), rows_(outline.rows), columns_(outline.columns),
+      cell_((outline.at(rows_ - 1, columns_ - 1) - outline.at(0, 0))
+                .cwiseQuotient(Vec2(rows_ - 1, columns_ - 1))),
+      settings_(settings) {
+    expects(is_axis_rectangle(outline), "nodes slide only along a rectangle parallel to the axes");
+    expects(cell_.x() > 0.0 && cell_.y() > 0.0, "the outline has an area");
+    expects(settings.unit_cost > 0.0, "the unit of the cost is positive");
+}
+
+double PathObjective::move_cost(const Vec2& from, const Vec2& to) const {
+    return settings_.cost(model_->move(from, to, settings_.sampling)) / settings_.unit_cost;
+}
+
+double PathObjective::gap_cost(const Vec2& from, const Vec2& to) const {
+    const double gap = direction_ == TrackDirection::along_v ? (to.x() - from.x()) / cell_.x()
+                                                             : (to.y() - from.y()) / cell_.y();
+    const double over = std::max(0.0, gap - settings_.widest_gap) / settings_.gap_softness;
+    const double under = std::max(0.0, settings_.narrowest_gap - gap) / settings_.gap_softness;
+    return square(over) + square(under);
+}
+
+/// Of the cell whose first node is (i, j).
+template <class Nodes> double PathObjective::corners_of_cell(const Nodes& nodes, int i, int j) const {
+    double sum = 0.0;
+    for (const int corner : {0, 1, 2, 3}) {
+        const int row = i + corner % 2;
+        const int column = j + corner / 2;
+        const Vec2 xi = (nodes.at(i + 1, column) - nodes.at(i, column)).cwiseQuotient(cell_);
+        const Vec2 eta = (nodes.at(row, j + 1) - nodes.at(row, j)).cwiseQuotient(cell_);
+        const double room = xi.x() * eta.y() - xi.y() * eta.x() - settings_.least_jacobian;
+        if (!(room > 0.0)) {
+            return infinity;
+        }
+        sum += (xi.squaredNorm() + eta.squaredNorm()) / room;
+    }
+    return settings_.corner_weight * sum;
+}
+
+/// All that depends on node (i, j).
+template <class Nodes> double PathObjective::at_node(const Nodes& nodes, int i, int j) const {
+    double sum = 0.0;
+    for (const int row : {i - 1, i}) {
+        for (const int column : {j - 1, j}) {
+            if (row >= 0 && column >= 0 && row + 1 < rows_ && column + 1 < columns_) {
+                sum += corners_of_cell(nodes, row, column);
+            }
+        }
+    }
+    if (!(sum < infinity)) {
+        return infinity;
+    }
+    const bool rows_are_tracks = direction_ == TrackDirection::along_v;
+    for (const int row : {i - 1, i}) {
+        if (row >= 0 && row + 1 < rows_) {
+            const Vec2& from = nodes.at(row, j);
+            const Vec2& to = nodes.at(row + 1, j);
+            sum += rows_are_tracks ? gap_cost(from, to) : move_cost(from, to);
+        }
+    }
+    for (const int column : {j - 1, j}) {
+        if (column >= 0 && column + 1 < columns_) {
+            const Vec2& from = nodes.at(i, column);
+            const Vec2& to = nodes.at(i, column + 1);
+            sum += rows_are_tracks ? move_cost(from, to) : gap_cost(from, to);
+        }
+    }
+    return sum;
+}
+
+double PathObjective::value(const NodeArray& nodes, const Progress& progress) const {
+    const bool rows_are_tracks = direction_ == TrackDirection::along_v;
+    std::vector<double> sums(static_cast<std::size_t>(rows_), 0.0);
+    parallel_for(rows_, 1, [&](std::ptrdiff_t row) {
+        progress.check();
+        const int i = static_cast<int>(row);
+        double& sum = sums[static_cast<std::size_t>(row)];
+        for (int j = 0; j < columns_ && i + 1 < rows_; ++j) {
+            sum += j + 1 < columns_ ? corners_of_cell(nodes, i, j) : 0.0;
+        }
+        if (!(sum < infinity)) {
+            return;
+        }
+        for (int j = 0; j < columns_; ++j) {
+            const Vec2& here = nodes.at(i, j);
+            if (i + 1 < rows_) {
+                sum += rows_are_tracks ? gap_cost(here, nodes.at(i + 1, j))
+                                       : move_cost(here, nodes.at(i + 1, j));
+            }
+            if (j + 1 < columns_) {
+                sum += rows_are_tracks ? move_cost(here, nodes.at(i, j + 1))
+                                       : gap_cost(here, nodes.at(i, j + 1));
+            }
+        }
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// One-sided where a node `difference` further is out of reach.
+double PathObjective::slope(const NodeArray& nodes, int i, int j, int coordinate) const {
+    Vec2 step = Vec2::Zero();
+    step[coordinate] = difference * cell_[coordinate];
+    const Vec2& here = nodes.at(i, j);
+    const double ahead = at_node(Around(nodes, i, j, here + step), i, j);
+    const double behind = at_node(Around(nodes, i, j, here - step), i, j);
+    if (ahead < infinity && behind < infinity) {
+        return (ahead - behind) / (2.0 * difference);
+    }
+    const double now = at_node(nodes, i, j);
+    return ahead < infinity    ? (ahead - now) / difference
+           : behind < infinity ? (now - behind) / difference
+                               : 0.0;
+}
+
+std::vector<Vec2> PathObjective::gradient(const NodeArray& nodes, const Progress& progress) const {
+    std::vector<Vec2> found(nodes.nodes.size(), Vec2::Zero());
+    parallel_for(rows_, 1, [&](std::ptrdiff_t row) {
+        progress.check();
+        const int i = static_cast<int>(row);
+        for (int j = 0; j < columns_; ++j) {
+            const Vec2 free = freedom(nodes, i, j, true);
+            for (const int coordinate : {0, 1}) {
+                if (free[coordinate] > 0.0) {
+                    found[nodes.index(i, j)][coordinate] = slope(nodes, i, j, coordinate);
+                }
+            }
+        }
+    });
+    return found;
+}
+
+NodeArray PathObjective::moved(const NodeArray& nodes, double factor, const std::vector<Vec2>& steps) const {
+    NodeArray found = nodes;
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        const Vec2 place = nodes.nodes[n] + factor * steps[n].cwiseProduct(cell_);
+        found.nodes[n] = place.cwiseMax(0.0).cwiseMin(1.0);
+    }
+    return found;
+}
+
+} // namespace millwright::grid

@@ -1,0 +1,56 @@
+// What the whole chain is for, on real machines: figures of a prototype that it must reach.
+#include "core/grid/chain_optimiser.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+namespace millwright::toolpath {
+namespace {
+
+using grid::TrackDirection;
+
+/// 20 tracks, v = 0.02 ... 0.98.
+grid::Grid inner_tracks(int nodes) {
+    constexpr int tracks = 20;
+    grid::NodeArray array(nodes, tracks);
+    for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < tracks; ++j) {
+            array.at(i, j) = {static_cast<double>(i) / (nodes - 1), 0.02 + 0.96 * j / (tracks - 1)};
+        }
+    }
+    return grid::Grid(array);
+}
+
+struct Row {
+    int nodes;
+    double uniform_max, uniform_mean, max, mean;
+
+    friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.nodes; }
+};
+
+class ChainGain : public ::testing::TestWithParam<Row> {};
+
+TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
+    const KinematicError error = test::two_bell_error();
+    const grid::Grid start = inner_tracks(GetParam().nodes);
+    grid::ChainOptimiser chain(error, start, TrackDirection::along_u, {});
+    const grid::ImproverState state = run(chain, {});
+    EXPECT_NEAR(state.start.max, GetParam().uniform_max, 0.005);
+    EXPECT_NEAR(state.start.mean, GetParam().uniform_mean, 0.0005);
+    EXPECT_LE(state.of_best.max, GetParam().max);
+    EXPECT_LE(state.of_best.mean, GetParam().mean);
+    EXPECT_LE(state.of_best.axis_max, state.start.axis_max);
+    EXPECT_LE(error.track_gap(state.best, TrackDirection::along_u),
+              1.15 * error.track_gap(start, TrackDirection::along_u));
+    EXPECT_GE(state.best.min_jacobian(), 0.015);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTwoBells,
+                         ChainGain,
+                         ::testing::Values(Row{15, 12.37, 1.302, 1.01, 0.441},
+                                           Row{20, 11.13, 0.827, 0.548, 0.269}));
+
+} // namespace
+} // namespace millwright::toolpath
