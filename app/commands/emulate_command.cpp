@@ -8,6 +8,7 @@
 #include "core/machine/emulators/emulator_server.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
 #include "core/machine/emulators/linuxcnc/linuxcnc_emulator.h"
+#include "core/machine/emulators/pmac/pmac_emulator.h"
 #include "core/machine/emulators/stream/stream_emulator.h"
 #include "core/machine/links/fault_link.h"
 #include "core/machine/links/pseudo_terminal.h"
@@ -41,6 +42,8 @@ struct Options {
     bool line_numbers = false;
     bool echo = false;
     bool homed = false;
+    bool arm = false;
+    int channels = 4;
 };
 
 using Links = std::vector<std::unique_ptr<machine::Link>>;
@@ -141,6 +144,13 @@ int emulate_stream(const Options& options) {
         });
 }
 
+int emulate_pmac(const Options& options) {
+    const machine::PmacEmulatorOptions wanted{
+        .plants = options.arm ? machine::arm_plants() : std::vector<machine::PmacPlant>{},
+        .channels = options.channels};
+    return serve(options, "PMAC-Lite", [&] { return std::make_unique<machine::PmacEmulator>(wanted); });
+}
+
 CLI::App& add_emulated(CLI::App& group,
                        const std::string& name,
                        const std::string& what,
@@ -183,6 +193,12 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
     linuxcnc.callback([&chosen, options] { chosen = [options] { return emulate_linuxcnc(*options); }; });
     CLI::App& stream = add_emulated(group, "stream", "A machine that takes a coordinate stream", options);
     stream.callback([&chosen, options] { chosen = [options] { return emulate_stream(*options); }; });
+    CLI::App& pmac = add_emulated(group, "pmac", "A Delta Tau PMAC-Lite with its motors", options);
+    pmac.add_flag("--arm", options->arm, "The drives of the Motoman L-3 instead of ones without offsets");
+    pmac.add_option("--channels", options->channels, "4, or 8 with a second row of outputs")
+        ->check(CLI::IsMember({4, 8}))
+        ->capture_default_str();
+    pmac.callback([&chosen, options] { chosen = [options] { return emulate_pmac(*options); }; });
     add_emulate_table(group, chosen);
 }
 

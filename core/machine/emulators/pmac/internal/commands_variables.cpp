@@ -1,0 +1,132 @@
+// On-line commands about variables and memory.
+#include "core/machine/emulators/pmac/internal/commands.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::machine::pmac_card {
+
+namespace {
+
+constexpr int unknown = 3;
+constexpr int greatest_address = 0xFFFF;
+
+} // namespace
+
+Commands::Code Commands::variable(Words& words) {
+    const char kind = words.now().text.front();
+    words.skip();
+    const auto first = words.take_index(Variables::count - 1);
+    if (!first) {
+        return unknown;
+    }
+    int last = *first;
+    if (words.take("..")) {
+        const auto told = words.take_index(Variables::count - 1);
+        if (!told || *told < *first) {
+            return unknown;
+        }
+        last = *told;
+    }
+    if (kind == 'M' && words.take("->")) {
+        return pointer(words, *first);
+    }
+    if (words.take("=")) {
+        return assign(kind, *first, last, words);
+    }
+    for (int n = *first; n <= last; ++n) {
+        report(kind, n);
+    }
+    return 0;
+}
+
+Commands::Code Commands::assign(char kind, int first, int last, Words& words) {
+    if (words.take("*")) {
+        for (int n = first; n <= last; ++n) {
+            kind == 'I' ? card_.set('I', n, IVariables::factory(n)) : card_.set(kind, n, 0.0);
+        }
+        return 0;
+    }
+    const auto value = take_expression(words);
+    if (!value) {
+        return unknown;
+    }
+    const double number = value->value(card_);
+    for (int n = first; n <= last; ++n) {
+        card_.set(kind, n, number);
+    }
+    return 0;
+}
+
+void Commands::report(char kind, int index) {
+    constexpr int form = 9;
+    const int i9 = static_cast<int>(card_.i(form));
+    const double value = card_.value(kind, index);
+    const bool hexadecimal = (i9 & 2) != 0 && kind == 'I' && IVariables::is_address(index);
+    const std::string text =
+        hexadecimal ? fmt::format("${:X}", static_cast<std::int64_t>(value)) : number_text(value);
+    say((i9 & 1) != 0 ? fmt::format("{}{}={}", kind, index, text) : text);
+}
+
+Commands::Code Commands::pointer(Words& words, int index) {
+    if (words.ended()) {
+        say(card_.memory().pointer(index).text);
+        return 0;
+    }
+    const auto pointer = take_pointer(words);
+    if (!pointer) {
+        return unknown;
+    }
+    card_.memory().point(index, *pointer);
+    return 0;
+}
+
+/// RX:$..[,n] RHL:$..[,n] WX:$..,v[,v]
+Commands::Code Commands::memory(Words& words) {
+    const std::string name = words.now().text;
+    words.skip();
+    (void)words.take(":");
+    const auto begin = words.take_index(greatest_address);
+    if (!begin) {
+        return unknown;
+    }
+    const char side = name.back();
+    int address = *begin;
+    if (name.front() == 'W') {
+        do {
+            const auto value = words.take(",") ? words.take_number() : std::nullopt;
+            if (!value || address > greatest_address || std::abs(*value) > 1e12) {
+                return unknown;
+            }
+            const auto bits = static_cast<std::int64_t>(*value);
+            if (side == 'L') {
+                constexpr int word = 24;
+                card_.memory().set_word('X', address, static_cast<std::uint32_t>(bits >> word));
+            }
+            card_.memory().set_word(side == 'X' ? 'X' : 'Y', address, static_cast<std::uint32_t>(bits));
+            ++address;
+        } while (words.at(","));
+        return 0;
+    }
+    constexpr int most = 16;
+    const auto count = words.take(",") ? words.take_index(most) : std::optional(1);
+    if (!count) {
+        return unknown;
+    }
+    const bool hexadecimal = name.size() == 3;
+    for (int n = 0; n < *count; ++n, ++address) {
+        const std::uint32_t x = card_.memory().word('X', address);
+        const std::uint32_t y = card_.memory().word('Y', address);
+        if (side == 'L') {
+            say(hexadecimal ? fmt::format("{:06X}{:06X}", x, y)
+                            : fmt::format("{}", (static_cast<std::int64_t>(x) << 24) | y));
+        } else {
+            const std::uint32_t word = side == 'X' ? x : y;
+            say(hexadecimal ? fmt::format("{:06X}", word) : fmt::format("{}", word));
+        }
+    }
+    return 0;
+}
+
+} // namespace millwright::machine::pmac_card
