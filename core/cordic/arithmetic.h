@@ -65,9 +65,16 @@ public:
     }
     [[nodiscard]] constexpr double to_double(T value) const { return static_cast<double>(value); }
     [[nodiscard]] constexpr Word to_word(T value) const { return std::bit_cast<Bits>(value); }
-    /// Bits of no finite number set `overflow`.
+    /// Bits of no finite number set `overflow`. Seen by the bits: a signalling NaN may not even be loaded.
     [[nodiscard]] constexpr T from_word(Word word, bool& overflow) const {
-        return finite(std::bit_cast<T>(static_cast<Bits>(word)), overflow);
+        constexpr auto infinite = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
+        const auto bits = static_cast<Bits>(word);
+        if ((bits & infinite) != infinite) [[likely]] {
+            return std::bit_cast<T>(bits);
+        }
+        overflow = true;
+        constexpr T largest = std::numeric_limits<T>::max();
+        return bits >> (8 * sizeof(Bits) - 1) != 0 ? -largest : largest;
     }
     [[nodiscard]] constexpr T from_word(Word word) const { return std::bit_cast<T>(static_cast<Bits>(word)); }
 

@@ -112,7 +112,8 @@ Motion Timing::at(double time) const {
     const State tail = state_at(time - filter_time_);
     const double area = (head.integral.high - tail.integral.high) + (head.integral.low - tail.integral.low);
     Motion motion;
-    motion.way = std::clamp(area / filter_time_, tail.way, head.way);
+    const double furthest = std::max(tail.way, head.way); // at rest, rounding may say otherwise
+    motion.way = std::clamp(area / filter_time_, tail.way, furthest);
     motion.speed = std::max(0.0, (head.way - tail.way) / filter_time_);
     motion.acceleration = (head.speed - tail.speed) / filter_time_;
     motion.jerk = (head.acceleration - tail.acceleration) / filter_time_;

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/plot/hpgl/reader.h"
 #include "tests/core/plot/thesis_drawings.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -131,6 +132,7 @@ TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
 }
 
 TEST(Levels, RefuseWhatCannotBeCut) {
+    const test::WithoutTraps no_traps;
     const Strokes strokes = six_colours();
     const auto cut = [&](const Level& level) { static_cast<void>(cut_path(strokes, {.levels = {level}})); };
     EXPECT_THROW(cut({.depth = -1.0}), Error);

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/point_file.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -244,6 +245,7 @@ TEST(LimitedDecoding, LimitsNeedTheModePath) {
 
 TEST(Decoding, RefusesWhatIsNoSpeedAndTooManyPoints) {
     for (const double wrong : {0.0, -1.0, std::nan("")}) {
+        const test::WithoutTraps no_traps;
         DecodeSettings settings;
         settings.velocity = wrong;
         EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);

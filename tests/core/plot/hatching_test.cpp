@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,7 @@ TEST(Hatching, EveryLineIsInsideTheRegion) {
 }
 
 TEST(Hatching, RefusesAPitchThatIsNone) {
+    const test::WithoutTraps no_traps;
     const Region square = {{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}};
     EXPECT_THROW(static_cast<void>(hatch(square, {.pitch = 0.0})), Error);
     EXPECT_THROW(static_cast<void>(hatch(square, {.pitch = std::numeric_limits<double>::quiet_NaN()})),

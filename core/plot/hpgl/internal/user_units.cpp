@@ -75,14 +75,16 @@ bool UserUnits::derive(const Vec2& p1, const Vec2& p2, const std::optional<Scali
     Vec2 offset(0.0, 0.0);
     if (scaling) {
         const Vec2 span = p2 - p1;
-        scale = scaling->fit == Fit::factor ? scaling->at_p2
-                                            : Vec2(span.cwiseQuotient(scaling->at_p2 - scaling->at_p1));
+        const Vec2 units = scaling->at_p2 - scaling->at_p1;
+        if (scaling->fit != Fit::factor && !(units.cwiseAbs().minCoeff() > 0.0)) {
+            return false;
+        }
+        scale = scaling->fit == Fit::factor ? scaling->at_p2 : Vec2(span.cwiseQuotient(units));
         Vec2 rest(0.0, 0.0);
         if (scaling->fit == Fit::isotropic) {
             const double smaller = std::min(std::abs(scale.x()), std::abs(scale.y()));
             scale = Vec2(std::copysign(smaller, scale.x()), std::copysign(smaller, scale.y()));
-            rest = (span - scale.cwiseProduct(scaling->at_p2 - scaling->at_p1))
-                       .cwiseProduct(scaling->rest_percent / 100.0);
+            rest = (span - scale.cwiseProduct(units)).cwiseProduct(scaling->rest_percent / 100.0);
         }
         offset = p1 + rest - scale.cwiseProduct(scaling->at_p1);
     }

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/assembler.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,6 +83,7 @@ TEST(CordicMotion, RefusesASetPointThatIsAwayAndHasNoSpeed) {
 }
 
 TEST(CordicMachine, KeepsTheAccelerationOfThePathWhicheverWayItGoes) {
+    const test::WithoutTraps no_traps;
     const auto machine = cordic_machine(90.0, 1000.0);
     double squares = 0.0;
     for (const auto& axis : machine.axes()) {

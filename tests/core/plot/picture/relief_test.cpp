@@ -3,6 +3,7 @@
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -327,6 +328,7 @@ TEST(Relief, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Relief, NamesTheSettingThatIsWrong) {
+    const test::WithoutTraps no_traps;
     const HeightField field = noise(1);
     const auto error_of = [&](auto change) -> std::string {
         ReliefSettings settings;

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,6 +60,7 @@ TEST(ToolTip, IsReadFromText) {
 }
 
 TEST(ToolTip, QuotesWhatIsNone) {
+    const test::WithoutTraps no_traps;
     for (const char* text : {"",
                              "ball",
                              "ball:",

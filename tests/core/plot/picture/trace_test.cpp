@@ -6,6 +6,7 @@
 #include "core/base/units.h"
 #include "core/plot/region.h"
 #include "tests/support/oracle.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,7 +91,8 @@ TEST(Trace, KeepsCornersOrRoundsThem) {
         drawn(40, 40, [](double x, double y) { return x > 10.0 && x < 30.0 && y > 10.0 && y < 30.0; });
     const auto straight = [&](double corner) {
         int count = 0;
-        for (const TracedCurve& curve : trace(picture, {.corner = corner}).at(0).curves) {
+        const auto traced = trace(picture, {.corner = corner});
+        for (const TracedCurve& curve : traced.at(0).curves) {
             count += curve.straight ? 1 : 0;
         }
         return count;
@@ -134,6 +136,7 @@ TEST(Trace, OfNothingIsEmpty) {
 }
 
 TEST(Trace, NamesTheSettingThatIsWrong) {
+    const test::WithoutTraps no_traps;
     const Picture picture = ring();
     const auto error_of = [&](const TraceSettings& settings) -> std::string {
         try {

@@ -10,6 +10,7 @@
 #include "tests/support/jobs.h"
 #include "tests/support/machines.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -182,6 +183,7 @@ TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
 }
 
 TEST(StreamDriver, RefusesPeriodsAndDecimalsThatAreNone) {
+    const test::WithoutTraps no_traps;
     Bench bench;
     EXPECT_THROW(bench.driver({.period = 0.0}), Error);
     EXPECT_THROW(bench.driver({.period = std::nan("")}), Error);
