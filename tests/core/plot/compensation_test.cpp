@@ -92,7 +92,7 @@ TEST(Compensation, ContoursFillAPocket) {
 }
 
 TEST(Compensation, RefusesWhatHasNoPath) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const Region region = {square(0.0, 10.0)};
     EXPECT_THROW(static_cast<void>(compensated(region, {.tool_diameter = 0.0})), Error);
     EXPECT_THROW(static_cast<void>(compensated({square(0.0, 1e7)}, {})), Error);

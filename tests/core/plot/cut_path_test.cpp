@@ -132,7 +132,7 @@ TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
 }
 
 TEST(Levels, RefuseWhatCannotBeCut) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const Strokes strokes = six_colours();
     const auto cut = [&](const Level& level) { static_cast<void>(cut_path(strokes, {.levels = {level}})); };
     EXPECT_THROW(cut({.depth = -1.0}), Error);

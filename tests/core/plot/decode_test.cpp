@@ -245,7 +245,7 @@ TEST(LimitedDecoding, LimitsNeedTheModePath) {
 
 TEST(Decoding, RefusesWhatIsNoSpeedAndTooManyPoints) {
     for (const double wrong : {0.0, -1.0, std::nan("")}) {
-        const test::WithoutTraps no_traps;
+        const millwright::test::WithoutTraps no_traps;
         DecodeSettings settings;
         settings.velocity = wrong;
         EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);

@@ -64,7 +64,7 @@ TEST(Hatching, EveryLineIsInsideTheRegion) {
 }
 
 TEST(Hatching, RefusesAPitchThatIsNone) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const Region square = {{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}};
     EXPECT_THROW(static_cast<void>(hatch(square, {.pitch = 0.0})), Error);
     EXPECT_THROW(static_cast<void>(hatch(square, {.pitch = std::numeric_limits<double>::quiet_NaN()})),

@@ -122,7 +122,7 @@ TEST(Halftone, StandsOnATurnedGrid) {
 }
 
 TEST(Engraving, NamesWhatIsWrong) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const Picture picture = even(10, 10, 0.5);
     EXPECT_THROW(static_cast<void>(dithered(picture, 1.0, {.pitch = 0.0})), Error);
     EXPECT_THROW(static_cast<void>(dithered(picture, 1.0, {.pitch = 1e-6})), Error);

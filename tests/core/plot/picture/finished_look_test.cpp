@@ -88,7 +88,7 @@ TEST(FinishedLook, ShowsWhatIsThrough) {
 }
 
 TEST(FinishedLook, HalvesTheLight) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     HeightField field{4, 1, 1.0, {0.0F, -1.0F, -1.5F, -3.0F}};
     const GrayImage image = against_light(field, 2.0, 0.5);
     EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{16, 64, 128, 255})); // 255 / 16, / 4, / 2, through

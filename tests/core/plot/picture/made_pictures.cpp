@@ -132,9 +132,10 @@ std::string jpeg_of(const Samples& samples, const JpegKind& kind) {
 
 namespace {
 
-void put(std::string& bytes, std::uint64_t value, int count) {
+void put(std::string& bytes, std::uint32_t value, int count) {
     for (int n = 0; n < count; ++n) {
-        bytes.push_back(static_cast<char>(value >> (8U * static_cast<unsigned>(n))));
+        bytes.push_back(static_cast<char>(value));
+        value >>= 8U;
     }
 }
 

@@ -328,7 +328,7 @@ TEST(Relief, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Relief, NamesTheSettingThatIsWrong) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const HeightField field = noise(1);
     const auto error_of = [&](auto change) -> std::string {
         ReliefSettings settings;

@@ -60,7 +60,7 @@ TEST(ToolTip, IsReadFromText) {
 }
 
 TEST(ToolTip, QuotesWhatIsNone) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     for (const char* text : {"",
                              "ball",
                              "ball:",

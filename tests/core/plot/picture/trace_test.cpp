@@ -136,7 +136,7 @@ TEST(Trace, OfNothingIsEmpty) {
 }
 
 TEST(Trace, NamesTheSettingThatIsWrong) {
-    const test::WithoutTraps no_traps;
+    const millwright::test::WithoutTraps no_traps;
     const Picture picture = ring();
     const auto error_of = [&](const TraceSettings& settings) -> std::string {
         try {
