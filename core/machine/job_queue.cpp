@@ -84,14 +84,18 @@ std::optional<QueuedJob> JobQueue::held() const {
     return first && first->state == QueueState::held ? first : std::nullopt;
 }
 
+void JobQueue::write(const Entries& entries) const {
+    if (!file_.empty()) {
+        write_file(file_, internal::queue_text(shown(entries)));
+    }
+}
+
 /// On a copy, which counts once it is on disk.
 template <class Change> void JobQueue::change(Change&& how) {
     const std::scoped_lock lock(mutex_);
     Entries changed = entries_;
     how(changed);
-    if (!file_.empty()) {
-        write_file(file_, internal::queue_text(shown(changed)));
-    }
+    write(changed);
     entries_ = std::move(changed);
 }
 
@@ -116,6 +120,7 @@ QueuedJobId JobQueue::add(Job job) {
         shown.hash = hash_of(job);
         shown.blocks = job.block_count();
         shown.from_line = job.from_line;
+        shown.has_motion = job.program != nullptr;
         entries.push_back({std::move(shown), std::make_shared<const Job>(std::move(job))});
     });
     return id;
@@ -137,6 +142,7 @@ void JobQueue::load(QueuedJobId id, Job job) {
         found.shown.blocks = job.block_count();
         found.shown.from_line = job.from_line;
         found.shown.has_program = true;
+        found.shown.has_motion = job.program != nullptr;
         found.job = std::make_shared<const Job>(std::move(job));
     });
 }
@@ -236,12 +242,12 @@ JobOutcome JobQueue::run(QueuedJobId id, const std::function<JobOutcome(const Jo
 }
 
 void JobQueue::finish(const std::function<void(QueuedJob&)>& how) {
-    change([&](Entries& entries) {
-        const auto found = std::ranges::find_if(
-            entries, [](const Entry& entry) { return entry.shown.state == QueueState::running; });
-        expects(found != entries.end(), "a job ends that was begun");
-        how(found->shown);
-    });
+    const std::scoped_lock lock(mutex_);
+    const auto found = std::ranges::find_if(
+        entries_, [](const Entry& entry) { return entry.shown.state == QueueState::running; });
+    expects(found != entries_.end(), "a job ends that was begun");
+    how(found->shown);
+    write(entries_);
 }
 
 void JobQueue::ended(const JobOutcome& outcome) {

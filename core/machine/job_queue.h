@@ -43,11 +43,12 @@ struct QueuedJob {
     std::string sentence;           ///< what happened then; empty before
     std::filesystem::path log_file; ///< of that run; may be empty
     bool has_program = true;        ///< false: it was read from the file, and load() is due
+    bool has_motion = false;        ///< of the program: the positions of its blocks, not its text alone
 
     friend bool operator==(const QueuedJob&, const QueuedJob&) = default;
 };
 
-/// Safe from any thread. Whatever throws has changed nothing.
+/// Safe from any thread. Whatever throws has changed nothing, but for what ended.
 class JobQueue {
 public:
     /// In memory alone.
@@ -89,8 +90,10 @@ public:
     /// The parts of run(), for who has to be elsewhere meanwhile. Begins: throws Error if the job is not the
     /// one that comes next, if the queue is held, if a job is running, or if the program was not loaded.
     [[nodiscard]] Job begin(QueuedJobId id);
+    /// What has happened holds even if it cannot be written: then it throws, and whoever reads the file finds
+    /// the job held.
     void ended(const JobOutcome& outcome);
-    /// It did not come to an outcome.
+    /// It did not come to an outcome. Holds as ended() does.
     void failed(const std::string& why);
 
 private:
@@ -103,6 +106,7 @@ private:
     [[nodiscard]] static std::vector<QueuedJob> shown(const Entries& entries);
     [[nodiscard]] static Entry& entry(Entries& entries, QueuedJobId id);
     [[nodiscard]] std::optional<QueuedJob> first_unfinished() const;
+    void write(const Entries& entries) const;
     template <class Change> void change(Change&& how);
     void finish(const std::function<void(QueuedJob&)>& how);
 

@@ -1,6 +1,6 @@
 #include "core/machine/modal_lines.h"
 
-#include "core/base/text.h"
+#include "core/gcode/posts/number_format.h"
 #include "core/machine/hand_lines.h"
 
 #include <fmt/format.h>
@@ -17,8 +17,6 @@ using gcode::FeedMode;
 using gcode::LengthUnit;
 using gcode::ModalState;
 using gcode::PathMode;
-
-constexpr int decimals = 6;
 
 std::string_view plane_code(gcode::Plane plane) {
     constexpr std::array<std::string_view, 6> codes = {"G17", "G18", "G19", "G17.1", "G18.1", "G19.1"};
@@ -39,9 +37,9 @@ std::string path_code(const ModalState& state) {
         break;
     }
     const bool bounded = state.path_tolerance > 0.0;
-    return bounded ? fmt::format("G64 P{} Q{}\n",
-                                 fixed(state.path_tolerance, decimals),
-                                 fixed(state.naivecam_tolerance, decimals))
+    return bounded ? fmt::format("G64 {} {}\n",
+                                 number_word('P', state.path_tolerance),
+                                 number_word('Q', state.naivecam_tolerance))
                    : "G64\n";
 }
 
@@ -49,13 +47,18 @@ std::string tool_offset(const ModalState& state) {
     std::string words;
     for (std::size_t n = 0; n < gcode::axis_count; ++n) {
         if (std::abs(state.tool_offset[n]) > 0.0) {
-            words += fmt::format(" {}{}", gcode::axis_letters[n], fixed(state.tool_offset[n], decimals));
+            words += " " + number_word(gcode::axis_letters[n], state.tool_offset[n]);
         }
     }
     return words.empty() ? "G49\n" : "G43.1" + words + "\n";
 }
 
 } // namespace
+
+std::string number_word(char letter, double value) {
+    constexpr gcode::NumberFormat format{.decimals = 6, .trailing_zeros = false, .point = false};
+    return letter + format.text(value);
+}
 
 std::string modal_lines(const ModalState& state, Dialect dialect) {
     const bool linuxcnc = dialect == Dialect::linuxcnc;
@@ -71,10 +74,10 @@ std::string modal_lines(const ModalState& state, Dialect dialect) {
     }
     text += fmt::format("{}\n", feed_code(state.feed_mode));
     if (state.feed_rate > 0.0 && state.feed_mode != FeedMode::inverse_time) {
-        text += fmt::format("F{}\n", fixed(state.feed_rate, decimals));
+        text += number_word('F', state.feed_rate) + "\n";
     }
     if (state.spindle_speed > 0.0 && !state.constant_surface_speed) {
-        text += fmt::format("S{}\n", fixed(state.spindle_speed, 3));
+        text += number_word('S', state.spindle_speed) + "\n";
     }
     return text + (state.incremental ? "G91\n" : "G90\n");
 }

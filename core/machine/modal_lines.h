@@ -9,6 +9,9 @@
 
 namespace millwright::machine {
 
+/// As in these lines: to six decimals, without zeros behind the last digit that counts.
+[[nodiscard]] std::string number_word(char letter, double value);
+
 /// Each with its end. Not among them: spindle, coolant, tool, motion mode, cutter compensation, and the
 /// values of offsets, which controllers keep.
 [[nodiscard]] std::string modal_lines(const gcode::ModalState& state, gcode::Dialect dialect);

@@ -1,6 +1,5 @@
 #include "core/machine/run_from_line.h"
 
-#include "core/base/text.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/machine/internal/bare_line.h"
 #include "core/machine/internal/program_from_line.h"
@@ -27,7 +26,6 @@ using gcode::Move;
 using gcode::MoveKind;
 using internal::has_code;
 
-constexpr int decimals = 6;
 constexpr int z_axis = 2;
 
 [[noreturn]] void
@@ -182,10 +180,6 @@ void check_state(const ModalState& state,
     }
 }
 
-std::string word(char letter, double value) {
-    return letter + fixed(value, decimals);
-}
-
 /// In one line: all of these are of different modal groups.
 std::string modes_line(const ModalState& state, Dialect dialect) {
     ModalState absolute = state;
@@ -213,12 +207,12 @@ std::vector<std::string> approach(const ModalState& state,
         lines.push_back(
             fmt::format("T{}{}", state.selected_tool, linuxcnc && watcher.changed_tool() ? " M6" : ""));
     }
-    lines.push_back("G0 " + word('Z', clearance));
+    lines.push_back("G0 " + number_word('Z', clearance));
     std::string others = "G0";
     for (std::size_t n = 0; n < gcode::axis_count; ++n) {
         const bool named = n < 3 || linuxcnc;
         if (n != z_axis && named && (n < 3 || std::abs(state.position[n]) > 0.0)) {
-            others += " " + word(gcode::axis_letters[n], state.position[n]);
+            others += " " + number_word(gcode::axis_letters[n], state.position[n]);
         }
     }
     lines.push_back(others);
@@ -226,8 +220,8 @@ std::vector<std::string> approach(const ModalState& state,
     if (state.spindle != SpindleTurning::stopped) {
         lines.push_back(fmt::format("{} {}",
                                     state.spindle == SpindleTurning::clockwise ? "M3" : "M4",
-                                    word('S', state.spindle_speed)));
-        lines.push_back("G4 " + word('P', settings.spindle_time));
+                                    number_word('S', state.spindle_speed)));
+        lines.push_back("G4 " + number_word('P', settings.spindle_time));
     }
     if (state.mist) {
         lines.push_back("M7");
@@ -235,7 +229,7 @@ std::vector<std::string> approach(const ModalState& state,
     if (state.flood) {
         lines.push_back("M8");
     }
-    lines.push_back("G1 " + word('Z', state.position[z_axis]) + " " + word('F', feed));
+    lines.push_back("G1 " + number_word('Z', state.position[z_axis]) + " " + number_word('F', feed));
     lines.push_back(fmt::format("{}{}", state.motion == 0 ? "G0" : "G1", state.incremental ? " G91" : ""));
     if (state.feed_mode != gcode::FeedMode::per_minute) { // by itself: with G93 each move names its feed
         lines.emplace_back(state.feed_mode == gcode::FeedMode::inverse_time ? "G93" : "G95");

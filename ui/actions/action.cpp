@@ -65,7 +65,12 @@ void ActionQueue::tell(std::function<void(machine::Driver&)> what) {
 }
 
 void ActionQueue::queue(std::function<void(machine::JobQueue&)> change) {
-    requests_.emplace_back([change = std::move(change)](Workshop& workshop) { change(workshop.queue()); });
+    requests_.emplace_back(
+        [change = std::move(change)](Workshop& workshop) { change(workshop.queue().open()); });
+}
+
+void ActionQueue::open_queued(machine::QueuedJobId id) {
+    requests_.emplace_back([id](Workshop& workshop) { workshop.open_queued(id); });
 }
 
 void ActionQueue::set_overrides(const machine::Overrides& wanted) {

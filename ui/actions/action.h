@@ -91,6 +91,8 @@ public:
     void tell(std::function<void(machine::Driver&)> what);
     /// A change of the job queue.
     void queue(std::function<void(machine::JobQueue&)> change);
+    /// Reads the program of a queued job again.
+    void open_queued(machine::QueuedJobId id);
     /// At once, of the running job or of what the machine does next.
     void set_overrides(const machine::Overrides& wanted);
     /// Wanted in this frame alone: the machine moves while every frame says so.

@@ -14,6 +14,17 @@ bool sends_text(const Workbench& now) {
     return now.controller.connected() && now.controller.can.plans;
 }
 
+/// Where it is to begin at a line, what comes before is known and was shown.
+Permission approach_ready(const Workbench& now) {
+    if (!now.session.begin.on) {
+        return {};
+    }
+    if (!now.approach || !(now.approach->wish.begin == now.session.begin)) {
+        return Permission::refused("The approach to the line is being worked out.");
+    }
+    return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
+}
+
 machine::Job file_job(const JobSource& source) {
     const project::OpenedProgram& opened = *source.opened;
     if (source.as_text) {
@@ -57,6 +68,11 @@ Permission program_ready(const Workbench& now) {
     return now.plan->exact ? Permission{} : Permission::refused("The program is still being computed.");
 }
 
+Permission job_ready(const Workbench& now) {
+    const Permission program = program_ready(now);
+    return program.allowed ? approach_ready(now) : program;
+}
+
 JobSource job_source(const Workbench& now) {
     expects(program_ready(now).allowed, "there is a program");
     JobSource source;
@@ -78,6 +94,10 @@ machine::Job make_job(const JobSource& source) {
     job.name = source.name;
     job.project = source.file.empty() ? source.name : source.file.string();
     return job;
+}
+
+machine::Job wanted_job(const Workbench& now) {
+    return now.session.begin.on ? *now.approach->job : make_job(job_source(now));
 }
 
 } // namespace millwright::actions

@@ -28,10 +28,15 @@ struct JobSource {
 /// Whether there is a program that can be sent to what is connected, else to a virtual machine.
 [[nodiscard]] widgets::Permission program_ready(const Workbench& now);
 
+/// The same, and where it is to begin at a line, what comes before is known and was shown.
+[[nodiscard]] widgets::Permission job_ready(const Workbench& now);
+
 /// Of what is shown. Only where program_ready() says yes.
 [[nodiscard]] JobSource job_source(const Workbench& now);
 
 /// Takes the time to copy the text of a long program. Throws Error for a text without a block.
 [[nodiscard]] machine::Job make_job(const JobSource& source);
+/// Of what is shown, from the line where it is to begin. Only where job_ready() says yes.
+[[nodiscard]] machine::Job wanted_job(const Workbench& now);
 
 } // namespace millwright::actions

@@ -40,27 +40,12 @@ Permission machine_ready(const Workbench& now) {
                : Permission::refused("The machine is moving.");
 }
 
-/// Where it is to begin at a line, what comes before is known and was shown.
-Permission approach_ready(const Workbench& now) {
-    if (!now.session.begin.on) {
-        return {};
-    }
-    if (!now.approach || !(now.approach->wish.begin == now.session.begin)) {
-        return Permission::refused("The approach to the line is being worked out.");
-    }
-    return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
-}
-
 Permission can_run(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
-    for (const Permission& permission : {program_ready(now), approach_ready(now)}) {
-        if (!permission.allowed) {
-            return permission;
-        }
-    }
-    return machine_ready(now);
+    const Permission job = job_ready(now);
+    return job.allowed ? machine_ready(now) : job;
 }
 
 template <DriverState state> Permission driver_is(const Workbench& now) {
@@ -70,8 +55,20 @@ template <DriverState state> Permission driver_is(const Workbench& now) {
                                                                   : "No job is being held.");
 }
 
-Permission job_runs(const Workbench& now) {
-    return now.job.running ? Permission{} : Permission::refused("No job is running.");
+/// A job, or what a person has told the machine to do by hand.
+Permission can_stop(const Workbench& now) {
+    const DriverState state = now.controller.status.state;
+    const bool by_hand =
+        now.controller.connected() && (state == DriverState::running || state == DriverState::holding);
+    return now.job.running || by_hand ? Permission{} : Permission::refused("Nothing moves.");
+}
+
+void stop(Hands& hands) {
+    if (hands.now.job.running) {
+        hands.jobs.stop();
+    } else {
+        hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+    }
 }
 
 /// On what is connected, else on a virtual machine.
@@ -89,18 +86,32 @@ void start(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {}) {
     }
 }
 
-machine::Job wanted_job(const Workbench& now) {
-    return now.session.begin.on ? *now.approach->job : make_job(job_source(now));
-}
-
+/// The program has to be there when the window is opened again.
 Permission can_add(const Workbench& now) {
-    const Permission program = program_ready(now);
-    return program.allowed ? approach_ready(now) : program;
+    if (!now.in_file() && (now.document.file.empty() || now.changed())) {
+        return Permission::refused("Save the project first: a job of the queue is read from its file.");
+    }
+    return job_ready(now);
 }
 
 void add_to_queue(Hands& hands) {
-    (void)hands.workshop.queue().add(wanted_job(hands.now));
+    (void)hands.workshop.queue().open().add(wanted_job(hands.now));
     hands.session.begin = {};
+}
+
+/// A job is made for a controller that plans for itself, or for a machine that is moved here.
+Permission suits_machine(const Workbench& now, const machine::QueuedJob& job) {
+    if (!job.has_program) {
+        return Permission::refused(job.name +
+                                   " was added before Millwright was started: \u201cOpen program\u201d "
+                                   "reads it again.");
+    }
+    const bool needs_motion = !(now.controller.connected() && now.controller.can.plans);
+    return needs_motion == job.has_motion
+               ? Permission{}
+               : Permission::refused(job.name +
+                                     " was added for another kind of machine: \u201cOpen program\u201d "
+                                     "makes it anew for this one.");
 }
 
 Permission can_run_next(const Workbench& now) {
@@ -116,21 +127,17 @@ Permission can_run_next(const Workbench& now) {
         return Permission::refused(next->name + " did not end well and holds the queue: look at the machine, "
                                                 "then release or remove it.");
     }
-    return machine_ready(now);
+    const Permission suits = suits_machine(now, *next);
+    return suits.allowed ? machine_ready(now) : suits;
 }
 
 /// The queue hears how it ends; what keeps it from starting holds the queue, too.
 void run_next(Hands& hands) {
-    machine::JobQueue& queue = hands.workshop.queue();
+    StoredQueue& stored = hands.workshop.queue();
+    machine::JobQueue& queue = stored.open();
     machine::Job job = queue.begin(queue.next().value().id);
     try {
-        start(hands, std::move(job), [&queue](const JobEnding& ending) {
-            if (ending.outcome) {
-                queue.ended(*ending.outcome);
-            } else {
-                queue.failed(ending.failure);
-            }
-        });
+        start(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
     } catch (const Error& error) {
         queue.failed(error.what());
         throw;
@@ -182,7 +189,7 @@ void add_queue_actions(Actions& actions) {
             });
             return any ? Permission{} : Permission::refused("No job is done.");
         },
-        [](Hands& hands) { hands.workshop.queue().remove_done(); });
+        [](Hands& hands) { hands.workshop.queue().open().remove_done(); });
 }
 
 void add_machine_actions(Actions& actions) {
@@ -209,9 +216,14 @@ void add_machine_actions(Actions& actions) {
         driver_is<DriverState::holding>,
         [](Hands& hands) { hands.jobs.resume(); });
     add(actions,
-        {"machine.stop", "Machine", "Stop", "Brakes along the path and ends the job.", "F12", icons::stop},
-        job_runs,
-        [](Hands& hands) { hands.jobs.stop(); });
+        {"machine.stop",
+         "Machine",
+         "Stop",
+         "Brakes along the path and ends the job, or what the machine does by hand.",
+         "F12",
+         icons::stop},
+        can_stop,
+        stop);
     add(actions,
         {"machine.emergency_stop", "Machine", "Emergency stop", "Stops at once.", "F8", icons::danger},
         can_stop_at_once,

@@ -44,6 +44,8 @@ struct Workbench {
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
     const ProcessorBench& processor;
     std::vector<machine::QueuedJob> queue; ///< in their order
+    const std::optional<Diagnostic>&
+        queue_problem; ///< why its file is not open; nothing: it is, or there is none
 
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

@@ -28,7 +28,8 @@ void drop_lost_selection(Session& session, const project::Project& project) {
 } // namespace
 
 Workshop::Workshop(WorkshopOptions options)
-    : options_(std::move(options)), history_(starting_project()), session_(new_session()) {
+    : options_(std::move(options)), history_(starting_project()), session_(new_session()),
+      queue_(options_.log_folder / "queue.json") {
     documents_.push_back({{}, history_.current()});
     guarded([this] { recent_ = project::read_recent(options_.settings); });
     guarded([this] { start_autosave(); });
@@ -66,7 +67,8 @@ Workbench Workshop::look() const {
             job_recovery_->broken(),
             gamepad_,
             processor_,
-            queue_.jobs()};
+            queue_.jobs(),
+            queue_.problem()};
 }
 
 void Workshop::request_plan() {
@@ -115,6 +117,7 @@ void Workshop::perform(ActionQueue& asked, bool focused) {
     }
     const bool allowed = focused && !look().asks() && !session_.quit;
     guarded([&] { jog_->follow(wish, allowed); });
+    queue_.rest();
     follow_autosave();
 }
 
@@ -139,6 +142,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 bool Workshop::advance(double seconds) {
     follow_file();
     follow_begin();
+    follow_queue();
     const bool processed = follow_processor(seconds);
     Playback& playback = session_.playback;
     const double duration = look().duration();

@@ -2,9 +2,9 @@
 // app builds it and hands it to the window. Everything that changes passes through perform().
 #pragma once
 
-#include "core/machine/job_queue.h"
 #include "core/project/autosave.h"
 #include "ui/actions/action.h"
+#include "ui/actions/stored_queue.h"
 
 #include <chrono>
 #include <filesystem>
@@ -89,7 +89,10 @@ public:
     /// next. Nothing moves. Throws Error if it cannot be opened.
     void continue_broken_job();
     /// Of jobs that wait for a person's word.
-    [[nodiscard]] machine::JobQueue& queue() { return queue_; }
+    [[nodiscard]] StoredQueue& queue() { return queue_; }
+    /// Opens the program of a job that waits, and gives it to the job once it is read, made for the machine
+    /// that is connected then. Nothing moves. Throws Error if it cannot be opened.
+    void open_queued(machine::QueuedJobId id);
     [[nodiscard]] JobRecovery& job_recovery() { return *job_recovery_; }
 
     /// The good end: no copy of unsaved work stays.
@@ -132,6 +135,7 @@ private:
     void request_plan();
     void follow_job();
     void follow_begin();
+    void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
     void guarded(const std::function<void()>& action);
 
@@ -147,7 +151,7 @@ private:
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<project::Pipeline> pipeline_;
     std::unique_ptr<project::ProgramReader> reader_;
-    machine::JobQueue queue_;                ///< before the jobs that it hears of
+    StoredQueue queue_;                      ///< before the jobs that it hears of
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
     ProcessorBench processor_;
@@ -155,8 +159,9 @@ private:
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
-    bool tells_of_file_ = false; ///< it is being read: how that ended is still to be told
-    bool follows_job_ = false;   ///< a job was running when it was last looked at
+    std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
+    bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
+    bool follows_job_ = false;                    ///< a job was running when it was last looked at
 };
 
 } // namespace millwright::actions

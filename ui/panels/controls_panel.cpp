@@ -31,16 +31,34 @@ Permission can_override(const machine::Capabilities& can, bool feed) {
                                        : Permission::refused("This machine overrides the feed alone.");
 }
 
+/// The steps that controllers have: Grbl knows no others.
+void rapid_row(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const machine::Overrides& all = now.controller.status.overrides;
+    const Permission can = can_override(now.controller.can, false);
+    ui.value("rapid", "Rapid", fmt::format("{}", all.rapid), "%");
+    const auto row = ui.row(3);
+    for (const int percent : {25, 50, 100}) {
+        if (ui.button(fmt::format("rapid_{}", percent),
+                      fmt::format("{} %", percent),
+                      can,
+                      {{}, Rank::normal, -1.0F, {}})) {
+            machine::Overrides wanted = all;
+            wanted.rapid = percent;
+            ask.set_overrides(wanted);
+        }
+    }
+}
+
 /// -10 %, the value, +10 %, back to 100 %.
 void override_row(Ui& ui,
                   const Workbench& now,
                   ActionQueue& ask,
                   const std::string& id,
                   std::string_view label,
-                  int machine::Overrides::*which,
-                  int step,
-                  int least,
-                  int most) {
+                  int machine::Overrides::*which) {
+    constexpr int step = 10;
+    constexpr int least = 10;
+    constexpr int most = 200;
     const machine::Overrides& all = now.controller.status.overrides;
     const Permission can = can_override(now.controller.can, which == &machine::Overrides::feed);
     const auto set = [&](int percent) {
@@ -89,11 +107,12 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
                  1},
                 hand.probe_way_mm,
                 &actions::HandSettings::probe_way_mm);
-    hand_number(ui,
-                ask,
-                {"probe_speed", "at", "mm/min", "Slow: it touches at this speed", 1.0, 2000.0, no_default, 0},
-                hand.probe_mm_per_min,
-                &actions::HandSettings::probe_mm_per_min);
+    hand_number(
+        ui,
+        ask,
+        {"probe_speed", "Probe at", "mm/min", "Slow: it touches at this speed", 1.0, 2000.0, no_default, 0},
+        hand.probe_mm_per_min,
+        &actions::HandSettings::probe_mm_per_min);
     const auto z = axis_named(machine, 'Z');
     Permission can =
         machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
@@ -128,9 +147,9 @@ void ControlsPanel::draw_overrides(Ui& ui, const Workbench& now, ActionQueue& as
     if (!section) {
         return;
     }
-    override_row(ui, now, ask, "feed", "Feed", &machine::Overrides::feed, 10, 10, 200);
-    override_row(ui, now, ask, "rapid", "Rapid", &machine::Overrides::rapid, 25, 25, 100);
-    override_row(ui, now, ask, "spindle", "Spindle", &machine::Overrides::spindle, 10, 10, 200);
+    override_row(ui, now, ask, "feed", "Feed", &machine::Overrides::feed);
+    rapid_row(ui, now, ask);
+    override_row(ui, now, ask, "spindle", "Spindle", &machine::Overrides::spindle);
 }
 
 void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -140,9 +159,14 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
     const machine::DriverStatus& status = now.controller.status;
     const Permission can = can_command(now.controller);
+    // linuxcncrsh ends when it is asked for its spindle.
+    const bool tells_spindle = now.controller.choice.kind != machine::DriverKind::linuxcnc;
     const bool turning = status.spindle != gcode::SpindleTurning::stopped;
-    ui.value(
-        "state", "Spindle", turning ? fmt::format("{:.0f} rpm", status.spindle_rpm) : std::string("stopped"));
+    ui.value("state",
+             "Spindle",
+             !tells_spindle ? std::string("not told")
+             : turning      ? fmt::format("{:.0f} rpm", status.spindle_rpm)
+                            : std::string("stopped"));
     const double rpm = now.session.hand.spindle_rpm;
     hand_number(ui,
                 ask,

@@ -2,6 +2,7 @@
 
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/notices.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
@@ -38,6 +39,11 @@ int waiting_count(const Workbench& now) {
     return static_cast<int>(std::ranges::count(now.queue, QueueState::waiting, &QueuedJob::state));
 }
 
+std::string what_happened(const QueuedJob& job) {
+    const bool unread = !job.has_program && job.state != QueueState::done;
+    return job.sentence.empty() && unread ? "Its program is to be read again before it runs." : job.sentence;
+}
+
 } // namespace
 
 const QueuedJob* QueuePanel::chosen(const Workbench& now) const {
@@ -47,6 +53,14 @@ const QueuedJob* QueuePanel::chosen(const Workbench& now) const {
 
 void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto scope = ui.scope("queue");
+    if (now.queue_problem) {
+        (void)widgets::banner(ui, "problem", {widgets::Severity::warning, to_text(*now.queue_problem), {}});
+        if (ui.button(
+                "retry", "Try again", {}, {icons::redo, Rank::quiet, -1.0F, "Reads the queue's file"})) {
+            ask.queue([](JobQueue&) {});
+        }
+        return;
+    }
     draw_buttons(ui, now, ask);
     draw_table(ui, now);
 }
@@ -64,7 +78,7 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
     const Permission held = job == nullptr                   ? none
                             : job->state == QueueState::held ? Permission{}
                                                              : Permission::refused("It is not held.");
-    const auto row = ui.row(7);
+    const auto row = ui.row(8);
     action_button(ui, now, ask, catalogue_, "queue.run_next", Rank::primary, "Run next");
     action_button(ui, now, ask, catalogue_, "queue.add", Rank::normal, "Add this");
     const auto on_chosen = [&](std::string_view id,
@@ -76,6 +90,18 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
             ask.queue([change, which = job->id](JobQueue& queue) { change(queue, which); });
         }
     };
+    const Permission openable = job == nullptr || waits.allowed || held.allowed
+                                    ? (job == nullptr ? none : Permission{})
+                                    : Permission::refused("Only a job that waits or is held is begun.");
+    if (ui.button("open",
+                  "Open program",
+                  openable,
+                  {{},
+                   Rank::normal,
+                   -1.0F,
+                   "Reads the job's program again, for the machine that is connected. Nothing moves"})) {
+        ask.open_queued(job->id);
+    }
     on_chosen("earlier",
               "Earlier",
               waits.allowed && place == 0 ? Permission::refused("It is the first that waits.") : waits,
@@ -114,7 +140,7 @@ void QueuePanel::draw_table(Ui& ui, const Workbench& now) {
                                                std::string(to_text(job.state)),
                                                fmt::format("{}", job.blocks),
                                                fmt::format("{}", job.from_line),
-                                               job.sentence};
+                                               what_happened(job)};
         return cells[static_cast<std::size_t>(column)];
     };
     view.row_id = [&](std::ptrdiff_t row) {

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <queue>
+#include <set>
 
 namespace millwright::viewport {
 
@@ -93,12 +96,57 @@ void append(std::vector<std::uint16_t>& indices, const PathChunk& chunk, const P
     indices.insert(indices.end(), first, first + chosen.count);
 }
 
+/// Where on the screen a stretch that is drawn as one line begins and ends, in squares; and its kind.
+using Squares = std::array<std::int64_t, 5>;
+
+std::optional<Squares>
+squares_of(const PathChunk& chunk, const PathBlock& block, const render::View& view, double square_px) {
+    constexpr int coarsest = static_cast<int>(PathBlock::coarse_levels) - 1;
+    if (points_of(block, coarsest) != 2) {
+        return std::nullopt;
+    }
+    const auto point = [&](std::uint32_t n) { return chunk.points[block.first + n]; };
+    const auto seen = [&](std::uint32_t n) {
+        const float* at = point(n).xyz();
+        return render::project(view, {at[0], at[1], at[2]});
+    };
+    const auto from = seen(0);
+    const auto to = seen(block.count - 1);
+    if (!from || !to) {
+        return std::nullopt;
+    }
+    const auto square = [&](double pixel) { return std::llround(pixel / square_px); };
+    return Squares{square(from->pixel.x),
+                   square(from->pixel.y),
+                   square(to->pixel.x),
+                   square(to->pixel.y),
+                   static_cast<std::int64_t>(point(block.count - 1).kind())};
+}
+
+/// Of lines that look the same the first stays. `chosen` is in the order of the path.
+void drop_covered(std::vector<Candidate>& chosen,
+                  std::span<const std::shared_ptr<const PathChunk>> chunks,
+                  const render::View& view,
+                  double square_px) {
+    constexpr int coarsest = static_cast<int>(PathBlock::coarse_levels) - 1;
+    std::set<Squares> taken;
+    std::erase_if(chosen, [&](const Candidate& one) {
+        if (one.level != coarsest) {
+            return false;
+        }
+        const PathChunk& chunk = *chunks[one.chunk];
+        const auto squares = squares_of(chunk, chunk.blocks[one.block], view, square_px);
+        return squares && !taken.insert(*squares).second;
+    });
+}
+
 } // namespace
 
 std::vector<std::vector<std::uint16_t>>
 pieces_in_sight(std::span<const std::shared_ptr<const PathChunk>> chunks,
                 const render::View& view,
-                std::size_t most_points) {
+                std::size_t most_points,
+                double same_px) {
     const auto planes = planes_of(view);
     constexpr int coarsest = static_cast<int>(PathBlock::coarse_levels) - 1;
     std::priority_queue<Candidate> open;
@@ -133,6 +181,9 @@ pieces_in_sight(std::span<const std::shared_ptr<const PathChunk>> chunks,
     std::ranges::sort(settled, [](const Candidate& a, const Candidate& b) {
         return a.chunk != b.chunk ? a.chunk < b.chunk : a.block < b.block;
     });
+    if (same_px > 0.0) {
+        drop_covered(settled, chunks, view, same_px);
+    }
     std::vector<std::vector<std::uint16_t>> indices(chunks.size());
     for (const Candidate& chosen : settled) {
         const PathChunk& chunk = *chunks[chosen.chunk];

@@ -238,6 +238,9 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
     }
     const double code = internal::read_number(ahead);
     if (code > 97.9 && code < 98.1) {
+        if (is_grbl()) {
+            internal::refuse(cursor.column(), "Grbl does not know M98 (error 20)");
+        }
         line.clear();
         internal::parse_words(ahead, run.variables, line);
         flow.call_fanuc(line.block);

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace millwright::test {
 
@@ -18,13 +19,27 @@ public:
         port_ = terminal->path().string();
         std::vector<std::unique_ptr<machine::Link>> links;
         links.push_back(std::move(terminal));
-        server_ = std::make_unique<machine::GrblServer>(std::move(links), clock_);
+        machine::GrblEmulatorOptions options;
+        options.surface = [](double, double) { return part_height; };
+        server_ = std::make_unique<machine::GrblServer>(std::move(links), clock_, std::move(options));
         server_->with_controller([](machine::GrblEmulator& grbl) {
             grbl.receive("$120=500\n$121=500\n$122=500\n$110=3000\n$111=3000\n$112=3000\n$20=0\n");
         });
     }
 
     static constexpr double acceleration = 500.0; // mm/s^2
+    static constexpr double part_height = -7.25;  ///< mm, machine coordinates: where a probe touches
+
+    /// All that it has accepted so far.
+    [[nodiscard]] std::vector<std::string> lines() {
+        std::vector<std::string> texts;
+        server_->with_controller([&](machine::GrblEmulator& grbl) {
+            for (const machine::TruthLine& line : grbl.truth().lines) {
+                texts.push_back(line.text);
+            }
+        });
+        return texts;
+    }
 
     [[nodiscard]] const std::string& port() const { return port_; }
     [[nodiscard]] bool moving() {

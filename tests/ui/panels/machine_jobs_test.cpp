@@ -2,10 +2,8 @@
 #include "core/base/files.h"
 #include "core/machine/job.h"
 #include "core/machine/job_log.h"
-#include "core/machine/job_queue.h"
 #include "tests/support/scratch_folder.h"
-#include "tests/ui/panels/grbl_bench.h"
-#include "tests/ui/panels/person.h"
+#include "tests/ui/panels/at_machine.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +15,7 @@ namespace millwright::panels {
 namespace {
 
 using actions::Workspace;
-using machine::DriverKind;
-using machine::DriverState;
+using test::connect;
 using test::GrblBench;
 using test::Person;
 using testing::HasSubstr;
@@ -43,24 +40,6 @@ constexpr int middle = 11;
 
 class MachineJobs : public ::testing::Test {
 protected:
-    [[nodiscard]] static bool is(Person& person, DriverState state) {
-        const auto machine = person.workshop().look().controller;
-        return machine.connected() && machine.status.state == state;
-    }
-
-    static void connect(Person& person, GrblBench& grbl) {
-        person.workshop().run("view.machine");
-        person.workshop().session().hand.choice.kind = DriverKind::grbl;
-        person.workshop().session().hand.choice.address = grbl.port();
-        person.frames(3);
-        person.click("inspector/connection/machine_connect");
-        ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
-        if (is(person, DriverState::alarm)) {
-            person.workshop().run("machine.reset");
-        }
-        ASSERT_TRUE(person.live_until([&] { return is(person, DriverState::idle); }));
-    }
-
     static std::filesystem::path program(const std::filesystem::path& folder) {
         write_file(folder / "part.ngc", far_first);
         return folder / "part.ngc";
@@ -106,8 +85,8 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     person.wait_idle();
     const auto approach = person.workshop().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
-    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("G0 Z5.000000")));
-    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("X6.000000 Y3.000000")));
+    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("G0 Z5")));
+    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("X6 Y3")));
     person.keep("machine-from-line");
     EXPECT_FALSE(grbl.moving());
 
@@ -141,67 +120,6 @@ TEST_F(MachineJobs, SayWhyALineIsNoPlaceToBegin) {
     person.workshop().run("machine.run");
     person.frames(5);
     EXPECT_FALSE(person.workshop().look().job.running);
-}
-
-TEST_F(MachineJobs, WaitInAQueueAndBeginOneByOneByAPersonsWord) {
-    GrblBench grbl;
-    Person person;
-    connect(person, grbl);
-    const auto to_x = [&](const std::string& name, int x) {
-        const auto file = person.folder() / (name + ".ngc");
-        write_file(file, "G21 G90 G94\nG1 F3000 X" + std::to_string(x) + "\nM2\n");
-        person.open(file);
-        person.workshop().run("view.machine");
-        person.frames(3);
-        person.click("lower/queue/queue_add");
-    };
-    person.click("lower/tabs/queue");
-    to_x("first", 2);
-    to_x("second", 4);
-    to_x("third", 6);
-    person.click("lower/queue/jobs/job2");
-    person.click("lower/queue/later"); // first, third, second
-    person.keep("machine-queue");
-    EXPECT_FALSE(grbl.moving());
-    const auto done = [&] {
-        return std::ranges::count(
-            person.workshop().look().queue, machine::QueueState::done, &machine::QueuedJob::state);
-    };
-    const auto run_next = [&](double x) {
-        ASSERT_TRUE(person.live_until([&] { return is(person, DriverState::idle); }));
-        person.frames(2);
-        const auto before = done();
-        person.click("lower/queue/queue_run_next");
-        ASSERT_TRUE(person.live_until(
-            [&] { return done() == before + 1 && !person.workshop().look().job.running; }, 60.0));
-        EXPECT_NEAR(grbl.position()[0], x, 0.01);
-        person.frames(20);
-        EXPECT_FALSE(person.workshop().look().job.running); // the next waits for its word
-    };
-    run_next(2.0);
-    run_next(6.0);
-    const auto queue = person.workshop().look().queue;
-    ASSERT_EQ(queue.size(), 3U);
-    EXPECT_EQ(queue[1].name, "third");
-    EXPECT_EQ(queue[1].state, machine::QueueState::done);
-    EXPECT_EQ(queue[2].state, machine::QueueState::waiting);
-
-    // A job that does not end well holds what is behind it until a person has decided.
-    ASSERT_TRUE(person.live_until([&] { return is(person, DriverState::idle); }));
-    person.frames(2);
-    person.click("lower/queue/queue_run_next");
-    person.workshop().run("machine.emergency_stop");
-    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
-    ASSERT_TRUE(person.live_until(
-        [&] { return person.workshop().look().queue[2].state == machine::QueueState::held; }));
-    person.frames(3);
-    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("second did not end well"));
-    person.keep("machine-queue-held");
-    person.click("lower/queue/queue_remove_done");
-    EXPECT_EQ(person.workshop().look().queue.size(), 1U);
-    person.click("lower/queue/jobs/job2");
-    person.click("lower/queue/release");
-    EXPECT_EQ(person.workshop().look().queue[0].state, machine::QueueState::waiting);
 }
 
 TEST_F(MachineJobs, OfTheVirtualMachineBeginAtALineToo) {

@@ -120,6 +120,53 @@ TEST(ProgramFile, PlaysThroughItsLines) {
     EXPECT_GT(here(person).line, line);
 }
 
+TEST(ProgramFile, IsScrubbedOnTheTimelineAndInThePlots) {
+    Person person;
+    person.open(program(person, finishing(300)));
+    ASSERT_TRUE(person.workshop().look().opened->motion);
+    const double whole = person.workshop().look().duration();
+    const widgets::Rect track = person.place("timeline/timeline/track");
+    person.drag({track.x + 0.1F * track.w, track.centre().y}, {track.x + 0.6F * track.w, track.centre().y});
+    EXPECT_NEAR(person.workshop().look().time(), 0.6 * whole, 0.02 * whole);
+    const int line = here(person).line;
+    EXPECT_GT(line, 5);
+    for (const char* shown : {"feed", "axes"}) {
+        person.click("lower/shown/" + std::string(shown));
+        const widgets::Rect plot = person.place("lower/motion");
+        const double before = person.workshop().look().time();
+        person.click_at({plot.x + 0.25F * plot.w, plot.centre().y});
+        EXPECT_LT(person.workshop().look().time(), before) << shown;
+        person.keep(std::string("program-plot-") + shown);
+        person.click_at({plot.x + 0.8F * plot.w, plot.centre().y});
+        EXPECT_GT(person.workshop().look().time(), before) << shown;
+    }
+    EXPECT_NE(here(person).line, line);
+    EXPECT_TRUE(person.sees("inspector/modal/limit"));
+}
+
+TEST(ProgramFile, ShowsWhatIsInForceAtTheCursor) {
+    Person person({1280, 1400});
+    person.open(program(person, "G21 G90 G17\nT3\nM3 S900\nM8\nG55\nG91 G20\nG1 X1 F30\nM5 M9\nM2\n"));
+    const auto at = [&](int line) {
+        person.fill_in("program/line", std::to_string(line));
+        const auto place = here(person);
+        EXPECT_EQ(place.line, line);
+        return person.workshop().look().opened->execution->state_after(place.step);
+    };
+    EXPECT_EQ(at(1).coordinate_system, 1);
+    EXPECT_FALSE(at(1).incremental);
+    const gcode::ModalView later = at(7);
+    EXPECT_EQ(later.coordinate_system, 2);
+    EXPECT_TRUE(later.incremental);
+    EXPECT_EQ(later.unit, gcode::LengthUnit::inch);
+    EXPECT_TRUE(later.flood);
+    for (const char* field :
+         {"motion", "feed", "spindle", "coolant", "tool", "distance", "units", "plane", "system"}) {
+        EXPECT_TRUE(person.sees("inspector/modal/" + std::string(field))) << field;
+    }
+    EXPECT_FALSE(at(8).flood);
+}
+
 TEST(ProgramFile, FindsWordsForwardBackwardAndAround) {
     Person person;
     person.open(program(person, "G21 G90 F600\nG1 X10\n(needle)\nG1 X20\n(NEEDLE too)\nG1 X0\nM2\n"));

@@ -89,6 +89,21 @@ std::size_t drawn(const std::vector<std::vector<std::uint16_t>>& indices) {
     return count;
 }
 
+std::vector<glm::dvec2> pixels_of(const gcode::PreviewPath& path,
+                                  const std::vector<std::vector<std::uint16_t>>& indices,
+                                  const render::View& view) {
+    std::vector<glm::dvec2> pixels;
+    for (std::size_t c = 0; c < indices.size(); ++c) {
+        for (const std::uint16_t n : indices[c]) {
+            if (n != render::path_restart) {
+                const Vec3 at = path.chunks[c]->points[n].position();
+                pixels.push_back(render::project(view, {at.x(), at.y(), at.z()})->pixel);
+            }
+        }
+    }
+    return pixels;
+}
+
 /// Of all chunks, one behind the other.
 std::vector<bool> drawn_blocks(const gcode::PreviewPath& path,
                                const std::vector<std::vector<std::uint16_t>>& indices) {
@@ -112,6 +127,35 @@ bool any_in_picture(const gcode::PathChunk& chunk, const gcode::PathBlock& block
         return seen && seen->pixel.x >= 0.0 && seen->pixel.x <= size.width && seen->pixel.y >= 0.0 &&
                seen->pixel.y <= size.height;
     });
+}
+
+TEST(PiecesInSight, LeaveOutLinesThatCoverEachOtherAndNoOther) {
+    // Straight passes, each of which is one block: 40 a millimetre, all over the picture.
+    constexpr int passes = 4000;
+    gcode::PreviewPath path;
+    gcode::PathChunker chunker;
+    gcode::Step step = 0;
+    for (int pass = 0; pass < passes; ++pass) {
+        for (int n = 0; n < 1023; ++n) {
+            const double along = pass % 2 == 0 ? n : 1022 - n;
+            chunker.add({Vec3(0.1 * along, pass / 40.0, 0.0), step++, gcode::PathKind::feed}, 1.0);
+            if (auto full = chunker.take_full()) {
+                path.chunks.push_back(std::move(full));
+            }
+        }
+    }
+    const render::View view = from_above(path, 1.0);
+    const auto all = pieces_in_sight(path.chunks, view, 1);
+    const auto thinned = pieces_in_sight(path.chunks, view, 1, 1.0);
+    EXPECT_GT(drawn(all), 7000U);
+    EXPECT_LT(drawn(thinned), drawn(all) / 2);
+    // The ends of all lines are still within a pixel and a half of one that is drawn.
+    const auto ends = pixels_of(path, thinned, view);
+    for (const glm::dvec2& pixel : pixels_of(path, all, view)) {
+        ASSERT_TRUE(
+            std::ranges::any_of(ends, [&](const glm::dvec2& end) { return glm::length(end - pixel) < 1.5; }))
+            << pixel.x << " " << pixel.y;
+    }
 }
 
 TEST(PiecesInSight, KeepWithinTheLimitAndUseIt) {

@@ -24,6 +24,8 @@ constexpr int chunks_an_update = 4; // about 2 ms each without a graphics card
 // What takes a processor of 2 GHz about 25 and 100 ms without a graphics card.
 constexpr std::size_t points_while_moving = 25'000;
 constexpr std::size_t points_at_rest = 100'000;
+// Of ten thousand passes from afar most cover each other: drawing them all takes longer than their points.
+constexpr double same_while_moving_px = 1.0;
 constexpr double tool_share = 0.025; // radius of the tool to that of the path
 constexpr float rapid_opacity = 0.55F;
 constexpr float current_width_px = 3.0F;
@@ -130,8 +132,10 @@ private:
         style.done_color = kind_colors(colors.selected, colors.rapid, colors.selected);
         style.model = canvas.s_T_w;
         const bool moving = canvas.edges == render::Edges::rough || !scene.opened->finished;
-        const auto chosen = pieces_in_sight(
-            shown_, path_view(canvas.view, scene), moving ? points_while_moving : points_at_rest);
+        const auto chosen = pieces_in_sight(shown_,
+                                            path_view(canvas.view, scene),
+                                            moving ? points_while_moving : points_at_rest,
+                                            moving ? same_while_moving_px : 0.0);
         const std::int64_t done =
             scene.opened_now && scene.layers.trace ? scene.opened_now->place.point - 1 : 0;
         for (std::size_t k = 0; k < shown_.size(); ++k) {

@@ -61,12 +61,40 @@ std::optional<double> parameter_at(Cursor& cursor, const Variables& variables) {
     return Variables::is_number(number) ? std::optional<double>(variables.numbered(number, 1)) : std::nullopt;
 }
 
+/// What %d, %f or %.N behind a % says of the values that follow; nothing where it says nothing.
+struct Format {
+    int decimals = 6;
+    std::size_t length = 0; ///< characters behind the %
+};
+
+std::optional<Format> format_at(std::string_view text) {
+    constexpr int decimals_of_f = 4;
+    if (text.starts_with('d')) {
+        return Format{0, 1};
+    }
+    if (text.starts_with('f')) {
+        return Format{decimals_of_f, 1};
+    }
+    if (text.size() > 2 && text[0] == '.' && is_digit(text[1]) && text[2] == 'f') {
+        return Format{text[1] - '0', 3};
+    }
+    return std::nullopt;
+}
+
 std::string expanded(std::string_view text, const Variables& variables) {
     std::string result;
+    int decimals = Format{}.decimals;
     Cursor cursor(text);
     while (cursor.position() != cursor.end()) {
         const char c = *cursor.position();
         cursor.advance();
+        const std::string_view rest(cursor.position(),
+                                    static_cast<std::size_t>(cursor.end() - cursor.position()));
+        if (const auto format = c == '%' ? format_at(rest) : std::nullopt) {
+            decimals = format->decimals;
+            cursor.move_to(cursor.position() + format->length);
+            continue;
+        }
         const bool at_parameter = c == '#' && cursor.position() != cursor.end() &&
                                   (is_digit(*cursor.position()) || *cursor.position() == '<');
         if (!at_parameter) {
@@ -75,7 +103,8 @@ std::string expanded(std::string_view text, const Variables& variables) {
         }
         const auto value = parameter_at(cursor, variables);
         constexpr double as_zero = 1e-6;
-        result += value ? fmt::format("{:f}", std::abs(*value) < as_zero ? 0.0 : *value) : "######";
+        result +=
+            value ? fmt::format("{:.{}f}", std::abs(*value) < as_zero ? 0.0 : *value, decimals) : "######";
     }
     return result;
 }

@@ -295,11 +295,11 @@ void make_cycle(Run& run, Block& block, int motion) {
     if ((motion == 730 || motion == 830) && !(hole.q > 0.0)) {
         refuse(block.column_of('Q'), fmt::format("Q of {} is more than 0", g_name(motion)));
     }
+    check_spindle(s, motion, column);
     if (memory.initial_level < hole.r) {
         s.position[axes.third] = hole.r;
         hole.rapid(hole.r);
     }
-    check_spindle(s, motion, column);
     go_exactly(run);
     repeat(hole, block, motion);
     go_as_before(run);

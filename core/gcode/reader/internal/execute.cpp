@@ -270,7 +270,7 @@ void execute_settings(Run& run, const Block& block) {
 void execute_line(Run& run, ParsedLine& line) {
     Block& block = line.block;
     if (run.settings.dialect == Dialect::grbl) {
-        apply_grbl_rules(block);
+        apply_grbl_rules(block, run.state);
     }
     refuse_codes_of_others(run, block);
     apply_word_rules(block, run.state);

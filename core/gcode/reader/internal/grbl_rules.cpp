@@ -22,11 +22,23 @@ constexpr std::array g_codes{0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 2
 constexpr std::array m_codes{0, 1, 2, 3, 4, 5, 7, 8, 9, 30};
 constexpr std::uint32_t letters = words_of("FGIJKLMNPRSTXYZ");
 
+/// Of a code that it does not know. One with a fraction it takes for the code before the point first.
+int error_of_unknown(int code) {
+    constexpr std::array checked_with_fraction{28, 30, 38, 43, 49, 61, 90, 91, 92};
+    const int whole = code / 10;
+    const bool known_without = std::find(g_codes.begin(), g_codes.end(), 10 * whole) != g_codes.end();
+    const bool checked = std::find(checked_with_fraction.begin(), checked_with_fraction.end(), whole) !=
+                         checked_with_fraction.end();
+    return code % 10 != 0 && known_without && !checked ? 23 : 20;
+}
+
 void check_codes(const Block& block) {
     for (std::size_t n = 0; n < g_group_count; ++n) {
         const bool given = ((block.g_groups >> n) & 1U) != 0;
         if (given && std::find(g_codes.begin(), g_codes.end(), block.g[n]) == g_codes.end()) {
-            refuse(block.g_column[n], fmt::format("Grbl does not know {} (error 20)", g_name(block.g[n])));
+            refuse(block.g_column[n],
+                   fmt::format(
+                       "Grbl does not know {} (error {})", g_name(block.g[n]), error_of_unknown(block.g[n])));
         }
     }
     for (std::size_t n = 0; n < m_group_count; ++n) {
@@ -46,6 +58,10 @@ void check_letters(const Block& block) {
             refuse(block.column_of(letter), fmt::format("Grbl does not know {} words (error 20)", letter));
         }
     }
+    constexpr double last_tool = 255.0;
+    if (block.value_or('T', 0.0) > last_tool) {
+        refuse(block.column_of('T'), "Grbl has tools up to 255 (error 38)");
+    }
 }
 
 void check_tool_length(const Block& block) {
@@ -57,29 +73,80 @@ void check_tool_length(const Block& block) {
     }
 }
 
-void check_arc(const Block& block) {
-    constexpr int clockwise = 20;
-    constexpr int counterclockwise = 30;
+bool is_arc(int motion) {
+    return motion == 20 || motion == 30;
+}
+
+/// The motion of this line, if it is an arc: its own, or the one in force.
+bool makes_arc(const Block& block, const ModalState& state) {
     const int motion = block.code(GGroup::motion);
-    if (motion != clockwise && motion != counterclockwise) {
+    return motion != no_code ? is_arc(motion)
+                             : is_arc(state.motion) && block.has_any(axis_words) &&
+                                   block.code(GGroup::non_modal) == no_code;
+}
+
+struct PlaneWords {
+    std::uint32_t axes, offsets;
+};
+
+PlaneWords words_of_plane(const Block& block, const ModalState& state) {
+    const int chosen = block.code(GGroup::plane);
+    const bool xz = chosen == no_code ? state.plane == Plane::xz : chosen == 180;
+    const bool yz = chosen == no_code ? state.plane == Plane::yz : chosen == 190;
+    return xz   ? PlaneWords{words_of("XZ"), words_of("IK")}
+           : yz ? PlaneWords{words_of("YZ"), words_of("JK")}
+                : PlaneWords{words_of("XY"), words_of("IJ")};
+}
+
+void check_arc(const Block& block, const ModalState& state) {
+    if (!makes_arc(block, state)) {
         return;
     }
+    const int column = block.code(GGroup::motion) == no_code ? 1 : block.column_of(GGroup::motion);
+    const PlaneWords plane = words_of_plane(block, state);
     if (!block.has_any(axis_words)) {
-        refuse(block.column_of(GGroup::motion), "an arc of Grbl needs axis words (error 26)");
+        refuse(column, "an arc of Grbl needs axis words (error 26)");
     }
-    if (block.has('P')) {
-        refuse(block.column_of('P'), "an arc of Grbl has one turn, without P (error 36)");
+    if (!block.has_any(plane.axes)) {
+        refuse(column, "an arc of Grbl needs an axis word of its plane (error 32)");
+    }
+    if (!block.has('R') && !block.has_any(plane.offsets)) {
+        refuse(column, "an arc needs its radius, R, or its centre in the plane (error 35)");
+    }
+    const std::uint32_t used = block.has('R') ? 0U : plane.offsets;
+    for (const char letter : {'I', 'J', 'K', 'P'}) {
+        if (block.has(letter) && (word_bit(letter) & used) == 0) {
+            refuse(block.column_of(letter), fmt::format("{} is not used by this arc (error 36)", letter));
+        }
     }
 }
 
 void check_g10(const Block& block) {
-    const double kind = block.value_or('L', 0.0);
-    const bool known = (kind > 1.5 && kind < 2.5) || (kind > 19.5 && kind < 20.5);
-    if (block.code(GGroup::non_modal) == 100 && !known) {
-        refuse(block.column_of(GGroup::non_modal), "G10 of Grbl needs L2 or L20 (error 20)");
+    constexpr int set_data = 100;
+    if (block.code(GGroup::non_modal) != set_data) {
+        return;
     }
-    if (block.code(GGroup::non_modal) == 100 && block.value_or('P', 0.0) > 6.0) {
+    const int column = block.column_of(GGroup::non_modal);
+    if (!block.has_any(axis_words)) {
+        refuse(column, "G10 of Grbl needs axis words (error 26)");
+    }
+    if (!block.has('L') && !block.has('P')) {
+        refuse(column, "G10 of Grbl needs L and P (error 28)");
+    }
+    if (block.value_or('P', 0.0) < 0.0) {
+        refuse(block.column_of('P'), "P of Grbl is not negative (error 4)");
+    }
+    if (block.value_or('P', 0.0) >= 7.0) {
         refuse(block.column_of('P'), "Grbl has coordinate systems 1 to 6, G54 to G59 (error 29)");
+    }
+    const int kind = static_cast<int>(block.value_or('L', 0.0));
+    if (kind != 2 && kind != 20) {
+        refuse(column, "G10 of Grbl needs L2 or L20 (error 20)");
+    }
+    if (block.has('R')) {
+        refuse(block.column_of('R'),
+               kind == 2 ? "G10 L2 of Grbl has no rotation (error 20)"
+                         : "R is not used by G10 L20 (error 36)");
     }
 }
 
@@ -104,10 +171,10 @@ void check_grbl_text(std::string_view line) {
     }
 }
 
-void apply_grbl_rules(const Block& block) {
+void apply_grbl_rules(const Block& block, const ModalState& state) {
     check_codes(block);
     check_letters(block);
-    check_arc(block);
+    check_arc(block, state);
     check_tool_length(block);
     check_g10(block);
 }

@@ -45,14 +45,40 @@ TEST(Grbl, RefusesWhatItDoesNotKnowByItsOwnErrorNumbers) {
     EXPECT_THAT(refusal("G43 H1"), HasSubstr("G43 (error 20)"));
     EXPECT_THAT(refusal("G64"), HasSubstr("G64 (error 20)"));
     EXPECT_THAT(refusal("M6"), HasSubstr("M6 (error 20)"));
-    EXPECT_THAT(refusal("G59.1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("G59.1"), HasSubstr("(error 23)"));
+    EXPECT_THAT(refusal("G90.1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("G92.2"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("M98 P1"), HasSubstr("M98 (error 20)"));
+    EXPECT_THAT(refusal("T256"), HasSubstr("(error 38)"));
     EXPECT_THAT(refusal("G0 A5"), HasSubstr("A words (error 20)"));
     EXPECT_THAT(refusal("G0 X[1+1]"), HasSubstr("(error 1)"));
     EXPECT_THAT(refusal("#1=5"), HasSubstr("(error 1)"));
     EXPECT_THAT(refusal("O1 call"), HasSubstr("(error 1)"));
     EXPECT_THAT(refusal("G1 F1\nG2 I5"), HasSubstr("(error 26)"));
     EXPECT_THAT(refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
+}
+
+TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
+    const auto arc = [](const std::string& words) { return refusal("G1 F1\n" + words); };
+    EXPECT_THAT(arc("G2 Z1 I1"), HasSubstr("(error 32)"));
+    EXPECT_THAT(arc("G18 G2 Y1 I1"), HasSubstr("(error 32)"));
+    EXPECT_THAT(arc("G2 X1"), HasSubstr("(error 35)"));
+    EXPECT_THAT(arc("G2 X1 K1"), HasSubstr("(error 35)"));
+    EXPECT_THAT(arc("G2 X1 Y1 I.5 J.5 K1"), HasSubstr("(error 36)"));
+    EXPECT_THAT(arc("G2 X1 R1 I1"), HasSubstr("(error 36)"));
+    EXPECT_THAT(arc("G2 X2 I1\nX4"), HasSubstr("(error 35)")); // still an arc
+    EXPECT_EQ(arc("G2 X2 I1\nG92 X4\nG1 X1"), "");
+    EXPECT_EQ(arc("G19 G3 Y2 J1\nY4 K0 J1"), "");
+}
+
+TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
+    EXPECT_THAT(refusal("G10 L2 P1"), HasSubstr("(error 26)"));
+    EXPECT_THAT(refusal("G10 X1"), HasSubstr("(error 28)"));
     EXPECT_THAT(refusal("G10 L2 P7 X1"), HasSubstr("(error 29)"));
+    EXPECT_THAT(refusal("G10 L2 P-1 X1"), HasSubstr("(error 4)"));
+    EXPECT_THAT(refusal("G10 L3 P1 X1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("G10 L2 P1 X1 R5"), HasSubstr("(error 20)"));
+    EXPECT_THAT(refusal("G10 L20 P1 X1 R5"), HasSubstr("(error 36)"));
 }
 
 TEST(Grbl, CountsTheCharactersThatItKeeps) {

@@ -1,0 +1,34 @@
+// What a person does at the Machine workspace before anything else.
+#pragma once
+
+#include "tests/ui/panels/grbl_bench.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::test {
+
+[[nodiscard]] inline bool machine_is(Person& person, machine::DriverState state) {
+    const auto machine = person.workshop().look().controller;
+    return machine.connected() && machine.status.state == state;
+}
+
+/// To what the session names; a machine that begins locked is unlocked.
+inline void connect(Person& person) {
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.click("inspector/connection/machine_connect");
+    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
+    if (machine_is(person, machine::DriverState::alarm)) {
+        person.workshop().run("machine.reset");
+    }
+    ASSERT_TRUE(person.live_until([&] { return machine_is(person, machine::DriverState::idle); }));
+}
+
+inline void connect(Person& person, GrblBench& grbl) {
+    person.workshop().session().hand.choice.kind = machine::DriverKind::grbl;
+    person.workshop().session().hand.choice.address = grbl.port();
+    connect(person);
+}
+
+} // namespace millwright::test
