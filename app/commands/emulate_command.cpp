@@ -145,9 +145,9 @@ int emulate_stream(const Options& options) {
 }
 
 int emulate_pmac(const Options& options) {
-    const machine::PmacEmulatorOptions wanted{
-        .plants = options.arm ? machine::arm_plants() : std::vector<machine::PmacPlant>{},
-        .channels = options.channels};
+    const machine::PmacEmulatorOptions wanted{.plants = options.arm ? machine::arm_plants()
+                                                                    : std::vector<machine::PmacPlant>{},
+                                              .channels = options.channels};
     return serve(options, "PMAC-Lite", [&] { return std::make_unique<machine::PmacEmulator>(wanted); });
 }
 

@@ -105,7 +105,9 @@ squares_of(const PathChunk& chunk, const PathBlock& block, const render::View& v
     if (points_of(block, coarsest) != 2) {
         return std::nullopt;
     }
-    const auto point = [&](std::uint32_t n) { return chunk.points[block.first + n]; };
+    const auto point = [&](std::uint32_t n) -> const gcode::PathPoint& {
+        return chunk.points[block.first + n];
+    };
     const auto seen = [&](std::uint32_t n) {
         const float* at = point(n).xyz();
         return render::project(view, {at[0], at[1], at[2]});

@@ -30,6 +30,12 @@ public:
     static constexpr double acceleration = 500.0; // mm/s^2
     static constexpr double part_height = -7.25;  ///< mm, machine coordinates: where a probe touches
 
+    /// Homing by switches, of a machine that is small enough not to take long.
+    void install_switches() {
+        server_->with_controller([](machine::GrblEmulator& grbl) {
+            grbl.receive("$130=30\n$131=30\n$132=30\n$24=300\n$25=1200\n$22=1\n");
+        });
+    }
     /// All that it has accepted so far.
     [[nodiscard]] std::vector<std::string> lines() {
         std::vector<std::string> texts;

@@ -50,6 +50,7 @@ protected:
 };
 
 TEST_F(MachineControls, HomeTheMachine) {
+    grbl.install_switches();
     press("inspector/finding/machine_home");
     ASSERT_TRUE(person.live_until([this] { return status().activity == machine::Activity::homing; }));
     EXPECT_NE(person.refusal("inspector/job/machine_run"), "");
@@ -65,7 +66,8 @@ TEST_F(MachineControls, ProbeThePartAndSayWhereItIs) {
     EXPECT_NEAR(status().probe->position[2], GrblBench::part_height, 0.05);
     ASSERT_TRUE(rests());
     EXPECT_TRUE(person.sees("inspector/finding/probed"));
-    EXPECT_NEAR(grbl.position()[2], GrblBench::part_height, 0.5); // it has braked behind the touch
+    EXPECT_LE(grbl.position()[2], GrblBench::part_height); // it has braked behind the touch
+    EXPECT_GT(grbl.position()[2], -19.0);                  // and not gone all the way
     person.keep("machine-probed");
 }
 
@@ -131,7 +133,7 @@ TEST_F(MachineControls, ChangeASettingOfTheController) {
 }
 
 TEST_F(MachineControls, StopAMoveThatWasTypedWithoutAnAlarm) {
-    person.fill_in("lower/command", "G1 X80 F1200");
+    person.fill_in("lower/command", "G1 X80 F150");
     ASSERT_TRUE(person.live_until([this] { return grbl.moving() && is(DriverState::running); }));
     person.frames(2);
     person.click("inspector/job/machine_stop");
@@ -159,7 +161,7 @@ TEST_F(MachineControls, SeeTheEmergencyStopInEachWorkspaceAndBehindEachQuestion)
 /// What the manual shows: a job over a pseudo-terminal that is paused, overridden, hit by an alarm, and gone
 /// on with.
 TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
-    std::string text = "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F600\n";
+    std::string text = "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\n";
     constexpr int first = 5; // line of X1
     for (int x = 1; x <= 30; ++x) {
         text += "G1 X" + std::to_string(x) + "\n";

@@ -135,10 +135,11 @@ TEST(ProgramFile, IsScrubbedOnTheTimelineAndInThePlots) {
         const widgets::Rect plot = person.place("lower/motion");
         const double before = person.workshop().look().time();
         person.click_at({plot.x + 0.25F * plot.w, plot.centre().y});
-        EXPECT_LT(person.workshop().look().time(), before) << shown;
+        const double earlier = person.workshop().look().time();
+        EXPECT_LT(earlier, before) << shown;
         person.keep(std::string("program-plot-") + shown);
         person.click_at({plot.x + 0.8F * plot.w, plot.centre().y});
-        EXPECT_GT(person.workshop().look().time(), before) << shown;
+        EXPECT_GT(person.workshop().look().time(), earlier) << shown;
     }
     EXPECT_NE(here(person).line, line);
     EXPECT_TRUE(person.sees("inspector/modal/limit"));

@@ -20,7 +20,7 @@ namespace {
 using gcode::PathChunk;
 using gcode::PathKind;
 
-constexpr int chunks_an_update = 4; // about 2 ms each without a graphics card
+constexpr int chunks_an_update = 2; // about 2 ms each without a graphics card
 // What takes a processor of 2 GHz about 25 and 100 ms without a graphics card.
 constexpr std::size_t points_while_moving = 25'000;
 constexpr std::size_t points_at_rest = 100'000;
