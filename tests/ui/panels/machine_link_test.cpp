@@ -1,5 +1,6 @@
 // The Machine workspace at the other end of different links: what can be chosen, what a machine cannot do,
 // and a link that is lost and made again.
+#include "core/base/files.h"
 #include "core/machine/emulators/grbl/grbl_server.h"
 #include "core/machine/links/tcp_server.h"
 #include "tests/ui/panels/person.h"
@@ -135,6 +136,28 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
         again->with_controller([](machine::GrblEmulator& it) { return it.truth().last_motion; });
     EXPECT_LE(last_motion, 0.0);
     EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
+}
+
+TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {
+    write_file(person.folder() / "part.ngc", "G21 G90 G94 G17\nG1 X10 F3000\nY5\nX0\nM2\n");
+    person.open(person.folder() / "part.ngc");
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.click("inspector/connection/driver");
+    person.click("inspector/connection/driver/cordic");
+    person.frames(2);
+    EXPECT_FALSE(person.sees("inspector/connection/address"));
+    connect();
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
+    person.frames(3);
+    person.keep("machine-cordic");
+    person.click("inspector/job/machine_run");
+    const auto job = [this] { return person.workshop().look().job; };
+    ASSERT_TRUE(person.live_until([&] { return job().outcome || job().failure; }, 90.0));
+    ASSERT_TRUE(job().outcome) << job().failure->message;
+    EXPECT_EQ(job().outcome->end, machine::JobEnd::done) << job().outcome->sentence;
+    EXPECT_NEAR(job().outcome->position[0], 0.0, 0.01);
+    EXPECT_NEAR(job().outcome->position[1], 5.0, 0.01);
 }
 
 TEST_F(MachineLink, SaysWhyLinuxCncIsNotConnected) {
