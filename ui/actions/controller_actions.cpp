@@ -66,6 +66,9 @@ Permission can_home(const Workbench& now) {
         return Permission::refused("The link is lost: reconnect first.");
     }
     const DriverState state = now.controller.status.state;
+    if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::linuxcnc) {
+        return Permission::refused("LinuxCNC homes when it is switched on: unlock it first.");
+    }
     const bool at_rest =
         state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
     return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");

@@ -53,6 +53,9 @@ std::string advice(const Workbench& now) {
     if (now.controller.status.link_lost) {
         return "Look at the machine first. Then reconnect: nothing moves by that.";
     }
+    if (now.controller.choice.kind == DriverKind::linuxcnc) { // which homes once it is switched on
+        return "Unlock it when you have looked at it, then home it unless its position is certain.";
+    }
     return now.controller.can.home
                ? "Look at the machine first. Then home it, or unlock it if its position is surely right."
                : "Look at the machine first. Then unlock it.";

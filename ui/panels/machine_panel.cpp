@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -30,6 +32,34 @@ int speed_index(double speed) {
         }
     }
     return 0;
+}
+
+/// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
+/// that is not executed for certain.
+std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
+    if (!now.in_file() || !now.opened->motion || !now.job.listing) {
+        return std::nullopt;
+    }
+    const std::vector<int>& lines = now.job.listing->line_of_block;
+    const auto executed = static_cast<std::size_t>(std::max(0, report.driver.executed_blocks));
+    if (executed >= lines.size()) {
+        return 0.0;
+    }
+    const project::PlannedMotion& plan = *now.opened->motion;
+    const std::vector<int>& planned = plan.listing->line_of_block;
+    const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[executed]; });
+    return next == planned.end() ? 0.0
+                                 : plan.trajectory->duration() -
+                                       plan.trajectory->start_of(static_cast<int>(next - planned.begin()));
+}
+
+/// s of the plan; nothing where there is none.
+std::optional<double> time_left(const Workbench& now, const machine::JobReport& report) {
+    if (now.controller.connected() && now.controller.can.plans) {
+        return left_by_lines(now, report);
+    }
+    const double total = report.planned_time > 0.0 ? report.planned_time : now.duration();
+    return total > 0.0 ? std::optional(total - now.time()) : std::nullopt;
 }
 
 } // namespace
@@ -131,9 +161,9 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         const double fraction =
             report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
         ui.value("state", "State", machine::to_text(report.driver.state));
-        const double total = report.planned_time > 0.0 ? report.planned_time : now.duration();
+        const std::optional<double> left = time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
-        ui.value("left", "Left", total > 0.0 ? clock_time(std::max(0.0, total - now.time())) : "not known");
+        ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
         if (ui.progress("progress",
                         fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks),
                         fraction)) {

@@ -106,6 +106,7 @@ TEST_F(MachineLinuxCnc, IsUnlockedAndHomedBeforeItMoves) {
     connect();
     EXPECT_THAT(machine().status.message, HasSubstr("emergency stop"));
     EXPECT_NE(person.refusal("hand/jog/plus_X"), "");
+    EXPECT_THAT(person.refusal("inspector/finding/machine_home"), HasSubstr("unlock it first"));
     person.keep("machine-linuxcnc-locked");
     person.click("inspector/connection/machine_reset");
     ASSERT_TRUE(becomes(DriverState::idle)) << machine().status.message;
