@@ -132,6 +132,39 @@ least_worst_path(const MoveTable& table, int moves, double MoveError::*quantity,
     return best_path(weigh(table, limits, weight), moves, worse);
 }
 
+std::optional<LatticePath>
+shortest_path(const MoveTable& table, const MoveCost& cost, const MoveLimits& limits) {
+    struct Reached {
+        int moves = std::numeric_limits<int>::max();
+        double sum = infinity;
+        int from = -1;
+    };
+    std::vector<Reached> reached(static_cast<std::size_t>(table.size()));
+    reached.at(0) = {0, 0.0, -1};
+    for (int k = 0; k < table.size(); ++k) {
+        const Reached before = reached[static_cast<std::size_t>(k)];
+        for (int l = table.first(k); before.sum < infinity && l < table.end(k); ++l) {
+            const MoveError& move = table.move(k, l);
+            const double sum = limits.allow(move) ? before.sum + cost(move) : infinity;
+            Reached& there = reached[static_cast<std::size_t>(l)];
+            const bool fewer = before.moves + 1 < there.moves;
+            const bool cheaper = before.moves + 1 == there.moves && sum < there.sum;
+            if (sum < infinity && (fewer || cheaper)) {
+                there = {before.moves + 1, sum, k};
+            }
+        }
+    }
+    if (!(reached.back().sum < infinity)) {
+        return std::nullopt;
+    }
+    LatticePath path{{}, reached.back().sum};
+    for (int n = table.size() - 1; n >= 0; n = reached[static_cast<std::size_t>(n)].from) {
+        path.nodes.push_back(n);
+    }
+    std::ranges::reverse(path.nodes);
+    return path;
+}
+
 std::vector<double> places_of(const MoveTable& table, const LatticePath& path) {
     std::vector<double> places;
     for (const int n : path.nodes) {

@@ -69,6 +69,11 @@ cheapest_path(const MoveTable& table, int moves, const MoveCost& cost, const Mov
 [[nodiscard]] std::optional<LatticePath>
 least_worst_path(const MoveTable& table, int moves, double MoveError::*quantity, const MoveLimits& limits);
 
+/// The path of the fewest moves inside `limits`, of several the one with the least sum of costs. Nothing if
+/// no path is inside.
+[[nodiscard]] std::optional<LatticePath>
+shortest_path(const MoveTable& table, const MoveCost& cost, const MoveLimits& limits);
+
 /// The places of `path`.
 [[nodiscard]] std::vector<double> places_of(const MoveTable& table, const LatticePath& path);
 

@@ -1,5 +1,6 @@
 // What the whole chain is for, on real machines: figures of a prototype that it must reach.
 #include "core/grid/chain_optimiser.h"
+#include "core/grid/fewest_nodes.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,25 @@ INSTANTIATE_TEST_SUITE_P(OfTwoBells,
                          ChainGain,
                          ::testing::Values(Row{15, 12.37, 1.302, 1.01, 0.441},
                                            Row{20, 11.13, 0.827, 0.548, 0.269}));
+
+/// Eight tracks, v = 0.02 ... 0.98: nodes of all of them for a largest error.
+int fewest_nodes_of_eight_tracks(double tolerance) {
+    constexpr int tracks = 8;
+    const KinematicError error = test::two_bell_error();
+    std::size_t nodes = 0;
+    for (int n = 0; n < tracks; ++n) {
+        const grid::Track track{TrackDirection::along_u, 0.02 + 0.96 * n / (tracks - 1)};
+        const auto found = fewest_nodes(error, track, 0.0, 1.0, {.tip = tolerance}, {}, {});
+        EXPECT_TRUE(found.has_value());
+        nodes += found ? found->places.size() : 0;
+    }
+    return static_cast<int>(nodes);
+}
+
+TEST(ChainGainByTolerance, NeedsNotOneNodeMoreThanThePrototype) {
+    EXPECT_LE(fewest_nodes_of_eight_tracks(0.1), 334);
+    EXPECT_LE(fewest_nodes_of_eight_tracks(0.05), 466);
+}
 
 } // namespace
 } // namespace millwright::toolpath
