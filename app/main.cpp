@@ -8,6 +8,7 @@
 #include "app/commands/picture_command.h"
 #include "app/commands/plan_command.h"
 #include "app/commands/plot_command.h"
+#include "app/commands/pmac_command.h"
 #include "app/commands/ports_command.h"
 #include "app/commands/render_command.h"
 #include "app/commands/run_command.h"
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
     add_run_command(app, chosen);
     add_send_command(app, chosen);
     add_jobs_command(app, chosen);
+    add_pmac_command(app, chosen);
     add_ports_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);

@@ -1,0 +1,147 @@
+#include "core/machine/drivers/pmac/internal/guarded_line.h"
+
+#include "core/base/error.h"
+
+#include <charconv>
+#include <utility>
+
+namespace millwright::machine::pmac {
+
+namespace {
+
+constexpr char report_sum = '\x0E', forget_all = '\x18', cr = '\r', ack = '\x06', bell = '\a';
+constexpr double quiet = 0.05; // s after which nothing more comes
+constexpr std::size_t longest_answer = 300;
+
+int error_number(std::string_view text) {
+    const std::size_t at = text.find("ERR");
+    int number = 0;
+    if (at != std::string_view::npos) {
+        std::from_chars(text.data() + at + 3, text.data() + text.size(), number);
+    }
+    return number;
+}
+
+} // namespace
+
+char checksum(std::string_view text) {
+    unsigned sum = 0;
+    for (const char c : text) {
+        sum += static_cast<unsigned char>(c);
+    }
+    return static_cast<char>(sum & 0xFFU);
+}
+
+void GuardedLine::send(std::string line, double now) {
+    expects(idle(), "one line after the other");
+    line_ = std::move(line);
+    reply_ = {};
+    begun_ = now;
+    put_line(now);
+}
+
+void GuardedLine::put_line(double now) {
+    input_.clear();
+    output_ += line_ + report_sum;
+    step_ = Step::summing;
+    since_ = last_byte_ = now;
+}
+
+void GuardedLine::again(double now) {
+    output_ += forget_all;
+    step_ = Step::clearing;
+    since_ = last_byte_ = now;
+}
+
+void GuardedLine::end(Outcome outcome) {
+    reply_.outcome = outcome;
+    step_ = Step::ended;
+}
+
+void GuardedLine::forget() {
+    step_ = Step::idle;
+    input_.clear();
+    reply_ = {};
+}
+
+std::string GuardedLine::take_output() {
+    return std::exchange(output_, {});
+}
+
+void GuardedLine::receive(std::string_view bytes, double now) {
+    if (bytes.empty()) {
+        return;
+    }
+    last_byte_ = now;
+    switch (step_) {
+    case Step::summing:
+        if (bytes.size() == 1 && bytes.front() == checksum(line_)) {
+            output_ += cr;
+            step_ = Step::waiting;
+            since_ = now;
+        } else {
+            again(now);
+        }
+        break;
+    case Step::waiting:
+    case Step::refusing:
+        input_ += bytes;
+        read_answer();
+        break;
+    default: // late bytes of what is over
+        break;
+    }
+}
+
+void GuardedLine::read_answer() {
+    while (step_ == Step::waiting && !input_.empty()) {
+        if (input_.front() == bell) {
+            step_ = Step::refusing;
+        } else if (input_.front() == ack) {
+            if (input_.size() < 2) {
+                return;
+            }
+            end(input_[1] == checksum(line_) && input_.size() == 2 ? Outcome::answered : Outcome::lost);
+        } else {
+            const std::size_t length = input_.find(cr);
+            if (length == std::string::npos || length + 1 == input_.size()) {
+                if (input_.size() > longest_answer) {
+                    end(Outcome::lost);
+                }
+                return;
+            }
+            if (input_[length + 1] != checksum(std::string_view(input_).substr(0, length + 1))) {
+                end(Outcome::lost);
+                return;
+            }
+            reply_.lines.push_back(input_.substr(0, length));
+            input_.erase(0, length + 2);
+        }
+    }
+}
+
+GuardedLine::Reply GuardedLine::poll(double now) {
+    constexpr double share = 0.25; // of the patience, for one try
+    const bool guarding = step_ == Step::summing || step_ == Step::clearing;
+    if (guarding && now - begun_ > patience_) {
+        output_ += forget_all;
+        end(Outcome::lost);
+    } else if (step_ == Step::summing && now - since_ > share * patience_) {
+        again(now);
+    } else if (step_ == Step::clearing && now - last_byte_ > quiet) {
+        put_line(now);
+    } else if (step_ == Step::refusing && now - last_byte_ > quiet) {
+        reply_.error = error_number(input_);
+        output_ += forget_all;
+        end(Outcome::refused);
+    } else if (step_ == Step::waiting && now - since_ > patience_) {
+        end(Outcome::lost);
+    }
+    if (step_ != Step::ended) {
+        return {};
+    }
+    step_ = Step::idle;
+    return std::exchange(reply_, {});
+}
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,56 @@
+// One command line after the other on its way to a PMAC, guarded in both directions: before its CR the card
+// tells the sum of what it has (^N), and in its answers each line and the command have sums (I4=1). So a
+// character that was lost or changed is noticed before a command acts. Needs I3=2, I4=1, I6=1.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine::pmac {
+
+/// Modulo 256, as the card counts.
+[[nodiscard]] char checksum(std::string_view text);
+
+class GuardedLine {
+public:
+    enum class Outcome {
+        none,     ///< still on its way, or nothing was sent
+        answered, ///< accepted; `lines` is what it said
+        refused,  ///< `error` is the card's number, 0 if it told none
+        lost      ///< nobody knows whether the card has done it
+    };
+    struct Reply {
+        Outcome outcome = Outcome::none;
+        std::vector<std::string> lines;
+        int error = 0;
+    };
+
+    /// `patience`: how long an answer may take, s.
+    explicit GuardedLine(double patience) : patience_(patience) {}
+
+    [[nodiscard]] bool idle() const { return step_ == Step::idle; }
+    /// Throws Defect unless idle. `line` has no CR.
+    void send(std::string line, double now);
+    void receive(std::string_view bytes, double now);
+    /// What became of the line, once.
+    [[nodiscard]] Reply poll(double now);
+    [[nodiscard]] std::string take_output();
+    void forget();
+
+private:
+    enum class Step { idle, summing, clearing, waiting, refusing, ended };
+
+    void put_line(double now);
+    void again(double now);
+    void end(Outcome outcome);
+    void read_answer();
+
+    double patience_;
+    Step step_ = Step::idle;
+    std::string line_, input_, output_;
+    Reply reply_;
+    double begun_ = 0.0, since_ = 0.0, last_byte_ = 0.0;
+};
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,258 @@
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+
+#include "core/machine/drivers/pmac/internal/watchdog.h"
+#include "core/machine/drivers/pmac/pmac_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace millwright::machine::pmac {
+
+namespace {
+
+constexpr double poll_interval = 0.02; // s
+constexpr double greeting_pause = 0.1; // s: an answer in whatever mode the card is in
+
+bool starts_with_word(const std::string& line, std::string_view word) {
+    std::string tight;
+    for (const char c : line) {
+        tight += c == ' ' ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
+    }
+    return tight.starts_with(word);
+}
+
+} // namespace
+
+void PmacSession::opened(double now) {
+    stage_ = Stage::greeting;
+    link_lost_ = false;
+    message_.clear();
+    queue_.clear();
+    sent_.reset();
+    talk_.forget();
+    greet_step_ = 0;
+    greet_at_ = now;
+    buffer_open_ = polled_ = was_home_ = armed_ = false;
+    addresses_ = fmt::format("#1&{}", settings_.system);
+    answer_ = {};
+}
+
+void PmacSession::lost(const std::string& why) {
+    finish(Stage::alarm, "the link was lost: " + why + "; the card stops its motors by itself");
+    link_lost_ = true;
+    talk_.forget();
+    queue_.clear();
+    sent_.reset();
+    output_.clear();
+}
+
+void PmacSession::closed() {
+    stage_ = Stage::closed;
+    link_lost_ = false;
+    queue_.clear();
+    sent_.reset();
+    talk_.forget();
+    output_.clear();
+}
+
+std::string PmacSession::take_output() {
+    output_ += talk_.take_output();
+    return std::exchange(output_, {});
+}
+
+void PmacSession::receive(std::string_view bytes, double now) {
+    talk_.receive(bytes, now);
+}
+
+/// In whatever mode the card is, brings it into ours; then asks who it is.
+void PmacSession::greet(double now) {
+    constexpr std::array<std::string_view, 5> steps{"\x18", "CLOSE\r", "I3=2\r", "I6=1\r", "I4=1\r"};
+    if (now < greet_at_) {
+        return;
+    }
+    greet_at_ = now + greeting_pause;
+    if (greet_step_ < steps.size()) {
+        output_ += steps[greet_step_++];
+    } else if (greet_step_ == steps.size()) {
+        ++greet_step_;
+        ask("TYPE", Kind::greet);
+        for (std::string& line : watchdog_lines(settings_)) {
+            ask(std::move(line), Kind::greet);
+        }
+        ask("I9=0", Kind::greet);
+        ask(poll_line(), Kind::poll);
+    }
+}
+
+void PmacSession::tick(double now) {
+    if (stage_ == Stage::closed || link_lost_) {
+        return;
+    }
+    if (stage_ == Stage::greeting) {
+        greet(now);
+    }
+    if (const GuardedLine::Reply reply = talk_.poll(now); reply.outcome != GuardedLine::Outcome::none) {
+        handle(reply, now);
+    }
+    if (jog_until_ && now > *jog_until_) {
+        stop_jog(now);
+    }
+    if (!talk_.idle()) {
+        return;
+    }
+    // A command and the question for its addresses belong together; else the report comes first.
+    const bool may_poll = queue_.empty() || queue_.front().kind == Kind::command;
+    if (may_poll && polled_ && now >= next_poll_ && !buffer_open_ && stage_ != Stage::greeting) {
+        sent_ = Request{poll_line(), Kind::poll};
+        next_poll_ = now + poll_interval;
+    } else if (!queue_.empty()) {
+        sent_ = std::move(queue_.front());
+        queue_.pop_front();
+    } else {
+        return;
+    }
+    const bool addressed = sent_->kind == Kind::command && !buffer_open_;
+    buffer_open_ = buffer_open_ || starts_with_word(sent_->line, "OPEN");
+    talk_.send(addressed ? sign_of_life + addresses_ + sent_->line : sent_->line, now);
+}
+
+void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
+    if (!sent_) {
+        return;
+    }
+    const Request request = *std::exchange(sent_, std::nullopt);
+    switch (reply.outcome) {
+    case GuardedLine::Outcome::answered:
+        answered(request, reply.lines, now);
+        break;
+    case GuardedLine::Outcome::refused:
+        refused(request, reply.error);
+        break;
+    default:
+        if (stage_ == Stage::greeting) {
+            queue_.clear();
+            finish(Stage::alarm, "nobody answers as a PMAC");
+        } else {
+            fail(fmt::format("the card did not answer '{}' as it should", request.line));
+        }
+    }
+}
+
+void PmacSession::answered(const Request& request, const std::vector<std::string>& lines, double now) {
+    if (starts_with_word(request.line, "CLOSE")) {
+        buffer_open_ = false;
+    }
+    switch (request.kind) {
+    case Kind::poll:
+        read_poll(lines, now);
+        break;
+    case Kind::greet:
+        if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
+            queue_.clear();
+            finish(Stage::alarm, "this is no PMAC");
+        }
+        break;
+    case Kind::command:
+        for (const std::string& line : lines) {
+            answer_.text += (answer_.text.empty() ? "" : "\n") + line;
+        }
+        if (buffer_open_) {
+            next_command();
+        } else {
+            ask("#&", Kind::address);
+        }
+        break;
+    case Kind::address:
+        if (lines.size() == 2) {
+            addresses_ = "#" + lines[0] + "&" + lines[1];
+        }
+        next_command();
+        break;
+    case Kind::run:
+        stage_ = stage_ == Stage::loading ? Stage::running : stage_;
+        break;
+    default:
+        break;
+    }
+}
+
+void PmacSession::refused(const Request& request, int error) {
+    if (starts_with_word(request.line, "CLOSE")) {
+        buffer_open_ = false;
+    }
+    const std::string why = fmt::format("'{}' is refused: ERR{:03}, {}", request.line, error, pmac_error(error));
+    if (request.kind == Kind::command && command_goes_on_) {
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        next_command();
+        return;
+    }
+    if (request.kind == Kind::command) {
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        command_lines_.clear();
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        finish_command(CommandAnswer::State::refused);
+        return;
+    }
+    if (stage_ == Stage::greeting && request.kind == Kind::greet) {
+        if (request.line != "CLOSE") {
+            queue_.clear();
+            finish(Stage::alarm, why);
+        }
+        return;
+    }
+    if (request.kind == Kind::program || stage_ == Stage::loading) {
+        queue_.clear();
+        ask("CLOSE");
+        finish(Stage::ready, why);
+        return;
+    }
+    fail(why);
+}
+
+void PmacSession::next_command() {
+    if (command_lines_.empty()) {
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        finish_command(CommandAnswer::State::done);
+        return;
+    }
+    const bool opens = starts_with_word(command_lines_.front(), "OPEN");
+    if (armed_ && opens) { // nobody is heard while a buffer is open
+        ask(disarm_watchdog);
+        armed_ = false;
+    } else if (!armed_ && !buffer_open_ && !opens) {
+        arm(); // what a person types may begin motion
+    }
+    ask(command_lines_.front(), Kind::command);
+    command_lines_.pop_front();
+}
+
+void PmacSession::finish_command(CommandAnswer::State state) {
+    answer_.state = state;
+    if (stage_ == Stage::commanding) {
+        finish(Stage::ready);
+    }
+}
+
+/// A sign of life, and everything that is watched.
+std::string PmacSession::poll_line() const {
+    std::string line = sign_of_life;
+    for (const PmacAxis& axis : settings_.axes) {
+        line += fmt::format("#{}?P", axis.motor);
+    }
+    return line + fmt::format("&{}??P1000", settings_.system);
+}
+
+/// From now on the card stops by itself when it no longer hears us.
+void PmacSession::arm() {
+    ask(arm_watchdog);
+    armed_ = true;
+    quiet_polls_ = 0;
+}
+
+} // namespace millwright::machine::pmac

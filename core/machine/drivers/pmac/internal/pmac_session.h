@@ -1,0 +1,144 @@
+// The host's side of a conversation with a PMAC. What is claimed, and what ends motion when:
+// docs/reference/pmac.md.
+#pragma once
+
+#include "core/machine/drivers/internal/controller_session.h"
+#include "core/machine/drivers/pmac/internal/guarded_line.h"
+#include "core/machine/drivers/pmac/pmac_settings.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::machine::pmac {
+
+class PmacSession final : public internal::ControllerSession {
+public:
+    explicit PmacSession(PmacSettings settings)
+        : settings_(std::move(settings)), talk_(settings_.patience), motors_(settings_.axes.size()) {}
+
+    void opened(double now) override;
+    void lost(const std::string& why) override;
+    void closed() override;
+    void receive(std::string_view bytes, double now) override;
+    void tick(double now) override;
+    [[nodiscard]] std::string take_output() override;
+
+    [[nodiscard]] DriverStatus status() const override;
+    [[nodiscard]] bool greeted() const override { return stage_ != Stage::greeting; }
+    [[nodiscard]] bool link_lost() const override { return link_lost_; }
+    [[nodiscard]] std::optional<Diagnostic> stranger() const override;
+
+    /// Writes the motion program `lines` and runs it.
+    void start(const std::vector<std::string>& lines, double now);
+    void hold(double now) override;
+    void resume(double now) override;
+    void stop(double now) override;
+    void emergency_stop(double now) override;
+    void reset(double now) override;
+    void home(double now) override;
+    void jog(const Jog& jog, double now) override;
+    void stop_jog(double now) override;
+    /// Lines of on-line commands; `all`: also those behind a refused one.
+    int command(const std::vector<std::string>& lines, bool all);
+    void set_overrides(const Overrides& wanted) override;
+    /// Closes the loops of the motors where they stand: the one way back from a kill.
+    void enable(double now);
+
+    /// Every motor has found its zero since the card started.
+    [[nodiscard]] bool position_known() const;
+    [[nodiscard]] bool enabled() const;
+
+private:
+    enum class Stage { closed, greeting, ready, loading, running, commanding, jogging, homing, stopping, stopped, alarm };
+    enum class Kind { greet, poll, step, run, program, command, address };
+
+    struct Request {
+        std::string line;
+        Kind kind = Kind::step;
+    };
+    struct MotorState {
+        double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
+        std::uint32_t word_1 = 0, word_2 = 0;
+        double target = 0.0; ///< of the last jog
+        [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
+        [[nodiscard]] bool home() const { return (word_2 >> 10 & 1U) != 0; }
+        [[nodiscard]] bool searching() const { return (word_1 >> 10 & 1U) != 0; }
+        [[nodiscard]] bool standing() const { return !enabled() || (word_1 >> 13 & 1U) != 0; }
+    };
+
+    // pmac_session.cpp: the conversation
+    void greet(double now);
+    void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind}); }
+    void handle(const GuardedLine::Reply& reply, double now);
+    void refused(const Request& request, int error);
+    void answered(const Request& request, const std::vector<std::string>& lines, double now);
+    void next_command();
+    void finish_command(CommandAnswer::State state);
+    [[nodiscard]] std::string poll_line() const;
+    void arm();
+
+    // pmac_watch.cpp: what the card tells
+    void read_poll(const std::vector<std::string>& lines, double now);
+    void watch(double now);
+    void watch_motors();
+    void watch_stage();
+    void watch_program(bool stands);
+    void watch_homing();
+    void watch_stopping();
+    void rest();
+    void watch_limits(double now);
+    void finish(Stage stage, std::string why = {});
+    void fail(std::string why);
+    void kill();
+
+    // pmac_requests.cpp: what a person wants
+    [[nodiscard]] bool active() const;
+    [[nodiscard]] bool standing() const;
+    void require_rest(std::string_view what) const;
+    void require_enabled(std::string_view what) const;
+    [[nodiscard]] DriverState state() const;
+    [[nodiscard]] Activity activity() const;
+    [[nodiscard]] std::string every_motor(std::string_view command) const;
+    void jog_axis(std::size_t axis, double way_deg, double speed_deg_per_s);
+
+    PmacSettings settings_;
+    GuardedLine talk_;
+    Stage stage_ = Stage::closed;
+    std::string output_;
+    std::string message_;
+    bool link_lost_ = false;
+
+    std::deque<Request> queue_;
+    std::optional<Request> sent_;
+    double next_poll_ = 0.0, greet_at_ = 0.0;
+    std::size_t greet_step_ = 0;
+    bool buffer_open_ = false; ///< nothing may be asked meanwhile
+    bool polled_ = false;
+
+    std::vector<MotorState> motors_;
+    double polled_at_ = 0.0;
+    std::uint32_t system_1_ = 0, system_2_ = 0;
+    double mark_ = 0.0; ///< P1000, which programs set
+
+    int program_lines_ = 0, executed_ = 0;
+    bool marks_tell_ = false; ///< lines are executed in their order
+    bool held_ = false;
+    bool armed_ = false; ///< the watchdog in the card
+    int quiet_polls_ = 0;
+    bool was_home_ = false; ///< to tell when the card forgets
+    std::size_t homing_axis_ = 0;
+    std::optional<double> jog_until_;
+    bool jog_stopping_ = false;
+    Overrides overrides_;
+
+    std::deque<std::string> command_lines_;
+    bool command_goes_on_ = false;
+    std::string addresses_ = "#1&1"; ///< those of the person's commands
+    CommandAnswer answer_;
+};
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,81 @@
+// What a session knows, in the words of the Driver interface.
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+
+#include "core/base/units.h"
+
+#include <algorithm>
+
+namespace millwright::machine::pmac {
+
+DriverState PmacSession::state() const {
+    switch (stage_) {
+    case Stage::closed:
+    case Stage::greeting:
+        return DriverState::disconnected;
+    case Stage::ready:
+        return DriverState::idle;
+    case Stage::running:
+        return held_ ? DriverState::holding : DriverState::running;
+    case Stage::loading:
+    case Stage::commanding:
+    case Stage::jogging:
+    case Stage::homing:
+        return DriverState::running;
+    case Stage::stopping:
+        return DriverState::stopping;
+    case Stage::stopped:
+        return DriverState::stopped;
+    case Stage::alarm:
+        return DriverState::alarm;
+    }
+    return DriverState::alarm;
+}
+
+Activity PmacSession::activity() const {
+    switch (stage_) {
+    case Stage::running:
+    case Stage::loading:
+        return Activity::program;
+    case Stage::commanding:
+        return Activity::command;
+    case Stage::jogging:
+        return Activity::jog;
+    case Stage::homing:
+        return Activity::homing;
+    default:
+        return Activity::none;
+    }
+}
+
+std::optional<Diagnostic> PmacSession::stranger() const {
+    if (stage_ != Stage::alarm || polled_) {
+        return std::nullopt;
+    }
+    return Diagnostic{{}, message_, "is the card on, and the baud rate the card's?"};
+}
+
+DriverStatus PmacSession::status() const {
+    DriverStatus status;
+    status.message = message_;
+    status.link_lost = link_lost_;
+    status.state = state();
+    if (status.state == DriverState::disconnected) {
+        return status;
+    }
+    status.activity = activity();
+    const auto axes = static_cast<Eigen::Index>(motors_.size());
+    status.position = status.velocity = status.work_offset = kinematics::AxisPositions::Zero(axes);
+    for (Eigen::Index n = 0; n < axes; ++n) {
+        const auto axis = static_cast<std::size_t>(n);
+        const double scale = settings_.axes[axis].counts_per_degree;
+        status.position[n] = from_degrees(motors_[axis].counts / scale);
+        status.velocity[n] = from_degrees(motors_[axis].speed / scale);
+    }
+    status.overrides = overrides_;
+    status.answer = answer_;
+    status.executed_blocks = executed_;
+    status.block = program_lines_ > 0 ? std::min(executed_, program_lines_ - 1) : -1;
+    return status;
+}
+
+} // namespace millwright::machine::pmac

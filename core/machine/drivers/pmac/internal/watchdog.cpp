@@ -1,0 +1,59 @@
+#include "core/machine/drivers/pmac/internal/watchdog.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::machine::pmac {
+
+namespace {
+
+constexpr double cycle = 3'713'707.0 / 8'388'608.0 / 1000.0; // s, with the factory's I10
+
+std::string enabled(const PmacSettings& settings) {
+    std::string condition;
+    for (const PmacAxis& axis : settings.axes) {
+        condition += fmt::format("{}M{}=1", condition.empty() ? "" : " AND ", 1000 + axis.motor);
+    }
+    return condition;
+}
+
+} // namespace
+
+std::vector<std::string> watchdog_lines(const PmacSettings& settings) {
+    std::vector<std::string> lines{
+        "P1001=0", "CLOSE", "DISABLE PLC 0..31", "I5=2", "M1000->X:$0,0,24"};
+    for (const PmacAxis& axis : settings.axes) { // amplifier enabled, in the motors' status words
+        constexpr int first = 0x814, step = 0xC0;
+        lines.push_back(fmt::format("M{}->Y:${:X},14", 1000 + axis.motor, first + step * (axis.motor - 1)));
+    }
+    for (const std::string& line :
+         {std::string("OPEN PLC 31"),
+          std::string("CLEAR"),
+          std::string("IF(P1001=1)"),
+          std::string("P1005=M1000-P1002"),
+          std::string("IF(P1005<0)"),
+          std::string("P1005=P1005+16777216"),
+          std::string("ENDIF"),
+          fmt::format("IF(P1005>{:.0f} AND P1006=0)", std::floor(settings.abort_after / cycle)),
+          std::string("P1006=1"),
+          // an abort closes the loops of killed motors: never then
+          fmt::format("IF({})", enabled(settings)),
+          fmt::format("CMD\"&{}A\"", settings.system),
+          std::string("ELSE"),
+          std::string("CMD^K"),
+          std::string("ENDIF"),
+          std::string("ENDIF"),
+          fmt::format("IF(P1005>{:.0f})", std::floor(settings.kill_after / cycle)),
+          std::string("CMD^K"),
+          std::string("P1001=0"),
+          std::string("ENDIF"),
+          std::string("ENDIF"),
+          std::string("CLOSE"),
+          std::string("ENABLE PLC 31")}) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,109 @@
+#include "core/machine/drivers/pmac/pmac_driver.h"
+
+#include "core/base/error.h"
+#include "core/machine/drivers/pmac/internal/console_words.h"
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace millwright::machine {
+
+using pmac::PmacSession;
+
+namespace {
+
+PmacSettings checked(PmacSettings settings) {
+    std::set<char> letters;
+    std::set<int> motors;
+    for (const PmacAxis& axis : settings.axes) {
+        const bool sound = std::string_view("XYZABCUVW").find(axis.letter) != std::string_view::npos &&
+                           axis.motor >= 1 && axis.motor <= 8 && std::isfinite(axis.counts_per_degree) &&
+                           axis.counts_per_degree > 0.0 && axis.jog_deg_per_s > 0.0;
+        if (!sound || !letters.insert(axis.letter).second || !motors.insert(axis.motor).second) {
+            throw Error(std::string("a PMAC cannot have this axis ") + axis.letter,
+                        {},
+                        "letters out of XYZABCUVW and motors 1 to 8, each once; a positive scale");
+        }
+    }
+    if (settings.axes.empty() || settings.system < 1 || settings.system > 8) {
+        throw Error("a PMAC moves one to eight axes in the coordinate systems 1 to 8");
+    }
+    return settings;
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string line(text.substr(0, end));
+        line.erase(line.find_last_not_of(" \t\r") + 1);
+        if (!line.empty()) {
+            lines.push_back(std::move(line));
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
+} // namespace
+
+PmacDriver::PmacDriver(std::unique_ptr<Link> link, const Clock& clock, PmacSettings settings)
+    : SessionDriver(std::move(link),
+                    clock,
+                    std::make_unique<PmacSession>(checked(settings)),
+                    pmac::console_words()),
+      settings_(std::move(settings)) {}
+
+PmacDriver::~PmacDriver() {
+    close();
+}
+
+PmacSession& PmacDriver::talk() const {
+    return static_cast<PmacSession&>(session());
+}
+
+Capabilities PmacDriver::capabilities() const {
+    Capabilities able;
+    able.plans = able.overrides = able.jog = able.home = able.command = true;
+    for (const PmacAxis& axis : settings_.axes) {
+        able.axes.push_back({axis.letter, kinematics::AxisKind::rotary});
+    }
+    return able;
+}
+
+void PmacDriver::start(Work work) {
+    expects(work.listing != nullptr, "a PMAC is given a program's text");
+    const std::vector<std::string> lines = lines_of(work.listing->text);
+    const Turn turn(*this);
+    talk().start(lines, turn.now());
+}
+
+int PmacDriver::command(const std::string& lines) {
+    const Turn turn(*this);
+    return talk().command(lines_of(lines), false);
+}
+
+int PmacDriver::load(const std::vector<std::string>& lines) {
+    const Turn turn(*this);
+    return talk().command(lines, true);
+}
+
+void PmacDriver::enable() {
+    const Turn turn(*this);
+    talk().enable(turn.now());
+}
+
+bool PmacDriver::position_known() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().position_known();
+}
+
+bool PmacDriver::enabled() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().enabled();
+}
+
+} // namespace millwright::machine

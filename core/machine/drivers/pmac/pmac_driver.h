@@ -1,0 +1,50 @@
+// A PMAC with its motors behind the Driver interface: jogs, homing, motion programs, on-line commands. What
+// ends motion when, and what is claimed: docs/reference/pmac.md.
+#pragma once
+
+#include "core/machine/drivers/pmac/pmac_settings.h"
+#include "core/machine/drivers/session_driver.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::machine {
+
+namespace pmac {
+class PmacSession;
+}
+
+class PmacDriver final : public SessionDriver {
+public:
+    /// `clock` must outlive it. Throws Error for axes or motors that no PMAC has, or that are told twice.
+    PmacDriver(std::unique_ptr<Link> link, const Clock& clock, PmacSettings settings = arm_settings());
+    PmacDriver(const PmacDriver&) = delete;
+    PmacDriver& operator=(const PmacDriver&) = delete;
+    ~PmacDriver() override;
+
+    // connect() throws Error if nobody answers as a PMAC. The motors keep the power that they have. A program
+    // and homing need motors with power; a program needs a known position, too. Jog::speed is rad/s, and no
+    // more than PmacAxis::jog_deg_per_s.
+
+    [[nodiscard]] std::string name() const override { return "pmac"; }
+    [[nodiscard]] Capabilities capabilities() const override;
+    /// The listing's lines are those of a motion program, without OPEN and CLOSE.
+    void start(Work work) override;
+    /// On-line commands, and buffers from OPEN to CLOSE.
+    int command(const std::string& lines) override;
+    /// The same, going on behind what is refused; the answer has a line for each refusal.
+    int load(const std::vector<std::string>& lines);
+    /// Closes the loops of all motors where they stand. Throws Error unless at rest.
+    void enable();
+    /// Every motor has found its zero since the card started.
+    [[nodiscard]] bool position_known() const;
+    [[nodiscard]] bool enabled() const;
+
+private:
+    [[nodiscard]] pmac::PmacSession& talk() const;
+
+    PmacSettings settings_;
+};
+
+} // namespace millwright::machine

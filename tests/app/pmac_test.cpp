@@ -1,0 +1,50 @@
+// A PMAC on the command line, against the emulated one as a program of its own.
+#include "tests/app/emulator.h"
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct Pmac : testing::Test {
+    ScratchFolder scratch;
+    std::string port = (scratch / "port").string();
+};
+
+TEST_F(Pmac, AnswersCommands) {
+    Emulator emulator(port, {}, "pmac");
+    const Ended ended = run({"pmac", "TYPE", "P5=7*6", "P5", "--port", port});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out, "PMAC1,ISA,BATTERY,PID,CLOCK X1\n42\n");
+    const Ended refused = run({"pmac", "X100", "P5", "--port", port});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("'X100' is refused: ERR005, no buffer is open"));
+    EXPECT_EQ(refused.out, "");
+}
+
+TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
+    write_content(scratch / "pmac.ini", "I100=1\nI125=$13C000\nI111=0\nI130=701\nNONSENSE\nI131=795");
+    Emulator emulator(port, {}, "pmac");
+    const Ended ended = run({"pmac", "I131", "--load", (scratch / "pmac.ini").string(), "--port", port});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are not looked at"));
+    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:3:1: I111=0"));
+    EXPECT_THAT(ended.out, HasSubstr("'NONSENSE' is refused"));
+    EXPECT_THAT(ended.out, HasSubstr("795\n"));
+}
+
+TEST_F(Pmac, IsToldFromSomethingElse) {
+    Emulator emulator(port, {});
+    const Ended ended = run({"pmac", "#1P", "--port", port});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("nobody answers as a PMAC"));
+    EXPECT_EQ(run({"pmac", "--port", port}).exit_code, 1);
+}
+
+} // namespace
+} // namespace millwright::test

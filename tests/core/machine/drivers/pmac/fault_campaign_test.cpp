@@ -1,0 +1,251 @@
+// Many seeded runs of an emulated PMAC with its arm over a wire that fails, in computed time. In each a
+// program, jogs or a homing meet one kind of fault. What must hold:
+//   once the fault is there, all motion has ended soon, and none begins again, also when what was broken is
+//     in order again: not before a person gives power back;
+//   a killed motor stays without power;
+//   the arm never leaves its limits by more than it brakes;
+//   done is said only of a program that came to its end, at its place.
+#include "tests/core/machine/drivers/pmac/pmac_wire.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+namespace millwright::machine::pmac {
+namespace {
+
+using test::jog_of;
+using test::PmacWire;
+using Random = std::mt19937_64;
+
+enum class Kind {
+    none,
+    drop,
+    garble,
+    duplicate,
+    delay,
+    disconnect,
+    stall_to_host,
+    stall_to_card,
+    reset,
+    amplifiers,
+    no_power,
+    encoder,
+    emergency_stop
+};
+constexpr int kinds = 13;
+
+int pick(Random& random, int count) {
+    return static_cast<int>(random() % static_cast<std::uint64_t>(count));
+}
+
+FaultSpec faults_of(Kind kind, Random& random, std::uint64_t seed) {
+    FaultSpec spec;
+    spec.seed = seed;
+    spec.toward_host = kind != Kind::stall_to_card;
+    spec.toward_controller = kind != Kind::stall_to_host;
+    const std::int64_t moment = 50 + pick(random, 15'000);
+    const double rate = std::pow(10.0, -2.0 - 0.001 * pick(random, 2000));
+    switch (kind) {
+    case Kind::drop:
+        spec.drop = rate;
+        break;
+    case Kind::garble:
+        spec.garble = rate;
+        break;
+    case Kind::duplicate:
+        spec.duplicate = rate;
+        break;
+    case Kind::delay:
+        spec.delay = 0.001 * (1 + pick(random, 60));
+        break;
+    case Kind::disconnect:
+        spec.disconnect = moment;
+        break;
+    case Kind::stall_to_host:
+    case Kind::stall_to_card:
+        spec.stall = moment / 2;
+        break;
+    default:
+        break;
+    }
+    return spec;
+}
+
+class CampaignRun {
+public:
+    explicit CampaignRun(std::uint64_t seed)
+        : random_(seed), kind_(static_cast<Kind>(seed % kinds)), wire_(faults_of(kind_, random_, seed)),
+          fault_at_(0.1 + 0.001 * pick(random_, 2500)) {}
+
+    /// What is wrong; empty: nothing.
+    std::string run() {
+        begin();
+        const double start = wire_.now;
+        bool broke = false;
+        constexpr double longest = 12.0;
+        while (wire_.now - start < longest && !at_rest()) {
+            wire_.step();
+            if (!broke && wire_.now - start >= fault_at_) {
+                broke = true;
+                breaks();
+            }
+            watch_limits();
+        }
+        if (!at_rest()) {
+            wire_.session.emergency_stop(wire_.now); // held by a character that was garbled, or lost in it
+        }
+        done_ = wire_.state() == DriverState::idle ||
+                (!program_ && wire_.state() == DriverState::stopped); // its key was let go
+        check_end();
+        check_quiet();
+        return wrong_;
+    }
+    [[nodiscard]] bool done() const { return done_; }
+
+private:
+    Random random_;
+    Kind kind_;
+    PmacWire wire_;
+    double fault_at_; ///< s
+    bool program_ = false, done_ = false;
+    std::array<double, 4> target_{}; ///< degrees
+    std::string wrong_;
+
+    void wrong(const std::string& what) {
+        if (wrong_.empty()) {
+            wrong_ = fmt::format(
+                "kind {}: {} ({})", static_cast<int>(kind_), what, wire_.session.status().message);
+        }
+    }
+    [[nodiscard]] bool at_rest() {
+        const DriverState state = wire_.state();
+        return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
+    }
+
+    void begin() {
+        if (pick(random_, 2) == 0) {
+            const Eigen::Index axis = pick(random_, 4);
+            wire_.session.jog(jog_of(axis, 2.0 + pick(random_, 10), 5.0, pick(random_, 2) == 0 ? 0.5 : 0.0),
+                              wire_.now);
+            return;
+        }
+        program_ = true;
+        std::vector<std::string> lines{"ABS", "LINEAR", "FRAX(X,Y,Z,A)", "F20"};
+        for (int n = 2 + pick(random_, 4); n > 0; --n) {
+            std::string line;
+            for (std::size_t axis = 0; axis < target_.size(); ++axis) {
+                target_[axis] = pick(random_, 20) - 10;
+                line += fmt::format("{}{:.0f}", "XYZA"[axis], target_[axis]);
+            }
+            lines.push_back(line);
+        }
+        wire_.session.start(lines, wire_.now);
+    }
+
+    void breaks() {
+        switch (kind_) {
+        case Kind::reset:
+            wire_.card.power_cycle();
+            break;
+        case Kind::amplifiers:
+            wire_.card.raise_alarm();
+            break;
+        case Kind::no_power:
+            wire_.card.emergency_stop();
+            break;
+        case Kind::encoder:
+            wire_.card.unplug_encoder(1 + pick(random_, 4));
+            break;
+        case Kind::emergency_stop:
+            wire_.session.emergency_stop(wire_.now);
+            break;
+        default:
+            break;
+        }
+    }
+
+    void watch_limits() {
+        for (std::size_t axis = 0; axis < target_.size(); ++axis) {
+            constexpr double most = 25.0; // degrees: nothing was sent further than 12
+            if (std::abs(wire_.card.command(static_cast<int>(axis) + 1)) /
+                    test::wire_settings().axes[axis].counts_per_degree >
+                most) {
+                wrong("an axis went where nobody sent it");
+            }
+        }
+    }
+
+    void check_end() {
+        if (!done_ || !program_) {
+            return;
+        }
+        wire_.pass(0.3);
+        for (std::size_t axis = 0; axis < target_.size(); ++axis) {
+            if (kind_ != Kind::encoder && std::abs(wire_.degrees(axis) - target_[axis]) > 0.1) {
+                wrong(fmt::format("done, and axis {} is at {} instead of {}", axis, wire_.degrees(axis), target_[axis]));
+            }
+        }
+    }
+
+    /// What is broken is made whole, and nobody touches anything.
+    void check_quiet() {
+        constexpr double soon = 0.6; // s: the card's own kill, and coasting
+        wire_.pass(soon);
+        const double end = wire_.card.time();
+        const bool alarm = wire_.state() == DriverState::alarm;
+        wire_.card.clear_faults();
+        for (int channel = 1; channel <= 4; ++channel) {
+            wire_.card.unplug_encoder(channel, false);
+        }
+        wire_.pass(2.0);
+        if (wire_.card.last_motion() > end) {
+            wrong(fmt::format("the machine moved {} s after the end, {}, {}",
+                              wire_.card.last_motion() - end,
+                              to_text(wire_.state()),
+                              program_ ? "program" : "jog"));
+        }
+        const bool wire_lies = kind_ == Kind::garble || kind_ == Kind::drop || kind_ == Kind::duplicate;
+        if (alarm && !wire_lies && wire_.powered()) {
+            wrong("an alarm, and a motor has power");
+        }
+    }
+};
+
+void campaign(std::uint64_t first, int runs) {
+    std::array<int, kinds> done{};
+    std::array<int, kinds> all{};
+    for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(runs); ++seed) {
+        CampaignRun run(seed);
+        EXPECT_EQ(run.run(), "") << "seed " << seed;
+        done[seed % kinds] += run.done() ? 1 : 0;
+        ++all[seed % kinds];
+    }
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+        fmt::print("kind {:2}: {:3} of {:3} ended well\n", kind, done[kind], all[kind]);
+    }
+    EXPECT_EQ(done[0], all[0]);
+    EXPECT_LT(done[static_cast<std::size_t>(Kind::amplifiers)], all[static_cast<std::size_t>(Kind::amplifiers)]);
+}
+
+TEST(PmacFaultCampaign, NeverMovesAfterAFaultInRuns1To2500) {
+    campaign(1, 2500);
+}
+
+TEST(PmacFaultCampaign, NeverMovesAfterAFaultInRuns2501To5000) {
+    campaign(2501, 2500);
+}
+
+TEST(PmacFaultCampaign, NeverMovesAfterAFaultInRuns5001To7500) {
+    campaign(5001, 2500);
+}
+
+TEST(PmacFaultCampaign, NeverMovesAfterAFaultInRuns7501To10000) {
+    campaign(7501, 2500);
+}
+
+} // namespace
+} // namespace millwright::machine::pmac

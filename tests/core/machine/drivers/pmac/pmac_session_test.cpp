@@ -1,0 +1,303 @@
+// The driver against the emulated card: P1, P8, F2 to F4, in computed time.
+#include "tests/core/machine/drivers/pmac/pmac_wire.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace millwright::machine::pmac {
+namespace {
+
+using test::jog_of;
+using test::PmacWire;
+using testing::HasSubstr;
+
+const std::vector<std::string> program_one{
+    "INC", "TA20", "TS10", "LINEAR", "FRAX(X,Y,Z,A)", "X10 Y10 Z10 A10 F0.5"};
+const std::vector<std::string> long_way{"INC", "LINEAR", "FRAX(X)", "F10", "X80"};
+
+std::string refusal(const auto& request) {
+    try {
+        request();
+    } catch (const Error& refused) {
+        return refused.what();
+    }
+    return "";
+}
+
+TEST(PmacSession, GreetsTheCardInWhateverModeItIs) {
+    for (const char* const mode : {"I3=0", "I3=1 I6=3", "I3=2", "I3=3 I4=1", "I9=3"}) {
+        PmacWire wire({}, false);
+        wire.session.closed();
+        wire.card.receive(std::string(mode) + "\r");
+        wire.session.opened(wire.now);
+        wire.run_until([&] { return wire.session.greeted(); }, 10.0);
+        EXPECT_EQ(wire.state(), DriverState::idle) << mode << wire.session.status().message;
+    }
+}
+
+TEST(PmacSession, KnowsNoPositionBeforeHoming) {
+    PmacWire wire({}, false);
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_FALSE(wire.session.position_known());
+    EXPECT_FALSE(wire.session.enabled());
+    EXPECT_THAT(wire.session.status().message, HasSubstr("home first"));
+    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("no power"));
+    wire.session.enable(wire.now);
+    wire.run_until([&] { return wire.session.enabled(); }, 2.0);
+    EXPECT_TRUE(wire.session.enabled());
+    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("not known"));
+    wire.session.home(wire.now);
+    EXPECT_TRUE(wire.run_until([&] { return wire.state() != DriverState::running; }, 60.0));
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_TRUE(wire.session.position_known());
+    EXPECT_NEAR(wire.card.position(3), 0.0, 0.5);
+}
+
+TEST(PmacSessionP8, RunsTheThesisProgramToItsCounts) {
+    PmacWire wire;
+    wire.session.start(program_one, wire.now);
+    EXPECT_EQ(wire.state(), DriverState::running);
+    EXPECT_EQ(wire.session.status().activity, Activity::program);
+    wire.pass(30.0);
+    EXPECT_EQ(wire.state(), DriverState::running) << wire.session.status().message;
+    EXPECT_LT(wire.session.status().executed_blocks, 6);
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_EQ(wire.session.status().executed_blocks, 6);
+    wire.pass(0.5);
+    EXPECT_NEAR(wire.card.position(1), 1200.0, 0.06);
+    EXPECT_NEAR(wire.card.position(2), 2220.0, 0.06);
+    EXPECT_NEAR(wire.session.status().position[3], from_degrees(10.0), 1e-5);
+}
+
+TEST(PmacSession, ClaimsNoMoreLinesThanWereExecuted) {
+    PmacWire wire;
+    std::vector<std::string> lines{"INC", "LINEAR", "TM300"};
+    for (int n = 0; n < 12; ++n) {
+        lines.push_back("X1");
+    }
+    wire.session.start(lines, wire.now);
+    int most = 0;
+    while (wire.state() == DriverState::running) {
+        wire.step();
+        const int claimed = std::max(0, wire.session.status().executed_blocks - 3);
+        EXPECT_LE(claimed, wire.card.command(1) / 120.0 + 1e-6);
+        most = std::max(most, claimed);
+    }
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_EQ(wire.session.status().executed_blocks, 15) << wire.session.status().message;
+    EXPECT_GT(most, 6);
+}
+
+TEST(PmacSession, HoldsResumesAndStops) {
+    PmacWire wire;
+    wire.session.start(program_one, wire.now);
+    wire.pass(8.0);
+    wire.session.hold(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    wire.pass(2.0);
+    const double held = wire.card.command(1);
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.command(1), held);
+    EXPECT_EQ(wire.state(), DriverState::holding) << wire.session.status().message;
+    wire.session.resume(wire.now);
+    wire.pass(2.0);
+    EXPECT_GT(wire.card.command(1), held);
+    wire.session.stop(wire.now);
+    ASSERT_TRUE(wire.run_to_end(10.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
+    EXPECT_TRUE(wire.powered());
+    EXPECT_FALSE(wire.card.program_runs(1));
+    const double stopped = wire.card.command(1);
+    wire.pass(2.0);
+    EXPECT_EQ(wire.card.command(1), stopped);
+}
+
+TEST(PmacJogF3, IsNoFasterThanItsLimitWhateverIx22Says) {
+    PmacWire wire;
+    EXPECT_EQ(wire.card.variable('I', 322), 32.0); // 213 degrees a second
+    wire.session.jog(jog_of(2, 20.0, 500.0), wire.now);
+    double fastest = 0.0;
+    for (int n = 0; n < 1000; ++n) {
+        wire.step();
+        fastest = std::max(fastest, std::abs(wire.card.speed(3)) / 150.0);
+    }
+    EXPECT_LT(fastest, 5.1);
+    EXPECT_GT(fastest, 4.9);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    wire.pass(0.5);
+    EXPECT_NEAR(wire.degrees(2), 20.0, 0.01);
+}
+
+TEST(PmacJogF2, EndsWhenNobodyHoldsTheKey) {
+    PmacWire wire;
+    wire.session.jog(jog_of(0, 60.0, 5.0, 0.3), wire.now);
+    wire.pass(0.25);
+    wire.session.jog(jog_of(0, 1.0, 5.0, 0.3), wire.now); // held
+    wire.pass(0.25);
+    EXPECT_EQ(wire.state(), DriverState::running) << wire.session.status().message;
+    EXPECT_FALSE(wire.standing());
+    ASSERT_TRUE(wire.run_to_end(2.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
+    EXPECT_LT(wire.degrees(0), 5.0);
+    EXPECT_TRUE(wire.powered());
+}
+
+TEST(PmacJog, LeavesNoLimits) {
+    PmacWire wire;
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(1, 91.0, 5.0), wire.now); }), HasSubstr("limits"));
+    wire.session.jog(jog_of(1, 2.0, 5.0), wire.now);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    wire.pass(0.5);
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(1, -93.0, 5.0), wire.now); }), HasSubstr("limits"));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_NE(refusal([&] { wire.session.jog(jog_of(1, 0.0, 5.0), wire.now); }), "");
+}
+
+TEST(PmacProgram, OfASessionIsStoppedAtASoftLimit) {
+    PmacWire wire;
+    wire.session.start({"INC", "LINEAR", "FRAX(X)", "F20", "X170"}, wire.now);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
+    EXPECT_THAT(wire.session.status().message, HasSubstr("X is beyond its limit"));
+    EXPECT_LT(wire.degrees(0), 115.0);
+}
+
+TEST(PmacSafetyF2, ALostLinkEndsMotionWithin100Milliseconds) {
+    for (const bool jogging : {true, false}) {
+        PmacWire wire;
+        jogging ? wire.session.jog(jog_of(0, 80.0, 5.0, 5.0), wire.now)
+                : wire.session.start(long_way, wire.now);
+        wire.pass(1.5);
+        ASSERT_FALSE(wire.standing()) << wire.session.status().message;
+        wire.cut();
+        const double cut = wire.card.time();
+        wire.run_until([&] { return !wire.powered(); }, 1.0);
+        EXPECT_LE(wire.card.time() - cut, 0.100);
+        wire.pass(0.3); // coasting
+        EXPECT_TRUE(wire.standing());
+        EXPECT_FALSE(wire.powered());
+        EXPECT_EQ(wire.state(), DriverState::alarm);
+        EXPECT_TRUE(wire.session.link_lost());
+        wire.pass(5.0);
+        EXPECT_TRUE(wire.standing());
+    }
+}
+
+TEST(PmacSafetyF2, SilenceEndsMotionToo) {
+    PmacWire wire;
+    wire.session.jog(jog_of(0, 80.0, 5.0), wire.now);
+    wire.pass(1.0);
+    ASSERT_FALSE(wire.standing());
+    wire.go_deaf();
+    const double deaf = wire.card.time();
+    wire.run_until([&] { return !wire.powered(); }, 1.0);
+    EXPECT_LE(wire.card.time() - deaf, 0.100);
+    wire.pass(4.0);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("did not answer"));
+}
+
+TEST(PmacSafetyF2, AnEmergencyStopKillsAndNothingGivesPowerBack) {
+    PmacWire wire;
+    wire.session.start(long_way, wire.now);
+    wire.pass(1.5);
+    ASSERT_FALSE(wire.standing());
+    wire.session.emergency_stop(wire.now);
+    wire.step();
+    EXPECT_FALSE(wire.powered());
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    wire.pass(3.0);
+    EXPECT_FALSE(wire.powered());
+    EXPECT_NE(refusal([&] { wire.session.jog(jog_of(0, 1.0, 1.0), wire.now); }), "");
+    wire.session.reset(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    wire.pass(1.0);
+    EXPECT_FALSE(wire.powered());
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(0, 1.0, 1.0), wire.now); }), HasSubstr("no power"));
+    EXPECT_THAT(refusal([&] { wire.session.home(wire.now); }), HasSubstr("no power"));
+    wire.session.stop(wire.now);
+    wire.session.hold(wire.now);
+    wire.session.resume(wire.now);
+    wire.session.stop_jog(wire.now);
+    wire.pass(1.0);
+    EXPECT_FALSE(wire.powered());
+    wire.session.enable(wire.now); // a person's own decision
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.powered());
+    EXPECT_TRUE(wire.session.position_known());
+}
+
+TEST(PmacSafetyF2, FaultsOfTheMachineEndInAlarmWithoutPower) {
+    for (const int kind : {0, 1, 2}) {
+        PmacWire wire;
+        wire.session.start(long_way, wire.now);
+        wire.pass(1.5);
+        if (kind == 0) {
+            wire.card.raise_alarm();
+        } else if (kind == 1) {
+            wire.card.unplug_encoder(1);
+        } else {
+            wire.card.power_cycle();
+        }
+        ASSERT_TRUE(wire.run_to_end(8.0)) << kind;
+        EXPECT_EQ(wire.state(), DriverState::alarm) << kind;
+        EXPECT_NE(wire.session.status().message, "");
+        wire.card.clear_faults();
+        wire.pass(1.0);
+        EXPECT_TRUE(wire.standing()) << kind;
+        EXPECT_FALSE(wire.powered()) << kind;
+    }
+}
+
+TEST(PmacSession, TakesCommandsAndTellsTheCardsErrors) {
+    PmacWire wire;
+    const auto ask = [&](const std::vector<std::string>& lines, bool all = false) {
+        (void)wire.session.command(lines, all);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    EXPECT_EQ(ask({"#2P", "&1?"}).text.substr(0, 2), "0\n");
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
+    EXPECT_EQ(ask({"#"}).text, "2"); // the person's own address, whatever was asked meanwhile
+    const CommandAnswer refused = ask({"P1=4", "UNKNOWN", "P1=5"});
+    EXPECT_EQ(refused.state, CommandAnswer::State::refused);
+    EXPECT_THAT(refused.text, HasSubstr("ERR003, no such command"));
+    EXPECT_EQ(wire.card.variable('P', 1), 4.0);
+    EXPECT_THAT(ask({"OPEN PROG 3", "CLEAR", "X1", "CLOSE", "UNKNOWN", "P1=6"}, true).text,
+                HasSubstr("'UNKNOWN' is refused"));
+    EXPECT_EQ(wire.card.variable('P', 1), 6.0);
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
+}
+
+TEST(PmacSession, ARefusedLineOfAProgramRunsNothing) {
+    PmacWire wire;
+    wire.session.start({"INC", "X10 F1", "NONSENSE(5"}, wire.now);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("NONSENSE(5"));
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.moves(1), 0);
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+}
+
+TEST(PmacDirectionF4, AJogAndAProgramGoTheSameWay) {
+    for (const std::size_t axis : {0u, 1u, 2u, 3u}) {
+        PmacWire wire;
+        wire.session.jog(jog_of(static_cast<Eigen::Index>(axis), 1.0, 5.0), wire.now);
+        ASSERT_TRUE(wire.run_to_end(10.0));
+        wire.pass(0.3);
+        EXPECT_NEAR(wire.degrees(axis), 1.0, 0.02);
+        wire.session.start({"INC", "LINEAR", "FRAX(X,Y,Z,A)", "F5", std::string(1, "XYZA"[axis]) + "1"},
+                           wire.now);
+        ASSERT_TRUE(wire.run_to_end(10.0));
+        wire.pass(0.3);
+        EXPECT_NEAR(wire.degrees(axis), 2.0, 0.02) << wire.session.status().message;
+    }
+}
+
+} // namespace
+} // namespace millwright::machine::pmac

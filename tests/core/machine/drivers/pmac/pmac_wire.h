@@ -1,0 +1,84 @@
+// A session with a PMAC and an emulated card with its arm, with a wire between them.
+#pragma once
+
+#include "core/base/units.h"
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+#include "core/machine/emulators/pmac/pmac_emulator.h"
+#include "tests/core/machine/drivers/session_wire.h"
+
+#include <cmath>
+#include <string>
+
+namespace millwright::test {
+
+struct PmacHolder {
+    machine::PmacEmulator card;
+};
+
+/// The axes of the thesis with soft limits of 90 degrees; protections as they come from the factory.
+inline machine::PmacSettings wire_settings() {
+    machine::PmacSettings settings = machine::arm_settings();
+    for (machine::PmacAxis& axis : settings.axes) {
+        axis.min_deg = -90.0;
+        axis.max_deg = 90.0;
+    }
+    return settings;
+}
+
+/// What is sent before: what a person's file would say.
+inline const std::string arm_setup = "I100=1\nI200=1\nI300=1\nI400=1\nI902=10\nI907=10\nI912=10\nI917=10\n"
+                                     "I123=10\nI223=10\nI323=10\nI423=10\n"
+                                     "#1->120X\n#2->222Y\n#3->150Z\n#4->150A\n";
+
+class PmacWire : public PmacHolder,
+                 public SessionWire<machine::pmac::PmacSession, machine::PmacEmulator> {
+public:
+    /// Connected; if `homed`, with power and its zero set where it stands.
+    explicit PmacWire(const machine::FaultSpec& faults = {}, bool homed = true)
+        : SessionWire(card, machine::pmac::PmacSession(wire_settings()), 0.002) {
+        for (const char c : arm_setup) {
+            card.receive(std::string(1, c == '\n' ? '\r' : c));
+        }
+        greet();
+        if (homed) {
+            session.enable(now);
+            run_until([this] { return session.enabled(); }, 2.0);
+            (void)session.command({"ZZ"}, false);
+            run_until(
+                [this] { return state() == machine::DriverState::idle && session.position_known(); }, 5.0);
+        }
+        begin_faults(faults);
+    }
+
+    /// Lets the same time pass for both.
+    void pass(double seconds) {
+        run_until([] { return false; }, seconds);
+    }
+    [[nodiscard]] double degrees(std::size_t axis) const {
+        const machine::PmacAxis one = wire_settings().axes[axis];
+        return card.position(one.motor) / one.counts_per_degree;
+    }
+    [[nodiscard]] bool powered() const {
+        return card.enabled(1) || card.enabled(2) || card.enabled(3) || card.enabled(4);
+    }
+    [[nodiscard]] bool standing() const {
+        for (int channel = 1; channel <= 4; ++channel) {
+            if (std::abs(card.speed(channel)) > 1.0) {
+                return false;
+            }
+        }
+        return true;
+    }
+};
+
+/// Of one axis, deg and deg/s.
+inline machine::Jog jog_of(Eigen::Index axis, double way_deg, double speed_deg, double dead_man = 0.0) {
+    machine::Jog jog;
+    jog.way = kinematics::AxisPositions::Zero(4);
+    jog.way[axis] = from_degrees(way_deg);
+    jog.speed = from_degrees(speed_deg);
+    jog.dead_man = dead_man;
+    return jog;
+}
+
+} // namespace millwright::test
