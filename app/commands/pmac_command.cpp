@@ -83,7 +83,9 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand("pmac", "Talk to a PMAC motor controller");
     command.add_option("COMMAND", options->commands, "On-line commands, as '#1P'; several one after another");
-    command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT")->required()->type_name("PORT");
+    command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT")
+        ->required()
+        ->type_name("PORT");
     command.add_option("--load", options->file, "File of commands to send before, as pmac.ini")
         ->type_name("FILE");
     command.callback([&chosen, options] { chosen = [options] { return talk(*options); }; });

@@ -32,7 +32,8 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     Emulator emulator(port, {}, "pmac");
     const Ended ended = run({"pmac", "I131", "--load", (scratch / "pmac.ini").string(), "--port", port});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are not looked at"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are not looked at"));
     EXPECT_THAT(ended.err, HasSubstr("pmac.ini:3:1: I111=0"));
     EXPECT_THAT(ended.out, HasSubstr("'NONSENSE' is refused"));
     EXPECT_THAT(ended.out, HasSubstr("795\n"));

@@ -51,10 +51,8 @@ std::vector<std::string> lines_of(std::string_view text) {
 } // namespace
 
 PmacDriver::PmacDriver(std::unique_ptr<Link> link, const Clock& clock, PmacSettings settings)
-    : SessionDriver(std::move(link),
-                    clock,
-                    std::make_unique<PmacSession>(checked(settings)),
-                    pmac::console_words()),
+    : SessionDriver(
+          std::move(link), clock, std::make_unique<PmacSession>(checked(settings)), pmac::console_words()),
       settings_(std::move(settings)) {}
 
 PmacDriver::~PmacDriver() {

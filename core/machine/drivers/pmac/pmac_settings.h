@@ -12,13 +12,13 @@ struct PmacAxis {
     int motor = 1;
     double counts_per_degree = 100.0;
     std::optional<double> min_deg{}, max_deg{}; ///< checked before a jog and while anything moves
-    double jog_deg_per_s = 5.0;             ///< no jog is faster, whatever Ix22 says
+    double jog_deg_per_s = 5.0;                 ///< no jog is faster, whatever Ix22 says
 };
 
 struct PmacSettings {
     std::vector<PmacAxis> axes;
-    int system = 1;          ///< coordinate system
-    int program = 1;         ///< motion program that start() writes
+    int system = 1;            ///< coordinate system
+    int program = 1;           ///< motion program that start() writes
     double abort_after = 0.05; ///< without a sign of life the card stops its motors, s
     double kill_after = 0.08;  ///< and takes their power away
     double patience = 0.5;     ///< s without an answer after which the card counts as silent

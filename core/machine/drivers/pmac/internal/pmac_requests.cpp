@@ -1,9 +1,8 @@
 // What a person wants of the machine.
-#include "core/machine/drivers/pmac/internal/pmac_session.h"
-#include "core/machine/drivers/pmac/internal/watchdog.h"
-
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+#include "core/machine/drivers/pmac/internal/watchdog.h"
 
 #include <fmt/format.h>
 

@@ -182,7 +182,8 @@ void PmacSession::refused(const Request& request, int error) {
     if (starts_with_word(request.line, "CLOSE")) {
         buffer_open_ = false;
     }
-    const std::string why = fmt::format("'{}' is refused: ERR{:03}, {}", request.line, error, pmac_error(error));
+    const std::string why =
+        fmt::format("'{}' is refused: ERR{:03}, {}", request.line, error, pmac_error(error));
     if (request.kind == Kind::command && command_goes_on_) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why;
         next_command();

@@ -53,7 +53,19 @@ public:
     [[nodiscard]] bool enabled() const;
 
 private:
-    enum class Stage { closed, greeting, ready, loading, running, commanding, jogging, homing, stopping, stopped, alarm };
+    enum class Stage {
+        closed,
+        greeting,
+        ready,
+        loading,
+        running,
+        commanding,
+        jogging,
+        homing,
+        stopping,
+        stopped,
+        alarm
+    };
     enum class Kind { greet, poll, step, run, program, command, address };
 
     struct Request {
@@ -67,6 +79,7 @@ private:
         [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
         [[nodiscard]] bool home() const { return (word_2 >> 10 & 1U) != 0; }
         [[nodiscard]] bool searching() const { return (word_1 >> 10 & 1U) != 0; }
+        [[nodiscard]] bool in_place() const { return !enabled() || (word_2 & 1U) != 0; }
         [[nodiscard]] bool standing() const { return !enabled() || (word_1 >> 13 & 1U) != 0; }
     };
 
@@ -129,6 +142,7 @@ private:
     bool held_ = false;
     bool armed_ = false; ///< the watchdog in the card
     int quiet_polls_ = 0;
+    int astray_polls_ = 0;  ///< a motor stands where it was not sent
     bool was_home_ = false; ///< to tell when the card forgets
     std::size_t homing_axis_ = 0;
     std::optional<double> jog_until_;

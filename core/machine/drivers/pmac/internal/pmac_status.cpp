@@ -1,7 +1,6 @@
 // What a session knows, in the words of the Driver interface.
-#include "core/machine/drivers/pmac/internal/pmac_session.h"
-
 #include "core/base/units.h"
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
 
 #include <algorithm>
 

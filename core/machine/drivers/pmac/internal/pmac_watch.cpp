@@ -72,7 +72,8 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
 }
 
 bool PmacSession::position_known() const {
-    return polled_ && std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.home(); });
+    return polled_ &&
+           std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.home(); });
 }
 
 bool PmacSession::enabled() const {
@@ -113,8 +114,8 @@ void PmacSession::watch_motors() {
             fail(name + " was killed");
         }
     }
-    const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
-                        stage_ != Stage::commanding;
+    const bool forgot =
+        was_home_ && !position_known() && stage_ != Stage::homing && stage_ != Stage::commanding;
     if (forgot) {
         fail("the card forgot the position: was it reset?");
     }
@@ -146,7 +147,15 @@ bool PmacSession::standing() const {
 }
 
 void PmacSession::watch_stage() {
-    quiet_polls_ = standing() && queue_.empty() ? quiet_polls_ + 1 : 0;
+    const bool in_place =
+        std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
+    astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
+    constexpr int patience = 25; // half a second
+    if (astray_polls_ > patience) {
+        fail("a motor with power is not where it was sent");
+        return;
+    }
+    quiet_polls_ = standing() && in_place && queue_.empty() ? quiet_polls_ + 1 : 0;
     const bool settled = quiet_polls_ >= 2; // the first may have been asked before a command arrived
     switch (stage_) {
     case Stage::running:
@@ -199,9 +208,8 @@ void PmacSession::watch_program(bool settled) {
         executed_ = program_lines_;
         finish(Stage::ready);
     } else if (settled) {
-        const bool limit = std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) {
-            return (m.word_2 & at_limit) != 0;
-        });
+        const bool limit = std::any_of(
+            motors_.begin(), motors_.end(), [](const MotorState& m) { return (m.word_2 & at_limit) != 0; });
         fail(limit ? "a motor ran into a limit" : "the program was ended by somebody else");
     }
 }
@@ -239,7 +247,7 @@ void PmacSession::finish(Stage stage, std::string why) {
     message_ = std::move(why);
     jog_until_.reset();
     jog_stopping_ = held_ = false;
-    quiet_polls_ = 0;
+    quiet_polls_ = astray_polls_ = 0;
     if (answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = CommandAnswer::State::refused;
         answer_.text = message_.empty() ? "stopped" : message_;
@@ -251,6 +259,11 @@ void PmacSession::fail(std::string why) {
     if (stage_ == Stage::alarm) {
         return;
     }
+    (void)
+        talk_.take_output(); // a line on its way must not arrive behind the kill: a jog would give power back
+    talk_.forget();
+    sent_.reset();
+    output_ = "\x18";
     kill();
     queue_.clear();
     command_lines_.clear();

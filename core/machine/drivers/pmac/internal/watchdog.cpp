@@ -21,8 +21,7 @@ std::string enabled(const PmacSettings& settings) {
 } // namespace
 
 std::vector<std::string> watchdog_lines(const PmacSettings& settings) {
-    std::vector<std::string> lines{
-        "P1001=0", "CLOSE", "DISABLE PLC 0..31", "I5=2", "M1000->X:$0,0,24"};
+    std::vector<std::string> lines{"P1001=0", "CLOSE", "DISABLE PLC 0..31", "I5=2", "M1000->X:$0,0,24"};
     for (const PmacAxis& axis : settings.axes) { // amplifier enabled, in the motors' status words
         constexpr int first = 0x814, step = 0xC0;
         lines.push_back(fmt::format("M{}->Y:${:X},14", 1000 + axis.motor, first + step * (axis.motor - 1)));

@@ -158,10 +158,9 @@ Motor::Event Motor::take_event() {
 }
 
 double Motor::servo(const MotorSettings& settings, Channel& channel, double cycle, double time_base) {
-    constexpr double interpolation = 32.0; // parts of a count
     const double measured = settings.wired ? channel.encoder() : 0.0;
     const double before = actual_;
-    actual_ = std::round((measured - origin_) * interpolation) / interpolation;
+    actual_ = measured - origin_;
     velocity_ = actual_ - before;
     watch_trigger(settings, channel);
     watch_limits(settings, channel);

@@ -12,10 +12,11 @@ namespace {
 using testing::HasSubstr;
 
 /// One motor's part of the thesis's file, with the last line unended.
-const std::string ini = "#1->120X\r\nI3=1\nI4=0\nI9=0\nCLOSE\nDELETE GATHER\nDELETE TRACE\nDELETE STIMULUS\n\n"
-                        "I125=$13C000\nM36->X:$C000,22\nM39->X:$C000,23\nI102=49155\nI169=6553\nI103=1824\n"
-                        "I900=5\nI900=1\nI129=-996\nM39->X:$3,15\nI111=0\nI112=8388607\ni130=701\nI131=795\n"
-                        "I119=0.015625\nI120=0\nI121=50\nI122=0.2\nI902=10\nI903=0\nI123=5\nI126=0";
+const std::string ini =
+    "#1->120X\r\nI3=1\nI4=0\nI9=0\nCLOSE\nDELETE GATHER\nDELETE TRACE\nDELETE STIMULUS\n\n"
+    "I125=$13C000\nM36->X:$C000,22\nM39->X:$C000,23\nI102=49155\nI169=6553\nI103=1824\n"
+    "I900=5\nI900=1\nI129=-996\nM39->X:$3,15\nI111=0\nI112=8388607\ni130=701\nI131=795\n"
+    "I119=0.015625\nI120=0\nI121=50\nI122=0.2\nI902=10\nI903=0\nI123=5\nI126=0";
 
 TEST(PmacFileP4, IsTakenWholeWithItsLastLine) {
     const PmacFile file = read_pmac_file(ini, "pmac.ini");

@@ -30,8 +30,7 @@ inline const std::string arm_setup = "I100=1\nI200=1\nI300=1\nI400=1\nI902=10\nI
                                      "I123=10\nI223=10\nI323=10\nI423=10\n"
                                      "#1->120X\n#2->222Y\n#3->150Z\n#4->150A\n";
 
-class PmacWire : public PmacHolder,
-                 public SessionWire<machine::pmac::PmacSession, machine::PmacEmulator> {
+class PmacWire : public PmacHolder, public SessionWire<machine::pmac::PmacSession, machine::PmacEmulator> {
 public:
     /// Connected; if `homed`, with power and its zero set where it stands.
     explicit PmacWire(const machine::FaultSpec& faults = {}, bool homed = true)
@@ -44,8 +43,8 @@ public:
             session.enable(now);
             run_until([this] { return session.enabled(); }, 2.0);
             (void)session.command({"ZZ"}, false);
-            run_until(
-                [this] { return state() == machine::DriverState::idle && session.position_known(); }, 5.0);
+            run_until([this] { return state() == machine::DriverState::idle && session.position_known(); },
+                      5.0);
         }
         begin_faults(faults);
     }
