@@ -48,12 +48,8 @@ public:
             read_line();
         }
         close_labels();
-        if (result_.image.code.size() > rom_size) {
-            result_.errors.push_back({{name_, line_, 0, -1},
-                                      fmt::format("the program has {} bytes, the ROM holds {}",
-                                                  result_.image.code.size(),
-                                                  rom_size),
-                                      {}});
+        if (const std::size_t size = result_.image.code.size(); size > most_code) {
+            fail(0, fmt::format("the program has {} bytes, the ROM holds {}", size, most_code));
         }
         return std::move(result_);
     }
@@ -89,18 +85,19 @@ private:
         const std::string name = upper(word.text);
         const auto known = std::ranges::find(named_opcodes(), name, &NamedOpcode::name);
         if (known != named_opcodes().end()) {
-            append(result_.image.code, {.opcode = known->opcode}, result_.image.format);
-            begun_ = true;
+            add({.opcode = known->opcode}, word.column);
         } else if (name == "MOV") {
-            read_mov();
+            read_mov(word.column);
         } else if (name == ".FORMAT") {
             read_format();
         } else if (name == ".BYTE") {
             read_byte();
+        } else if (name == ".PAGE") {
+            fill_page();
         } else {
             fail(word.column,
                  fmt::format("\"{}\" is no instruction", word.text),
-                 "MOV, G00 to G04, G00Z, G01Z, M00 to M09, M30, MUSER, NOP or HLT");
+                 "MOV, G00 to G04, G00Z to G03Z, M00 to M09, M30, MUSER, PAGE, NOP or HLT");
             return;
         }
         if (more() && (result_.errors.empty() || result_.errors.back().place.line != line_)) {
@@ -133,6 +130,28 @@ private:
         ++at_;
     }
 
+    void add(const Instruction& instruction, int column) {
+        std::vector<std::uint8_t>& code = result_.image.code;
+        const std::size_t at = code.size();
+        append(code, instruction, result_.image.format);
+        if (at / rom_size != (code.size() - 1) / rom_size) {
+            fail(column,
+                 "the instruction crosses the end of a page of the program ROM",
+                 "put PAGE and .page in front of it");
+        }
+        result_.lines.push_back({code_address_at(at), line_, column});
+        begun_ = true;
+    }
+
+    /// As an erased ROM is.
+    void fill_page() {
+        std::vector<std::uint8_t>& code = result_.image.code;
+        if (code.size() < most_code) { // else there are errors enough
+            code.resize((code.size() / rom_size + 1) * rom_size, 0xff);
+        }
+        begun_ = true;
+    }
+
     void read_byte() {
         long long number = 0;
         if (!more() || !read_number(words_[at_].text, number) || number < 0 || number > 255) {
@@ -144,7 +163,7 @@ private:
         result_.image.code.push_back(static_cast<std::uint8_t>(number));
     }
 
-    void read_mov() {
+    void read_mov(int mov_column) {
         const auto target = more() ? register_of(words_[at_].text) : std::nullopt;
         if (!target) {
             fail(column(),
@@ -168,8 +187,7 @@ private:
         const auto immediate = immediate_of(*target, words_[at_]);
         ++at_;
         if (immediate) {
-            append(result_.image.code, {Opcode::mov, *target, *immediate}, result_.image.format);
-            begun_ = true;
+            add({Opcode::mov, *target, *immediate}, mov_column);
         }
     }
 
@@ -226,13 +244,18 @@ private:
     void close_labels() {
         for (const OpenLabel& open : open_) {
             const auto found = labels_.find(open.name);
+            line_ = open.line;
             if (found == labels_.end()) {
-                line_ = open.line;
                 fail(open.column, fmt::format("there is no label {}", open.name));
-                continue;
+            } else if (found->second / rom_size != open.at / rom_size) {
+                fail(open.column,
+                     fmt::format("label {} lies in another page of the program ROM", open.name),
+                     "PAGE goes on in the next page");
+            } else {
+                const std::size_t target = found->second % rom_size;
+                result_.image.code[open.at] = static_cast<std::uint8_t>(target);
+                result_.image.code[open.at + 1] = static_cast<std::uint8_t>(target >> 8U);
             }
-            result_.image.code[open.at] = static_cast<std::uint8_t>(found->second);
-            result_.image.code[open.at + 1] = static_cast<std::uint8_t>(found->second >> 8U);
         }
     }
 
@@ -260,9 +283,40 @@ std::string immediate_text(const Instruction& instruction, const NumberFormat& f
             return bits;
         }
         const double value = arithmetic.to_double(number);
-        const Word again = to_immediate(format, arithmetic.to_word(arithmetic.from_double(value, overflow)));
-        return again == instruction.immediate && !overflow ? shortest(value) : bits;
+        const std::string text = format.kind == NumberKind::binary32
+                                     ? fmt::format("{}", static_cast<float>(value))
+                                     : shortest(value);
+        double again = 0.0;
+        const bool reads_back =
+            read_real(text, again) &&
+            to_immediate(format, arithmetic.to_word(arithmetic.from_double(again, overflow))) ==
+                instruction.immediate;
+        return reads_back && !overflow ? text : bits;
     });
+}
+
+std::string instruction_text(const Instruction& instruction, const NumberFormat& format) {
+    if (instruction.opcode != Opcode::mov) {
+        return std::string(to_text(instruction.opcode));
+    }
+    return fmt::format("MOV {}, {}", to_text(instruction.target), immediate_text(instruction, format));
+}
+
+/// A page of the ROM, or what there is of the last one, which begins at `offset` of the code.
+std::string page_text(std::span<const std::uint8_t> page, std::size_t offset, const NumberFormat& format) {
+    std::size_t end = page.size();
+    while (page.size() == rom_size && end > 0 && page[end - 1] == 0xff) {
+        --end;
+    }
+    std::string text;
+    for (std::size_t at = 0; at < end;) {
+        const auto found = decode(page.subspan(at, end - at), format);
+        const std::string line =
+            found ? instruction_text(found->instruction, format) : fmt::format(".byte {:#04x}", page[at]);
+        text += fmt::format("        {:<32}; {:04x}\n", line, code_address_at(offset + at));
+        at += static_cast<std::size_t>(found ? found->size : 1);
+    }
+    return end < page.size() ? text + "        .page\n" : text;
 }
 
 } // namespace
@@ -274,18 +328,9 @@ Assembled assemble(std::string_view text, const std::filesystem::path& name, con
 std::string disassemble(const Image& image) {
     std::string text = fmt::format("        .format {}\n", to_text(image.format));
     const std::span<const std::uint8_t> code(image.code);
-    for (std::size_t at = 0; at < code.size();) {
-        const auto found = decode(code.subspan(at), image.format);
-        std::string line = fmt::format(".byte {:#04x}", code[at]);
-        if (found && found->instruction.opcode == Opcode::mov) {
-            line = fmt::format("MOV {}, {}",
-                               to_text(found->instruction.target),
-                               immediate_text(found->instruction, image.format));
-        } else if (found) {
-            line = to_text(found->instruction.opcode);
-        }
-        text += fmt::format("        {:<32}; {:04x}\n", line, at);
-        at += static_cast<std::size_t>(found ? found->size : 1);
+    for (std::size_t begin = 0; begin < code.size(); begin += rom_size) {
+        const std::size_t size = std::min<std::size_t>(rom_size, code.size() - begin);
+        text += page_text(code.subspan(begin, size), begin, image.format);
     }
     return text;
 }

@@ -13,6 +13,7 @@ namespace millwright::cordic {
 
 struct Assembled {
     Image image;
+    std::vector<CodeLine> lines;    ///< of each instruction, in the order of their addresses
     std::vector<Diagnostic> errors; ///< with line and column; the image is of use only if there are none
 };
 

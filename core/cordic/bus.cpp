@@ -2,10 +2,10 @@
 
 namespace millwright::cordic {
 
-std::uint8_t Memory::read(std::uint16_t address) const {
+std::uint8_t Memory::read(std::uint16_t address, std::uint8_t page) const {
     switch (device_at(address)) {
     case Device::rom:
-        return rom[address];
+        return rom[static_cast<std::size_t>(page) * rom_size + address];
     case Device::ram:
         return ram[static_cast<std::size_t>(address - ram_begin)];
     case Device::port:
@@ -47,7 +47,7 @@ bool go_on(BusState& bus, Memory& memory) {
     if (last && writes) {
         done = memory.write(bus.address, bus.data);
     } else if (last) {
-        bus.data = memory.read(bus.address);
+        bus.data = memory.read(bus.address, bus.page);
     }
     bus.pins = {.psen = bus.cycle == BusCycle::fetch,
                 .rd = bus.cycle == BusCycle::read,

@@ -2,6 +2,9 @@
 // program ROM, a dual-port RAM and the motion controller's port behind an address decoder. Thesis
 // sections 2.4 and 2.6.
 //
+// The ROM may have up to 256 pages of 32 KB, of which a counter beside the address bus selects one; the
+// instruction PAGE counts it up (the thesis's own test system has a port for a page of memory, appendix A).
+//
 // A cycle is one clock with ALE and the address, then one clock with the strobe (PSEN for the program, WR for
 // the motion controller) and the data, and a clock more for each wait state.
 #pragma once
@@ -11,7 +14,9 @@
 
 namespace millwright::cordic {
 
-inline constexpr std::uint16_t ram_begin = 0x8000;  ///< below: program ROM
+inline constexpr std::uint16_t ram_begin = 0x8000; ///< below: program ROM
+inline constexpr int rom_size = ram_begin;         ///< of one page
+inline constexpr int most_pages = 256;
 inline constexpr std::uint16_t port_begin = 0xc000; ///< from here: the motion controller
 inline constexpr std::uint8_t command_port = 0x80;  ///< behind port_begin: opcode and parameter of a command
 
@@ -27,12 +32,14 @@ enum class Device : std::uint8_t { rom, ram, port };
 
 /// What lies behind the bus. The RAM's other port is the host's: it reads and writes `ram` between clocks.
 struct Memory {
-    std::vector<std::uint8_t> rom = std::vector<std::uint8_t>(ram_begin, 0xff);
+    std::vector<std::uint8_t> rom = std::vector<std::uint8_t>(ram_begin, 0xff); ///< whole pages
     std::vector<std::uint8_t> ram = std::vector<std::uint8_t>(port_begin - ram_begin, 0xff);
     std::vector<std::uint8_t> port =
         std::vector<std::uint8_t>(0x10000 - port_begin, 0xff); ///< as last written
 
-    [[nodiscard]] std::uint8_t read(std::uint16_t address) const;
+    [[nodiscard]] int pages() const { return static_cast<int>(rom.size()) / rom_size; }
+    /// `page` counts for the ROM alone.
+    [[nodiscard]] std::uint8_t read(std::uint16_t address, std::uint8_t page = 0) const;
     /// Nothing writes into a ROM: false.
     bool write(std::uint16_t address, std::uint8_t data);
 };
@@ -56,6 +63,7 @@ struct BusState {
     BusCycle cycle = BusCycle::none; ///< that is under way after its address clock
     int waits_left = 0;
     std::uint16_t address = 0;
+    std::uint8_t page = 0; ///< of the program ROM
     std::uint8_t data = 0; ///< last byte read, or byte being written
     BusPins pins;
 

@@ -56,14 +56,13 @@ std::vector<IterationPoint> replayed(const Arithmetic& arithmetic,
 Debugger::Debugger(Processor processor, std::vector<CodeLine> lines)
     : processor_(std::move(processor)), lines_(std::move(lines)), before_(processor_.state()) {}
 
-std::uint16_t Debugger::instruction() const {
-    return fetches() ? static_cast<std::uint16_t>(state().registers[static_cast<std::size_t>(Register::PC)])
+CodeAddress Debugger::instruction() const {
+    return fetches() ? code_address(state().bus.page, register_of(state(), Register::PC))
                      : state().instruction_at;
 }
 
 int Debugger::line() const {
-    const auto after = std::ranges::upper_bound(lines_, instruction(), {}, &CodeLine::address);
-    return after == lines_.begin() ? 0 : std::prev(after)->line;
+    return line_at(lines_, instruction()).line;
 }
 
 IterationTrace Debugger::iterations() const {
@@ -77,7 +76,7 @@ IterationTrace Debugger::iterations() const {
     return trace;
 }
 
-void Debugger::toggle_breakpoint(std::uint16_t address) {
+void Debugger::toggle_breakpoint(CodeAddress address) {
     if (breakpoints_.erase(address) == 0) {
         breakpoints_.insert(address);
     }
@@ -145,7 +144,7 @@ Halt Debugger::run_to_set_point(std::int64_t limit) {
               [&, from = processor_.published().size()] { return processor_.published().size() != from; });
 }
 
-Halt Debugger::run_to(std::uint16_t address, std::int64_t limit) {
+Halt Debugger::run_to(CodeAddress address, std::int64_t limit) {
     return go(limit, [&] { return fetches() && instruction() == address; });
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <set>
+#include <span>
 #include <vector>
 
 namespace millwright::cordic {
@@ -16,12 +17,6 @@ enum class Halt : std::uint8_t {
     breakpoint, ///< before a micro-instruction or instruction that has one
     stopped,    ///< the processor stands: ProcessorState::stop says why
     limit       ///< of clocks
-};
-
-/// An instruction in memory and the line of the program that it comes from, 0: none.
-struct CodeLine {
-    std::uint16_t address = 0;
-    int line = 0;
 };
 
 /// What stands in the arithmetic unit behind a step of a pass. The first point is the pass's start.
@@ -51,11 +46,11 @@ public:
 
     /// Of the instruction that is executed, or fetched next; 0: none.
     [[nodiscard]] int line() const;
-    [[nodiscard]] std::uint16_t instruction() const;
+    [[nodiscard]] CodeAddress instruction() const;
 
-    [[nodiscard]] const std::set<std::uint16_t>& breakpoints() const { return breakpoints_; }
+    [[nodiscard]] const std::set<CodeAddress>& breakpoints() const { return breakpoints_; }
     [[nodiscard]] const std::set<std::uint8_t>& micro_breakpoints() const { return micro_breakpoints_; }
-    void toggle_breakpoint(std::uint16_t address);
+    void toggle_breakpoint(CodeAddress address);
     void toggle_micro_breakpoint(std::uint8_t address);
 
     /// Steps execute at least one clock, whatever breakpoint they stand at, and `limit` at most.
@@ -68,7 +63,7 @@ public:
     /// To the next set-point that is published.
     Halt run_to_set_point(std::int64_t limit);
     /// Until the instruction at `address` is about to be fetched.
-    Halt run_to(std::uint16_t address, std::int64_t limit);
+    Halt run_to(CodeAddress address, std::int64_t limit);
     Halt run(std::int64_t limit);
     /// Breakpoints stay.
     void reset();
@@ -83,7 +78,7 @@ private:
     Processor processor_;
     std::vector<CodeLine> lines_;
     ProcessorState before_;
-    std::set<std::uint16_t> breakpoints_;
+    std::set<CodeAddress> breakpoints_;
     std::set<std::uint8_t> micro_breakpoints_;
     bool in_pass_ = false; ///< there was one
     Mode mode_ = Mode::rotation;

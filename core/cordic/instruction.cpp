@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace millwright::cordic {
@@ -29,13 +30,13 @@ constexpr std::array<std::string_view, register_count> names = {"XI",
                                                                 "Vz",
                                                                 "Az"};
 
-constexpr std::array<NamedOpcode, 21> plain = {{
-    {"NOP", Opcode::nop},     {"HLT", Opcode::hlt}, {"G00", Opcode::g00}, {"G01", Opcode::g01},
-    {"G02", Opcode::g02},     {"G03", Opcode::g03}, {"G04", Opcode::g04}, {"G00Z", Opcode::g00z},
-    {"G01Z", Opcode::g01z},   {"M00", Opcode::m00}, {"M01", Opcode::m01}, {"M02", Opcode::m02},
-    {"M03", Opcode::m03},     {"M04", Opcode::m04}, {"M05", Opcode::m05}, {"M06", Opcode::m06},
-    {"M07", Opcode::m07},     {"M08", Opcode::m08}, {"M09", Opcode::m09}, {"M30", Opcode::m30},
-    {"MUSER", Opcode::muser},
+constexpr std::array<NamedOpcode, 24> plain = {{
+    {"NOP", Opcode::nop},   {"HLT", Opcode::hlt},   {"PAGE", Opcode::page}, {"G00", Opcode::g00},
+    {"G01", Opcode::g01},   {"G02", Opcode::g02},   {"G03", Opcode::g03},   {"G04", Opcode::g04},
+    {"G00Z", Opcode::g00z}, {"G01Z", Opcode::g01z}, {"G02Z", Opcode::g02z}, {"G03Z", Opcode::g03z},
+    {"M00", Opcode::m00},   {"M01", Opcode::m01},   {"M02", Opcode::m02},   {"M03", Opcode::m03},
+    {"M04", Opcode::m04},   {"M05", Opcode::m05},   {"M06", Opcode::m06},   {"M07", Opcode::m07},
+    {"M08", Opcode::m08},   {"M09", Opcode::m09},   {"M30", Opcode::m30},   {"MUSER", Opcode::muser},
 }};
 
 constexpr std::array<std::uint8_t, 4> magic = {'M', 'W', 'C', 'P'};
@@ -131,6 +132,11 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFo
     return std::nullopt;
 }
 
+CodeLine line_at(std::span<const CodeLine> lines, CodeAddress address) {
+    const auto after = std::ranges::upper_bound(lines, address, {}, &CodeLine::address);
+    return after == lines.begin() ? CodeLine{} : *std::prev(after);
+}
+
 std::vector<std::uint8_t> to_bytes(const Image& image) {
     std::vector<std::uint8_t> bytes(magic.begin(), magic.end());
     bytes.push_back(version);
@@ -175,8 +181,8 @@ Image parse_image(std::span<const std::uint8_t> bytes, const std::filesystem::pa
              8,
              fmt::format("{} bytes of code are announced, {} are there", size, bytes.size() - head_size));
     }
-    if (size > rom_size) {
-        fail(file, 8, fmt::format("{} bytes of code, the program ROM holds {}", size, rom_size));
+    if (size > most_code) {
+        fail(file, 8, fmt::format("{} bytes of code, the program ROM holds {}", size, most_code));
     }
     image.code.assign(bytes.begin() + head_size, bytes.end());
     return image;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/cordic/arithmetic.h"
+#include "core/cordic/bus.h"
 #include "core/cordic/number_format.h"
 
 #include <array>
@@ -15,7 +16,8 @@
 
 namespace millwright::cordic {
 
-/// The thirteen registers of the thesis, and ours behind them: Z, where a line in space ends; Z0, where the
+/// The thirteen registers of the thesis, and ours behind them: Z, where a line in space ends or what a
+/// helix's chord rises; Z0, where the
 /// third axis is; P, the parameter of commands; Vz and Az. N, PC and P hold whole numbers, the others numbers
 /// of the format.
 enum class Register : std::uint8_t {
@@ -52,7 +54,8 @@ inline constexpr int loaded_register_count = 16; ///< those that Mov can load
 enum class Opcode : std::uint8_t {
     nop = 0x00,
     hlt = 0x01,
-    mov = 0x10, ///< + register number; the immediate follows, lowest byte first
+    page = 0x02, ///< goes on at the start of the next page of the program ROM
+    mov = 0x10,  ///< + register number; the immediate follows, lowest byte first
     g00 = 0x20,
     g01 = 0x21,
     g02 = 0x22,
@@ -60,6 +63,8 @@ enum class Opcode : std::uint8_t {
     g04 = 0x24,  ///< dwell of P microseconds
     g00z = 0x28, ///< line in space to (XI, YJ, Z)
     g01z = 0x29,
+    g02z = 0x2a, ///< helix: N chords of Dz about (XI, YJ), each of which rises by Z
+    g03z = 0x2b,
     m00 = 0x40, ///< program stop; the M-codes are 0x40 + their number
     m01 = 0x41,
     m02 = 0x42, ///< end: hands the command over and stops
@@ -127,7 +132,33 @@ struct Image {
     friend bool operator==(const Image&, const Image&) = default;
 };
 
-inline constexpr int rom_size = 0x8000;
+/// All pages of the ROM.
+inline constexpr std::size_t most_code = std::size_t{rom_size} * most_pages;
+
+/// Where an instruction lies: the page of the ROM above 16 bits of address.
+using CodeAddress = std::uint32_t;
+[[nodiscard]] constexpr CodeAddress code_address(std::uint8_t page, Word address) {
+    return static_cast<CodeAddress>(page) << 16U | static_cast<CodeAddress>(address & 0xffffU);
+}
+/// Of the byte at `offset` in an image's code.
+[[nodiscard]] constexpr CodeAddress code_address_at(std::size_t offset) {
+    return code_address(static_cast<std::uint8_t>(offset / rom_size), offset % rom_size);
+}
+/// How many pages so many bytes of code need.
+[[nodiscard]] constexpr std::size_t page_count(std::size_t bytes) {
+    return (bytes + rom_size - 1) / rom_size;
+}
+
+/// An instruction in memory and the line of the program that it comes from, 0: none.
+struct CodeLine {
+    CodeAddress address = 0;
+    int line = 0;
+    int column = 0; ///< from 1; 0: not known
+};
+
+/// What the instruction at `address` comes from; nothing known of those in front of the first line. `lines`
+/// by ascending address.
+[[nodiscard]] CodeLine line_at(std::span<const CodeLine> lines, CodeAddress address);
 
 /// The bytes of an image file.
 [[nodiscard]] std::vector<std::uint8_t> to_bytes(const Image& image);

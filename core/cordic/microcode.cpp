@@ -13,11 +13,11 @@ constexpr std::array<std::string_view, 5> condition_names = {
     "never", "always", "bus_busy", "chords_left", "last_byte_left"};
 
 constexpr std::array<std::string_view, control_count> control_names = {
-    "read_program",  "load_opcode",   "shift_byte",   "store_register", "take_end",
-    "take_position", "publish",       "count_chord",  "fold_radius",    "fold_move",
-    "load_speed",    "rotate",        "vector",       "rotate_both",    "correct",
-    "correct_both",  "unfold_radius", "unfold_speed", "write_byte",     "halt",
-    "take_height",   "fold_space",    "fold_rise",    "unfold_rise",    "command"};
+    "read_program", "load_opcode", "shift_byte",  "store_register", "take_end",      "take_position",
+    "publish",      "count_chord", "fold_radius", "fold_move",      "load_speed",    "rotate",
+    "vector",       "rotate_both", "correct",     "correct_both",   "unfold_radius", "unfold_speed",
+    "write_byte",   "halt",        "take_height", "fold_space",     "fold_rise",     "unfold_rise",
+    "command",      "add_rise",    "next_page"};
 
 /// Whether an operation says nothing without a condition.
 bool tests_condition(MicroOp op) {

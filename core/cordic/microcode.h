@@ -56,9 +56,11 @@ enum class Control : std::uint8_t {
     fold_rise,      ///< bearing <- z; y <- rise; z <- 0: the next direction is the slope
     unfold_rise,    ///< Vz <- y, Az <- y2; y, y2 <- 0; z <- bearing
     command,        ///< hand (IR, P) to the motion controller
+    add_rise,       ///< ZE <- Z0 + Z
+    next_page,      ///< page of the program ROM + 1, PC <- 0
 };
 
-inline constexpr int control_count = 25;
+inline constexpr int control_count = 27;
 using ControlSignals = std::uint32_t; ///< one bit a Control
 
 [[nodiscard]] constexpr ControlSignals bit_of(Control control) {

@@ -22,6 +22,7 @@ F1:     CJP   bus_busy F1
 
 NOP:    JZ
 HLT:    JZ                              | halt
+PAGE:   JZ                              | next_page
 
 ; Mov: the bytes of the immediate, lowest first.
 MOV:    PUSH  always LAST_BYTE
@@ -50,11 +51,28 @@ constexpr std::string_view arc_tail = R"(
         JZ
 )";
 
-constexpr std::string_view space_line = R"(
-; G00Z and G01Z: a line to (XI, YJ, Z). Its bearing and length in the plane, then its slope; speed and
-; acceleration are turned by the slope, what is left of them in the plane by the bearing. 140 clocks of CORDIC.
-SPACE:  CONT                            | take_end, take_height
-        LDCT  LAST_STEP                 | fold_space
+constexpr std::string_view helix_body = R"(
+; G02Z and G03Z: the same, and each chord is a line in space that rises by Z.
+HELIX:  LDCT  LAST_STEP                 | fold_radius
+H1:     RPCT  H1                        | rotate
+        LDCT  LAST_CORRECTION
+H3:     RPCT  H3                        | correct
+        CJS   always SPACEPOINT         | unfold_radius, add_rise
+)";
+constexpr std::string_view helix_tail = R"(
+        CJP   chords_left HELIX
+        JZ
+)";
+
+constexpr std::string_view space_head = R"(
+; G00Z and G01Z: a line to (XI, YJ, Z).
+SPACE:  CJS   always SPACEPOINT         | take_end, take_height
+)";
+
+constexpr std::string_view space_point = R"(
+; The same in space, to (XE, YE, ZE): bearing and length in the plane, then the slope; speed and acceleration
+; are turned by the slope, what is left of them in the plane by the bearing. 140 clocks of CORDIC.
+SPACEPOINT: LDCT LAST_STEP              | fold_space
 P1:     RPCT  P1                        | vector
         LDCT  LAST_CORRECTION
 P3:     RPCT  P3                        | correct
@@ -68,7 +86,7 @@ P9:     RPCT  P9                        | correct, correct_both
 P11:    RPCT  P11                       | rotate, rotate_both
         LDCT  LAST_CORRECTION
 P13:    RPCT  P13                       | correct, correct_both
-        CONT                            | unfold_speed
+        CRTN  always                    | unfold_speed
 )";
 
 constexpr std::string_view set_point = R"(
@@ -106,6 +124,9 @@ constexpr std::string_view bus_space = R"(        CJS   always STORE_SPACE      
 constexpr std::string_view bus_arc =
     R"(        CJS   always STORE              | take_position, publish, count_chord
 )";
+constexpr std::string_view bus_helix =
+    R"(        CJS   always STORE_SPACE        | take_position, publish, count_chord
+)";
 constexpr std::string_view bus_commands = R"(
 ; M-codes and G04. M02 and M30 stop the processor.
 COMMAND: CJS  always STORE_COMMAND      | command
@@ -129,11 +150,13 @@ W2:     CJP   bus_busy W2
 constexpr std::string_view dispatch = R"(
 .map 0x00 NOP
 .map 0x01 HLT
+.map 0x02 PAGE
 .map 0x10 0x1f MOV
 .map 0x20 0x21 LINE
 .map 0x22 0x23 ARC
 .map 0x24 COMMAND
 .map 0x28 0x29 SPACE
+.map 0x2a 0x2b HELIX
 .map 0x40 0x41 COMMAND
 .map 0x42 END
 .map 0x43 0x49 COMMAND
@@ -151,9 +174,13 @@ std::string microprogram_text(Publishing publishing) {
     text += arc_body;
     text += by_bus ? bus_arc : latch_arc;
     text += arc_tail.substr(1);
-    text += set_point;
-    text += space_line;
+    text += space_head;
     text += by_bus ? bus_space : latch_line;
+    text += helix_body;
+    text += by_bus ? bus_helix : latch_arc;
+    text += helix_tail.substr(1);
+    text += set_point;
+    text += space_point;
     text += by_bus ? bus_commands : latch_commands;
     text += by_bus ? store : std::string_view();
     text += dispatch;

@@ -1,8 +1,7 @@
 #include "core/cordic/processor.h"
 
 #include "core/base/error.h"
-#include "core/cordic/fold.h"
-#include "core/cordic/internal/space_line.h"
+#include "core/cordic/internal/arithmetic_unit.h"
 
 #include <fmt/format.h>
 
@@ -12,21 +11,15 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr bool has(ControlSignals controls, Control control) {
-    return (controls & bit_of(control)) != 0;
-}
+using internal::has;
 
-constexpr ControlSignals steps = bit_of(Control::rotate) | bit_of(Control::vector) | bit_of(Control::correct);
-constexpr ControlSignals folds = bit_of(Control::fold_radius) | bit_of(Control::fold_move) |
-                                 bit_of(Control::fold_space) | bit_of(Control::fold_rise) |
-                                 bit_of(Control::load_speed);
-constexpr ControlSignals unfolds =
-    bit_of(Control::unfold_radius) | bit_of(Control::unfold_rise) | bit_of(Control::unfold_speed);
-constexpr ControlSignals moves = bit_of(Control::load_opcode) | bit_of(Control::shift_byte) |
-                                 bit_of(Control::store_register) | bit_of(Control::take_end) |
-                                 bit_of(Control::take_position) | bit_of(Control::publish) |
-                                 bit_of(Control::count_chord) | bit_of(Control::halt) |
-                                 bit_of(Control::take_height) | bit_of(Control::command);
+constexpr ControlSignals calculations =
+    internal::step_signals | internal::fold_signals | internal::unfold_signals;
+constexpr ControlSignals moves =
+    bit_of(Control::load_opcode) | bit_of(Control::shift_byte) | bit_of(Control::store_register) |
+    bit_of(Control::take_end) | bit_of(Control::take_position) | bit_of(Control::publish) |
+    bit_of(Control::count_chord) | bit_of(Control::halt) | bit_of(Control::take_height) |
+    bit_of(Control::command) | bit_of(Control::next_page);
 
 template <class Arithmetic>
 Kernel<Arithmetic> kernel_with(const Arithmetic& arithmetic, const ProcessorSettings& settings) {
@@ -40,28 +33,6 @@ NumberFormat with_rounding(NumberFormat format, Rounding rounding) {
 
 } // namespace
 
-std::string_view to_text(Stop stop) {
-    switch (stop) {
-    case Stop::none:
-        return "running";
-    case Stop::halted:
-        return "halted at the end of the program";
-    case Stop::overflow:
-        return "a number did not fit the word";
-    case Stop::illegal_instruction:
-        return "an opcode that the processor does not know";
-    case Stop::stack_overflow:
-        return "a microprogram called more than 4 deep";
-    case Stop::stack_underflow:
-        return "a microprogram returned where nothing had called";
-    case Stop::rom_write:
-        return "a write into the program ROM";
-    case Stop::arc_too_coarse:
-        return "an arc with a step angle beyond the convergence range, or with no chord";
-    }
-    return {};
-}
-
 Processor::Processor(const ProcessorSettings& settings, const Image& image)
     : Processor(settings, image, make_microprogram(settings.sequence, image.format, settings.publishing)) {}
 
@@ -70,12 +41,13 @@ Processor::Processor(const ProcessorSettings& settings, const Image& image, Micr
       microprogram_(std::make_shared<const Microprogram>(std::move(microprogram))),
       kernel_(with_arithmetic(
           format_, [&](const auto& arithmetic) { return AnyKernel(kernel_with(arithmetic, settings)); })) {
-    if (image.code.size() > rom_size) {
-        throw Error(fmt::format("the program has {} bytes, the ROM holds {}", image.code.size(), rom_size));
+    if (image.code.size() > most_code) {
+        throw Error(fmt::format("the program has {} bytes, the ROM holds {}", image.code.size(), most_code));
     }
     if (settings.sequence.m != CoordinateSystem::circular) {
         throw Error("the processor computes with a circular sequence");
     }
+    memory_.rom.resize(std::max(memory_.rom.size(), page_count(image.code.size()) * rom_size), 0xff);
     std::ranges::copy(image.code, memory_.rom.begin());
 }
 
@@ -124,12 +96,6 @@ std::int64_t Processor::run_instruction(std::int64_t clocks) {
     return done;
 }
 
-void Processor::stop(Stop why) {
-    if (state_.stop == Stop::none) {
-        state_.stop = why;
-    }
-}
-
 bool Processor::condition(Condition condition) const {
     switch (condition) {
     case Condition::never:
@@ -153,10 +119,8 @@ template <class Arithmetic> void Processor::one_clock(const Kernel<Arithmetic>& 
     count(word);
     sequence(word);
     use_bus(word.controls);
-    if ((word.controls & steps) != 0) {
-        iterate(kernel, word.controls);
-    } else if ((word.controls & (folds | unfolds)) != 0) {
-        calculate(kernel, word.controls);
+    if ((word.controls & calculations) != 0) {
+        internal::ArithmeticUnit(kernel, settings_, state_).clock(word.controls);
     }
     if ((word.controls & moves) != 0) {
         move_data(word.controls);
@@ -168,7 +132,7 @@ void Processor::sequence(const MicroWord& word) {
     if (word.op == MicroOp::JMAP) {
         const auto& entry = microprogram_->map[state_.opcode];
         if (!entry) {
-            stop(Stop::illegal_instruction);
+            stop(state_, Stop::illegal_instruction);
             return;
         }
         map = *entry;
@@ -181,7 +145,8 @@ void Processor::sequence(const MicroWord& word) {
           .map = map,
           .vector = static_cast<std::uint8_t>(word.branch + (state_.opcode & 0x0fU))});
     if (state_.sequencer.fault != StackFault::none) {
-        stop(state_.sequencer.fault == StackFault::overflow ? Stop::stack_overflow : Stop::stack_underflow);
+        stop(state_,
+             state_.sequencer.fault == StackFault::overflow ? Stop::stack_overflow : Stop::stack_underflow);
     }
     state_.instructions += ends ? 1 : 0;
 }
@@ -190,7 +155,7 @@ void Processor::count(const MicroWord& word) {
     ClockCounts& clocks = state_.clocks;
     ++clocks.total;
     const BusCycle cycle = state_.bus.cycle;
-    if ((word.controls & steps) != 0) {
+    if ((word.controls & internal::step_signals) != 0) {
         ++clocks.cordic;
     } else if (has(word.controls, Control::write_byte) || cycle == BusCycle::write) {
         ++clocks.publish;
@@ -210,7 +175,7 @@ void Processor::use_bus(ControlSignals controls) {
     } else if (has(controls, Control::write_byte)) {
         write_byte();
     } else if (!go_on(state_.bus, memory_)) {
-        stop(Stop::rom_write);
+        stop(state_, Stop::rom_write);
     }
 }
 
@@ -234,15 +199,10 @@ void Processor::write_byte() {
 
 void Processor::move_data(ControlSignals controls) {
     if (has(controls, Control::load_opcode)) {
-        state_.opcode = state_.bus.data;
-        state_.instruction_at = static_cast<std::uint16_t>(reg(Register::PC));
-        state_.temporary = 0;
-        state_.immediate_bytes_in = 0;
-        reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
+        take_opcode();
     }
     if (has(controls, Control::shift_byte)) {
-        state_.temporary |= Word{state_.bus.data} << (8U * (state_.immediate_bytes_in++ & 7U));
-        reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
+        take_byte();
     }
     if (has(controls, Control::store_register)) {
         store_register();
@@ -268,32 +228,60 @@ void Processor::move_data(ControlSignals controls) {
     if (has(controls, Control::command)) {
         hand_over_command();
     }
-    if (has(controls, Control::halt)) {
-        stop(Stop::halted);
+    if (has(controls, Control::next_page)) {
+        turn_page();
     }
+    if (has(controls, Control::halt)) {
+        stop(state_, Stop::halted);
+    }
+}
+
+void Processor::take_opcode() {
+    state_.opcode = state_.bus.data;
+    state_.instruction_at = code_address(state_.bus.page, reg(Register::PC));
+    state_.temporary = 0;
+    state_.immediate_bytes_in = 0;
+    reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
+}
+
+void Processor::take_byte() {
+    state_.temporary |= Word{state_.bus.data} << (8U * (state_.immediate_bytes_in++ & 7U));
+    reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
 }
 
 void Processor::store_register() {
     const auto target = static_cast<Register>(state_.opcode - static_cast<unsigned>(Opcode::mov));
     if (static_cast<int>(target) >= loaded_register_count) {
-        stop(Stop::illegal_instruction); // a microprogram of one's own may map any opcode here
+        stop(state_, Stop::illegal_instruction); // a microprogram of one's own may map any opcode here
     } else if (is_whole(target)) {
         reg(target) = state_.temporary & (target == Register::PC ? 0xffffU : 0xffffffffU);
     } else {
-        bool overflow = false;
-        const Word word = from_immediate(format_, state_.temporary);
-        reg(target) = std::visit(
-            [&](const auto& kernel) {
-                return kernel.arithmetic().to_word(kernel.arithmetic().from_word(word, overflow));
-            },
-            kernel_);
-        if (overflow) {
-            stop(Stop::overflow);
-        }
-        if (target == Register::Z0) {
-            state_.path.ze = reg(target);
-        }
+        store_number(target);
     }
+}
+
+void Processor::store_number(Register target) {
+    bool overflow = false;
+    const Word word = from_immediate(format_, state_.temporary);
+    reg(target) = std::visit(
+        [&](const auto& kernel) {
+            return kernel.arithmetic().to_word(kernel.arithmetic().from_word(word, overflow));
+        },
+        kernel_);
+    if (overflow) {
+        stop(state_, Stop::overflow);
+    }
+    if (target == Register::Z0) {
+        state_.path.ze = reg(target);
+    }
+}
+
+void Processor::turn_page() {
+    if (state_.bus.page + 1 >= memory_.pages()) {
+        return stop(state_, Stop::no_page);
+    }
+    ++state_.bus.page;
+    reg(Register::PC) = 0;
 }
 
 void Processor::hand_over_command() {
@@ -320,152 +308,6 @@ void Processor::publish() {
                            reg(Register::Vz),
                            reg(Register::Az)}});
     state_.record_byte = 0;
-}
-
-template <class Arithmetic>
-void Processor::calculate(const Kernel<Arithmetic>& kernel, ControlSignals controls) {
-    if ((controls & unfolds) != 0) {
-        unfold(kernel, controls);
-    }
-    if ((controls & folds) != 0) {
-        fold(kernel, controls);
-    }
-}
-
-template <class Arithmetic>
-void Processor::iterate(const Kernel<Arithmetic>& kernel, ControlSignals controls) {
-    const Arithmetic& arithmetic = kernel.arithmetic();
-    DataPath& path = state_.path;
-    Vector3<typename Arithmetic::Number> v{
-        arithmetic.from_word(path.x), arithmetic.from_word(path.y), arithmetic.from_word(path.z)};
-    auto x2 = arithmetic.from_word(path.x2);
-    auto y2 = arithmetic.from_word(path.y2);
-    bool overflow = false;
-    if (has(controls, Control::correct)) {
-        const int j = std::min<int>(path.correction++, most_corrections - 1);
-        const auto correct = [&](auto value) {
-            return kernel.sequence().multiplies ? kernel.multiplied(value, overflow)
-                                                : kernel.corrected(value, j, overflow);
-        };
-        v.x = correct(v.x);
-        v.y = correct(v.y);
-        if (has(controls, Control::correct_both)) {
-            x2 = correct(x2);
-            y2 = correct(y2);
-        }
-    } else {
-        const int i = std::min<int>(path.step++, most_steps - 1);
-        const int sigma =
-            kernel.direction(has(controls, Control::vector) ? Mode::vectoring : Mode::rotation, v);
-        kernel.step(v, i, sigma, overflow);
-        if (has(controls, Control::rotate_both)) {
-            kernel.turn(x2, y2, i, sigma, overflow);
-        }
-    }
-    path.x = arithmetic.to_word(v.x);
-    path.y = arithmetic.to_word(v.y);
-    path.z = arithmetic.to_word(v.z);
-    path.x2 = arithmetic.to_word(x2);
-    path.y2 = arithmetic.to_word(y2);
-    if (overflow) {
-        stop(Stop::overflow);
-    }
-}
-
-template <class Arithmetic> void Processor::fold(const Kernel<Arithmetic>& kernel, ControlSignals controls) {
-    const Arithmetic& arithmetic = kernel.arithmetic();
-    using Number = typename Arithmetic::Number;
-    DataPath& path = state_.path;
-    const auto value = [&](Word word) { return arithmetic.from_word(word); };
-    bool overflow = false;
-    path.step = 0;
-    path.correction = 0;
-    if (has(controls, Control::load_speed)) {
-        const Number a = value(reg(Register::Amax));
-        path.x = reg(Register::Vmax);
-        path.y = arithmetic.to_word(Number{});
-        path.x2 = arithmetic.to_word(settings_.halves_acceleration ? arithmetic.shifted(a, 1) : a);
-        path.y2 = path.y;
-        return;
-    }
-    if (has(controls, Control::fold_rise)) {
-        internal::fold_rise(kernel, state_);
-        return;
-    }
-    if (has(controls, Control::fold_space)) {
-        internal::fold_space(kernel, state_, overflow);
-        if (overflow) {
-            stop(Stop::overflow);
-        }
-        return;
-    }
-    const bool radius = has(controls, Control::fold_radius);
-    const Number dx =
-        radius ? arithmetic.difference(value(reg(Register::X0)), value(reg(Register::XI)), overflow)
-               : arithmetic.difference(value(path.xe), value(reg(Register::X0)), overflow);
-    const Number dy =
-        radius ? arithmetic.difference(value(reg(Register::Y0)), value(reg(Register::YJ)), overflow)
-               : arithmetic.difference(value(path.ye), value(reg(Register::Y0)), overflow);
-    const Folded<Number> folded = pre(arithmetic, dx, dy, overflow);
-    const int shift = radius ? 0 : normalising_shift(arithmetic, folded.x, folded.y);
-    path.x = arithmetic.to_word(normalised(arithmetic, folded.x, shift));
-    path.y = arithmetic.to_word(normalised(arithmetic, folded.y, shift));
-    path.f1 = folded.f1;
-    path.f2 = folded.f2;
-    path.z = arithmetic.to_word(Number{});
-    if (radius) {
-        const Number dz = value(reg(Register::Dz));
-        const bool clockwise =
-            (state_.opcode == static_cast<std::uint8_t>(Opcode::g02)) == (settings_.sense == ArcSense::iso);
-        path.z = arithmetic.to_word(clockwise ? arithmetic.negated(dz, overflow) : dz);
-        if (kernel.reach_of_rotation(dz) != Reach::inside || reg(Register::N) == 0) {
-            stop(Stop::arc_too_coarse);
-        }
-    } else {
-        path.standing = kernel.reach_of_vectoring(folded.x, folded.y) == Reach::zero_vector;
-        path.upright = path.standing;
-        reg(Register::Vz) = path.z;
-        reg(Register::Az) = path.z;
-    }
-    if (overflow) {
-        stop(Stop::overflow);
-    }
-}
-
-template <class Arithmetic>
-void Processor::unfold(const Kernel<Arithmetic>& kernel, ControlSignals controls) {
-    const Arithmetic& arithmetic = kernel.arithmetic();
-    using Number = typename Arithmetic::Number;
-    DataPath& path = state_.path;
-    if (has(controls, Control::unfold_rise)) {
-        path.step = 0;
-        path.correction = 0;
-        internal::unfold_rise(kernel, state_);
-        return;
-    }
-    bool overflow = false;
-    const auto unfolded = [&](Word x, Word y) {
-        return post(arithmetic,
-                    Folded<Number>{arithmetic.from_word(x), arithmetic.from_word(y), path.f1, path.f2},
-                    overflow);
-    };
-    const auto first = unfolded(path.x, path.y);
-    if (has(controls, Control::unfold_radius)) {
-        path.xe =
-            arithmetic.to_word(arithmetic.sum(first.x, arithmetic.from_word(reg(Register::XI)), overflow));
-        path.ye =
-            arithmetic.to_word(arithmetic.sum(first.y, arithmetic.from_word(reg(Register::YJ)), overflow));
-    } else {
-        const auto second = unfolded(path.x2, path.y2);
-        const auto speed = [&](Number v) { return arithmetic.to_word(path.upright ? Number{} : v); };
-        reg(Register::Vx) = speed(first.x);
-        reg(Register::Vy) = speed(first.y);
-        reg(Register::Ax) = speed(second.x);
-        reg(Register::Ay) = speed(second.y);
-    }
-    if (overflow) {
-        stop(Stop::overflow);
-    }
 }
 
 } // namespace millwright::cordic

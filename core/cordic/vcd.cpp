@@ -19,6 +19,7 @@ enum Signal : int {
     rd_n,
     wr_n,
     address,
+    page,
     data,
     micro_address,
     micro_op,
@@ -52,6 +53,7 @@ VcdWriter::VcdWriter(const NumberFormat& format, double clock_hz)
     declare(rd_n, "RD_n", 1);
     declare(wr_n, "WR_n", 1);
     declare(address, "A", 16);
+    declare(page, "page", 8);
     declare(data, "AD", 8);
     declare(micro_address, "micro_address", 8);
     declare(micro_op, "micro_op", 4);
@@ -106,6 +108,7 @@ void VcdWriter::add(const ProcessorState& state) {
     change(rd_n, pins.rd ? 0 : 1);
     change(wr_n, pins.wr ? 0 : 1);
     change(address, pins.address);
+    change(page, state.bus.page);
     change(data, pins.data);
     change(micro_address, state.sequencer.address);
     change(micro_op, static_cast<Word>(state.pipeline.op));

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::string take();
 
 private:
-    static constexpr int signal_count = 37;
+    static constexpr int signal_count = 38;
 
     void declare(int index, std::string_view name, int bits);
     void change(int index, Word value);

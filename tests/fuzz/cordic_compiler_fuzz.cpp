@@ -23,7 +23,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     gcode::Interpreter program(text, "fuzz.ngc", reading, builder);
     program.run();
     const gcode::CordicProgram made = builder.take();
-    if (made.image.code.size() <= cordic::rom_size) {
+    if (made.image.code.size() <= cordic::most_code) {
         cordic::Processor processor({}, made.image);
         processor.run(50'000);
     }

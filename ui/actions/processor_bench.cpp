@@ -39,12 +39,14 @@ std::vector<CodeRow> rows_of(const gcode::CordicProgram& program) {
     std::vector<CodeRow> rows;
     const std::vector<std::string> lines = lines_of(cordic::disassemble(program.image));
     for (std::size_t n = 1; n < lines.size(); ++n) { // the first one names the format
-        const std::size_t place = lines[n].find(';') + 2;
-        const auto address = static_cast<std::uint16_t>(std::stoul(lines[n].substr(place), nullptr, 16));
-        const auto after =
-            std::ranges::upper_bound(program.code_lines, address, {}, &cordic::CodeLine::address);
-        const int line = after == program.code_lines.begin() ? 0 : std::prev(after)->line;
-        rows.push_back({address, instruction_of(lines[n]), line});
+        const std::size_t place = lines[n].find(';');
+        if (place == std::string::npos) {
+            continue; // the rest of a page
+        }
+        const auto address =
+            static_cast<cordic::CodeAddress>(std::stoul(lines[n].substr(place + 2), nullptr, 16));
+        rows.push_back(
+            {address, instruction_of(lines[n]), cordic::line_at(program.code_lines, address).line});
     }
     return rows;
 }
@@ -131,8 +133,9 @@ void ProcessorBench::execute_all(const cordic::Processor& processor) {
 }
 
 std::ptrdiff_t ProcessorBench::code_row() const {
-    const auto found = std::ranges::find(code_, debugger_.instruction(), &CodeRow::address);
-    return found == code_.end() ? -1 : found - code_.begin();
+    const cordic::CodeAddress address = debugger_.instruction();
+    const auto found = std::ranges::lower_bound(code_, address, {}, &CodeRow::address);
+    return found == code_.end() || found->address != address ? -1 : found - code_.begin();
 }
 
 int ProcessorBench::micro_address(std::ptrdiff_t row) const {
@@ -170,7 +173,7 @@ void ProcessorBench::run() {
     owed_clocks_ = 0.0;
 }
 
-void ProcessorBench::run_to(std::uint16_t address) {
+void ProcessorBench::run_to(cordic::CodeAddress address) {
     running_ = false;
     halt_ = debugger_.run_to(address, clocks_of_a_run);
 }

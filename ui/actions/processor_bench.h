@@ -32,7 +32,7 @@ enum class ProcessorStep : std::uint8_t { clock, micro_instruction, instruction,
 
 /// An instruction, or a byte that is none.
 struct CodeRow {
-    std::uint16_t address = 0;
+    cordic::CodeAddress address = 0;
     std::string text;
     int line = 0; ///< of the program
 };
@@ -70,9 +70,9 @@ public:
     void pause() { running_ = false; }
     [[nodiscard]] bool running() const { return running_; }
     /// Runs on until the instruction at `address` is fetched.
-    void run_to(std::uint16_t address);
+    void run_to(cordic::CodeAddress address);
     void reset();
-    void toggle_breakpoint(std::uint16_t address) { debugger_.toggle_breakpoint(address); }
+    void toggle_breakpoint(cordic::CodeAddress address) { debugger_.toggle_breakpoint(address); }
     void toggle_micro_breakpoint(std::uint8_t address) { debugger_.toggle_micro_breakpoint(address); }
     /// Why the last step or run ended.
     [[nodiscard]] cordic::Halt halt() const { return halt_; }

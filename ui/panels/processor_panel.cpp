@@ -105,7 +105,7 @@ void ProcessorPanel::draw_instructions(Ui& ui, const Workbench& now, ActionQueue
     };
     view.current = bench.code_row();
     view.mark = [&](std::ptrdiff_t row) {
-        const std::uint16_t address = code[static_cast<std::size_t>(row)].address;
+        const cordic::CodeAddress address = code[static_cast<std::size_t>(row)].address;
         return bench.debugger().breakpoints().contains(address) ? ui.colours().danger : widgets::Colour{0};
     };
     view.numbers = false;

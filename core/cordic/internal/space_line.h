@@ -3,15 +3,11 @@
 
 #include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
-#include "core/cordic/processor.h"
+#include "core/cordic/processor_state.h"
 
 #include <algorithm>
 
 namespace millwright::cordic::internal {
-
-[[nodiscard]] inline Word& register_of(ProcessorState& state, Register name) {
-    return state.registers[static_cast<std::size_t>(name)];
-}
 
 /// How far to shift three differences together; those of zero length do not count.
 template <class Arithmetic, class Number = typename Arithmetic::Number>

@@ -41,6 +41,17 @@ struct Place3 {
     double x = 0.0, y = 0.0, z = 0.0;
 };
 
+/// An arc from where the axes are, or a helix.
+struct Turn {
+    Place3 about; ///< at the height where it begins
+    double sweep = 0.0;
+    double rise = 0.0; ///< of all of it
+    std::int64_t chords = 1;
+    SourcePlace source;
+
+    [[nodiscard]] bool rises() const { return std::abs(rise) > 0.0; }
+};
+
 } // namespace
 
 std::int64_t chord_count(double radius, double sweep, double tolerance) {
@@ -97,10 +108,13 @@ public:
         if (!commands_.ended()) {
             code_.op(Opcode::hlt);
         }
-        if (const std::size_t size = code_.result().image.code.size(); size > cordic::rom_size) {
-            code_.fault(
-                {},
-                fmt::format("the program needs {} bytes, the program ROM holds {}", size, cordic::rom_size));
+        const std::size_t pages = cordic::page_count(code_.result().image.code.size());
+        if (pages > static_cast<std::size_t>(settings_.rom_pages)) {
+            code_.fault({},
+                        fmt::format("the program needs {} pages of {} bytes, the program ROM has {}",
+                                    pages,
+                                    cordic::rom_size,
+                                    settings_.rom_pages));
         }
         return std::move(code_.result());
     }
@@ -110,9 +124,10 @@ private:
     internal::CordicCode code_;
     internal::CordicCommands commands_{code_};
     CanonFrame frame_;
-    AxisValues at_;       ///< on the machine, mm and degrees
-    double feed_ = 0.0;   ///< mm/s
-    double height_ = 0.0; ///< of the third axis, as the format holds it
+    AxisValues at_;     ///< on the machine, mm and degrees
+    double feed_ = 0.0; ///< mm/s
+    /// Of the third axis, as the format holds it; unknown behind the chords of a helix.
+    std::optional<double> height_ = 0.0;
     /// Where the processor stands, as its format holds it; unknown behind rotations.
     std::optional<Place3> held_ = Place3{};
 
@@ -171,7 +186,7 @@ private:
             return;
         }
         const Place3 held{code_.as_held(*x), code_.as_held(*y), code_.as_held(*z)};
-        const bool level = exactly_equal(held.z, height_);
+        const bool level = height_ && exactly_equal(held.z, *height_);
         if (held_ && level && exactly_equal(held.x, held_->x) && exactly_equal(held.y, held_->y)) {
             warn_of_no_length(to, source);
         } else if (load_speed(speed, source)) {
@@ -222,12 +237,11 @@ private:
                                fmt::format("an arc of {} chords", chords),
                                "choose a larger chord tolerance");
         }
-        if (std::abs(end[Axis::z] - at_[Axis::z]) > same_place) {
-            return helix(about, move, end, chords);
-        }
-        const bool rotated = settings_.arc_end == ArcEnd::rotated;
+        const double rise = end[Axis::z] - at_[Axis::z];
+        const Turn turn{about, move.sweep, std::abs(rise) > same_place ? rise : 0.0, chords, move.source};
+        const bool rotated = settings_.arc_end == ArcEnd::rotated && !turn.rises();
         const std::int64_t rotations = rotated ? chords : chords - 1;
-        if (rotations > 0 && !rotate(about, move, rotations, chords)) {
+        if (rotations > 0 && !rotate(turn, rotations)) {
             return;
         }
         held_.reset();
@@ -237,57 +251,44 @@ private:
             line(feed_line, end, feed_, move.source);
         }
     }
-    /// Where `k` chords of `chords` lead from where the axes are.
-    [[nodiscard]] Place3
-    on_arc(const Place3& about, const Move& move, std::int64_t k, std::int64_t chords) const {
-        const double angle = move.sweep / static_cast<double>(chords) * static_cast<double>(k);
-        const double dx = at_[Axis::x] - about.x;
-        const double dy = at_[Axis::y] - about.y;
-        return {about.x + dx * std::cos(angle) - dy * std::sin(angle),
-                about.y + dx * std::sin(angle) + dy * std::cos(angle),
-                about.z};
+    /// Where `k` chords lead from where the axes are.
+    [[nodiscard]] Place3 on_arc(const Turn& turn, std::int64_t k) const {
+        const double share = static_cast<double>(k) / static_cast<double>(turn.chords);
+        const double angle = turn.sweep * share;
+        const double dx = at_[Axis::x] - turn.about.x;
+        const double dy = at_[Axis::y] - turn.about.y;
+        return {turn.about.x + dx * std::cos(angle) - dy * std::sin(angle),
+                turn.about.y + dx * std::sin(angle) + dy * std::cos(angle),
+                turn.about.z + turn.rise * share};
     }
-    /// `rotations` chords of sweep / chords each.
-    bool rotate(const Place3& about, const Move& move, std::int64_t rotations, std::int64_t chords) {
-        const double step = move.sweep / static_cast<double>(chords);
-        const auto i = code_.number(about.x, "the centre's X", {move.source, 'I'});
-        const auto j = code_.number(about.y, "the centre's Y", {move.source, 'J'});
-        const auto dz = code_.number(std::abs(step), "the angle of a chord", {move.source, 'G'});
-        if (!i || !j || !dz || !load_speed(feed_, move.source)) {
+    /// The first `rotations` of its chords.
+    bool rotate(const Turn& turn, std::int64_t rotations) {
+        const auto count = static_cast<double>(turn.chords);
+        const auto i = code_.number(turn.about.x, "the centre's X", {turn.source, 'I'});
+        const auto j = code_.number(turn.about.y, "the centre's Y", {turn.source, 'J'});
+        const auto dz =
+            code_.number(std::abs(turn.sweep) / count, "the angle of a chord", {turn.source, 'G'});
+        const auto rise = code_.number(turn.rise / count, "the rise of a chord", {turn.source, 'Z'});
+        if (!i || !j || !dz || !rise || !load_speed(feed_, turn.source)) {
             return false;
         }
         code_.mov(Register::XI, *i);
         code_.mov(Register::YJ, *j);
         code_.mov(Register::Dz, *dz);
         code_.mov(Register::N, static_cast<Word>(rotations));
-        code_.op(move.sweep < 0.0 ? Opcode::g02 : Opcode::g03);
+        const bool clockwise = turn.sweep < 0.0;
+        if (turn.rises()) {
+            code_.mov(Register::Z, *rise);
+            code_.op(clockwise ? Opcode::g02z : Opcode::g03z);
+            height_.reset();
+        } else {
+            code_.op(clockwise ? Opcode::g02 : Opcode::g03);
+        }
         code_.set_loaded(Register::N, 0); // counted down
         for (std::int64_t k = 1; k <= rotations; ++k) {
-            publish(on_arc(about, move, k, chords), feed_, move.source);
+            publish(on_arc(turn, k), feed_, turn.source);
         }
         return true;
-    }
-    /// Chords as lines in space.
-    void helix(const Place3& about, const Move& move, const AxisValues& end, std::int64_t chords) {
-        if (chords > cordic::rom_size) {
-            return code_.fault(
-                {move.source, 'Z'},
-                fmt::format("a rising arc of {} chords is longer than the program ROM", chords),
-                "choose a larger chord tolerance");
-        }
-        const double rise = end[Axis::z] - at_[Axis::z];
-        std::vector<AxisValues> points;
-        for (std::int64_t k = 1; k < chords; ++k) {
-            const Place3 place = on_arc(about, move, k, chords);
-            AxisValues& point = points.emplace_back(end);
-            point[Axis::x] = place.x;
-            point[Axis::y] = place.y;
-            point[Axis::z] = about.z + rise * static_cast<double>(k) / static_cast<double>(chords);
-        }
-        points.push_back(end);
-        for (const AxisValues& point : points) {
-            line(feed_line, point, feed_, move.source);
-        }
     }
 };
 

@@ -1,7 +1,7 @@
 // From canonical commands to a program of the CORDIC processor: lines of X, Y and Z, arcs in the XY plane,
 // dwell, spindle, tool, coolant and stops as its instructions, with offsets, units and rotation applied. Arcs
 // become chords; the last chord is a line to the programmed end, so that what rounding adds up to on the way
-// does not stay; those that rise become lines in space. Positions mm, speeds mm/s.
+// does not stay. Positions mm, speeds mm/s.
 // Source: Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1;
 // the rule for the number of chords is ours (docs/reference/cordic.md#compiler).
 #pragma once
@@ -33,6 +33,7 @@ struct CordicProgramSettings {
     double rapid_speed = 50.0;          ///< mm/s: Vmax of G00
     double acceleration = 500.0;        ///< mm/s2: Amax
     bool leaves_out_other_axes = false; ///< motion of other axes than X, Y and Z; else it is a fault
+    int rom_pages = cordic::most_pages; ///< that the machine has; a longer program is a fault
     std::size_t most_faults = 100;
     AxisValues start; ///< where the machine stands, mm; the processor is told
 };

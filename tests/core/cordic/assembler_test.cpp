@@ -15,14 +15,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Assembler, TurnsTextIntoTheDocumentedBytes) {
-    const auto [image, errors] = assemble("        .format q8.24\n"
-                                          "start:  mov XI, -1.5     ; a comment\n"
-                                          "        Mov n, 50\n"
-                                          "        mov Dz, 0x00010203\n"
-                                          "        G02\n"
-                                          "        MOV PC, start\n"
-                                          "        hlt\n",
-                                          "a.asm");
+    const auto [image, lines, errors] = assemble("        .format q8.24\n"
+                                                 "start:  mov XI, -1.5     ; a comment\n"
+                                                 "        Mov n, 50\n"
+                                                 "        mov Dz, 0x00010203\n"
+                                                 "        G02\n"
+                                                 "        MOV PC, start\n"
+                                                 "        hlt\n",
+                                                 "a.asm");
     EXPECT_TRUE(errors.empty());
     EXPECT_EQ(image.format, fixed_format(8, 24));
     EXPECT_THAT(image.code,
@@ -51,7 +51,7 @@ TEST(Assembler, TurnsTextIntoTheDocumentedBytes) {
 }
 
 TEST(Assembler, UsesEightBytesForWideFormats) {
-    const auto [image, errors] = assemble(".format f64\nmov Vmax, 1", "a.asm");
+    const auto [image, lines, errors] = assemble(".format f64\nmov Vmax, 1", "a.asm");
     EXPECT_TRUE(errors.empty());
     EXPECT_THAT(image.code, ElementsAre(0x12, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f));
 }
@@ -83,6 +83,7 @@ TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
              Wrong{"nop\n.format f64", 2, 9, ".format stands behind"},
              Wrong{".format f63", 1, 9, "\"f63\" is no number format"},
              Wrong{".byte 256", 1, 7, ".byte needs a number from 0 to 255"},
+             Wrong{"a: PAGE\n.page\n mov PC, a", 3, 10, "label a lies in another page"},
          }) {
         const auto errors = assemble(wrong.text, "wrong.asm").errors;
         ASSERT_EQ(errors.size(), 1U) << wrong.text;
@@ -90,6 +91,29 @@ TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
         EXPECT_EQ(errors[0].place.column, wrong.column) << wrong.text;
         EXPECT_THAT(errors[0].message, HasSubstr(wrong.message)) << wrong.text;
     }
+}
+
+TEST(Assembler, RefusesAnInstructionAcrossTheEndOfAPage) {
+    std::string text;
+    for (int n = 0; n < rom_size - 4; ++n) {
+        text += "nop\n";
+    }
+    const auto errors = assemble(text + "  mov N, 1\n", "wrong.asm").errors;
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_EQ(errors[0].place.line, rom_size - 3);
+    EXPECT_EQ(errors[0].place.column, 3);
+    EXPECT_THAT(errors[0].message, HasSubstr("crosses the end of a page"));
+    EXPECT_TRUE(assemble(text + "PAGE\n.page\nmov N, 1\n", "right.asm").errors.empty());
+}
+
+TEST(Assembler, TellsTheLineOfEachInstruction) {
+    const Assembled made = assemble("nop\n\n  mov N, 1\nPAGE\n.page\nstart: hlt\n", "a.asm");
+    EXPECT_EQ(line_at(made.lines, 0).line, 1);
+    EXPECT_EQ(line_at(made.lines, 1).line, 3);
+    EXPECT_EQ(line_at(made.lines, 1).column, 3);
+    EXPECT_EQ(line_at(made.lines, 5).line, 3); // in the middle of it
+    EXPECT_EQ(line_at(made.lines, code_address(1, 0)).line, 6);
+    EXPECT_EQ(line_at({}, 7).line, 0);
 }
 
 TEST(Disassembler, GivesTextThatAssemblesToTheSameBytes) {
@@ -103,7 +127,7 @@ TEST(Disassembler, GivesTextThatAssemblesToTheSameBytes) {
                 image.code.push_back(random() % 2 == 0 ? any : static_cast<std::uint8_t>(0x10 + any % 20));
             }
             const std::string text = disassemble(image);
-            const auto [again, errors] = assemble(text, "again.asm");
+            const auto [again, lines, errors] = assemble(text, "again.asm");
             ASSERT_TRUE(errors.empty()) << errors[0].message << '\n' << text;
             EXPECT_EQ(again, image) << text;
         }

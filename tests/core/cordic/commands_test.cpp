@@ -10,7 +10,7 @@ namespace millwright::cordic {
 namespace {
 
 Processor run(const std::string& text, const ProcessorSettings& settings = {}) {
-    const auto [image, errors] = assemble(text, "commands.asm");
+    const auto [image, lines, errors] = assemble(text, "commands.asm");
     EXPECT_TRUE(errors.empty()) << errors[0].message;
     Processor processor(settings, image);
     processor.run(100'000);
@@ -70,12 +70,12 @@ TEST(Commands, GoOverTheBusBehindTheRecords) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;
     Processor done = run("MOV P, 0x01020304\nM03\nHLT\n", settings);
-    const auto port = done.memory().port;
-    EXPECT_EQ(port[command_port], 0x43);
-    EXPECT_EQ(port[command_port + 1U], 4);
-    EXPECT_EQ(port[command_port + 2U], 3);
-    EXPECT_EQ(port[command_port + 3U], 2);
-    EXPECT_EQ(port[command_port + 4U], 1);
+    const std::vector<std::uint8_t>& port = done.memory().port;
+    EXPECT_EQ(port.at(command_port), 0x43);
+    EXPECT_EQ(port.at(command_port + 1U), 4);
+    EXPECT_EQ(port.at(command_port + 2U), 3);
+    EXPECT_EQ(port.at(command_port + 3U), 2);
+    EXPECT_EQ(port.at(command_port + 4U), 1);
     EXPECT_EQ(done.state().clocks.publish, 5 * 2);
     EXPECT_EQ(run("M30", settings).commanded().size(), 1U);
 }

@@ -1,6 +1,7 @@
 #include "core/cordic/processor.h"
 
 #include "core/base/error.h"
+#include "core/cordic/assembler.h"
 #include "tests/core/cordic/golden.h"
 
 #include <gtest/gtest.h>
@@ -278,6 +279,49 @@ TEST(Processor, StandsStillForAMoveWithoutLength) {
     const SetPoint<double> set = done.set_point(done.published()[0]);
     EXPECT_EQ(set.vx, 0.0);
     EXPECT_EQ(set.ay, 0.0);
+}
+
+TEST(Memory, HasPagesOfRomThatAnInstructionTurns) {
+    const Assembled made = assemble("mov N, 1\nPAGE\n.page\nmov N, 2\nhlt\n", "pages.asm");
+    ASSERT_TRUE(made.errors.empty());
+    Processor processor({}, made.image);
+    processor.run(1000);
+    EXPECT_EQ(processor.state().stop, Stop::halted);
+    EXPECT_EQ(register_of(processor.state(), Register::N), 2U);
+    EXPECT_EQ(processor.state().bus.page, 1);
+    EXPECT_EQ(processor.state().instruction_at, code_address(1, 5));
+    processor.reset();
+    EXPECT_EQ(processor.state().bus.page, 0);
+}
+
+TEST(Stop, APageBehindTheLastIsRefused) {
+    Processor processor({}, assemble("nop\nPAGE\n", "pages.asm").image);
+    processor.run(1000);
+    EXPECT_EQ(processor.state().stop, Stop::no_page);
+    EXPECT_EQ(processor.state().bus.page, 0);
+}
+
+// Each chord of a helix is a line in space that rises by Z: 37 clocks to turn the radius, 140 for the speeds.
+TEST(Clocks, OfAHelixAre177OfCordicAChord) {
+    const Assembled made = assemble(
+        ".format f64\nmov X0, 3\nmov Vmax, 2\nmov Dz, 0.1\nmov N, 20\nmov Z, 0.25\nG03Z\nhlt\n", "helix.asm");
+    ASSERT_TRUE(made.errors.empty());
+    Processor processor({}, made.image);
+    processor.run(100'000);
+    ASSERT_EQ(processor.state().stop, Stop::halted);
+    EXPECT_EQ(processor.state().clocks.cordic, 20 * 177);
+    ASSERT_EQ(processor.published().size(), 20U);
+    for (std::size_t n = 0; n < 20; ++n) {
+        const double angle = 0.1 * static_cast<double>(n + 1);
+        const auto set = processor.set_point(processor.published()[n]);
+        const auto height = processor.height_point(processor.published()[n]);
+        EXPECT_NEAR(set.x, 3.0 * std::cos(angle), 1e-5);
+        EXPECT_NEAR(set.y, 3.0 * std::sin(angle), 1e-5);
+        EXPECT_EQ(height.z, 0.25 * static_cast<double>(n + 1)); // exact in binary
+        const double chord = 2.0 * 3.0 * std::sin(0.05);
+        EXPECT_NEAR(height.vz, 2.0 * 0.25 / std::hypot(chord, 0.25), 1e-5);
+        EXPECT_NEAR(std::hypot(set.vx, set.vy, height.vz), 2.0, 1e-6);
+    }
 }
 
 TEST(Stop, OverflowEndsTheProgramInsteadOfWrapping) {

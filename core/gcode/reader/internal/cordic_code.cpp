@@ -63,9 +63,24 @@ double CordicCode::as_held(Word word) const {
 }
 
 void CordicCode::add(const cordic::Instruction& instruction) {
-    const auto address = static_cast<std::uint16_t>(std::min(result_.image.code.size(), std::size_t{0xffff}));
-    result_.code_lines.push_back({address, now_.place.line});
-    cordic::append(result_.image.code, instruction, settings_.format);
+    const bool loads = instruction.opcode == Opcode::mov;
+    const int size = loads ? 1 + cordic::immediate_bytes(settings_.format) : 1;
+    const auto used = static_cast<int>(result_.image.code.size() % cordic::rom_size);
+    if (used + size + 1 > cordic::rom_size) { // one byte stays for PAGE
+        put({.opcode = Opcode::page});
+        result_.image.code.resize(cordic::page_count(result_.image.code.size()) * cordic::rom_size, 0xff);
+    }
+    put(instruction);
+}
+
+/// A program that is too long is not kept for ever.
+void CordicCode::put(const cordic::Instruction& instruction) {
+    if (result_.image.code.size() <= cordic::most_code) {
+        const int column = now_.text.empty() ? 0 : first_column(now_.text);
+        result_.code_lines.push_back(
+            {cordic::code_address_at(result_.image.code.size()), now_.place.line, column});
+        cordic::append(result_.image.code, instruction, settings_.format);
+    }
 }
 
 void CordicCode::op(Opcode opcode) {

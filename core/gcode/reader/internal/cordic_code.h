@@ -45,7 +45,9 @@ public:
 
 private:
     [[nodiscard]] Place place_of(const FaultyWord& word) const;
+    /// On the next page of the ROM where this one is full.
     void add(const cordic::Instruction& instruction);
+    void put(const cordic::Instruction& instruction);
 
     std::filesystem::path file_;
     CordicProgramSettings settings_;

@@ -1,0 +1,118 @@
+#include "core/cordic/internal/verilog.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace millwright::cordic::internal {
+namespace {
+
+/// What each step and correction shifts by, as cases of the counter.
+std::string steps_of(const Verilog& verilog) {
+    const Sequence& sequence = verilog.sequence();
+    std::string text;
+    for (int i = 0; i < sequence.step_count; ++i) {
+        text += fmt::format(
+            "            {}: begin s = {}; angle = {}; end\n", i, verilog.shift(i), verilog.angle(i));
+    }
+    for (int j = 0; j < sequence.correction_count; ++j) {
+        if (const int a = verilog.correction(j); a != 0) {
+            text += fmt::format("            {}: begin s = {}; corrects = 1; subtracts = {}; end\n",
+                                sequence.step_count + j,
+                                std::abs(a),
+                                a < 0 ? 1 : 0);
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+std::string core_module(const Verilog& verilog) {
+    const Sequence& sequence = verilog.sequence();
+    const int clocks = sequence.clock_count();
+    std::string text = verilog.head("CORDIC, one step or correction a clock.");
+    text += R"(module cordic_core (
+    input wire clk,
+    input wire reset,
+    input wire start,
+    input wire vectoring,
+)" + verilog.inputs() +
+            verilog.outputs("reg") + R"(    output reg overflow,
+    output wire busy
+);
+)" + verilog.functions();
+    text += fmt::format(R"(
+    localparam STEPS = {};
+    localparam CLOCKS = {};
+
+    reg [6:0] n;
+    reg vectors;
+    reg [5:0] s;           // shift of this step or correction
+    reg [W-1:0] angle;
+    reg corrects, subtracts;
+    assign busy = n < CLOCKS;
+
+    always @* begin
+        s = 0;
+        angle = 0;
+        corrects = 0;
+        subtracts = 0;
+        case (n)
+)",
+                        sequence.step_count,
+                        clocks);
+    text += steps_of(verilog);
+    text += R"(            default: ;
+        endcase
+    end
+
+    wire signed [W-1:0] xs = shifted(x, s);
+    wire signed [W-1:0] ys = shifted(y, s);
+    wire plus = vectors ? y[W-1] : !z[W-1]; // turns counter-clockwise
+)";
+    text += verilog.turned({.x = "x",
+                            .y = "y",
+                            .z = "z",
+                            .shifted_x = "xs",
+                            .shifted_y = "ys",
+                            .plus = "plus",
+                            .angle = "angle",
+                            .next_x = "xt",
+                            .next_y = "yt",
+                            .next_z = "zt"});
+    text += sequence.multiplies
+                ? "    wire [W:0] xc = scaled(x);\n    wire [W:0] yc = scaled(y);\n"
+                : "    wire [W:0] xc = !corrects ? {1'b0, x} : subtracts ? sub(x, xs) : add(x, xs);\n"
+                  "    wire [W:0] yc = !corrects ? {1'b0, y} : subtracts ? sub(y, ys) : add(y, ys);\n";
+    text += R"(
+    always @(posedge clk) begin
+        if (reset) begin
+            n <= CLOCKS;
+            overflow <= 0;
+        end else if (start) begin
+            n <= 0;
+            vectors <= vectoring;
+            x <= x_in;
+            y <= y_in;
+            z <= z_in;
+            overflow <= 0;
+        end else if (n < STEPS) begin
+            n <= n + 1'b1;
+            x <= xt[W-1:0];
+            y <= yt[W-1:0];
+            z <= zt[W-1:0];
+            overflow <= overflow | xt[W] | yt[W] | zt[W];
+        end else if (busy) begin
+            n <= n + 1'b1;
+            x <= xc[W-1:0];
+            y <= yc[W-1:0];
+            overflow <= overflow | xc[W] | yc[W];
+        end
+    end
+endmodule
+)";
+    return text;
+}
+
+} // namespace millwright::cordic::internal

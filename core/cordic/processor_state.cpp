@@ -1,0 +1,29 @@
+#include "core/cordic/processor_state.h"
+
+namespace millwright::cordic {
+
+std::string_view to_text(Stop stop) {
+    switch (stop) {
+    case Stop::none:
+        return "running";
+    case Stop::halted:
+        return "halted at the end of the program";
+    case Stop::overflow:
+        return "a number did not fit the word";
+    case Stop::illegal_instruction:
+        return "an opcode that the processor does not know";
+    case Stop::stack_overflow:
+        return "a microprogram called more than 4 deep";
+    case Stop::stack_underflow:
+        return "a microprogram returned where nothing had called";
+    case Stop::rom_write:
+        return "a write into the program ROM";
+    case Stop::no_page:
+        return "a page behind the last one of the program ROM";
+    case Stop::arc_too_coarse:
+        return "an arc with a step angle beyond the convergence range, or with no chord";
+    }
+    return {};
+}
+
+} // namespace millwright::cordic
