@@ -1,6 +1,7 @@
 #include "app/commands/cordic_command.h"
 
 #include "app/commands/cordic_accuracy.h"
+#include "app/commands/cordic_compare.h"
 #include "app/commands/cordic_programs.h"
 #include "app/outputs.h"
 #include "core/base/files.h"
@@ -161,6 +162,7 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
     add_cordic_accuracy(group, chosen);
     add_cordic_programs(group, chosen);
+    add_cordic_compare(group, chosen);
     add_rtl(group, chosen);
 }
 

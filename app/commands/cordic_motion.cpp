@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <span>
 
@@ -72,6 +73,28 @@ pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& optio
     return axes;
 }
 
+/// Position, velocity and acceleration of each axis in every period, the end included.
+void write_servo(const motion::Trajectory& trajectory, const CordicMotionOptions& options, int axis_count) {
+    std::string text = "time";
+    for (const char* what : {"", "v", "a"}) {
+        for (int axis = 0; axis < axis_count; ++axis) {
+            text += fmt::format(",{}{}", what, gcode::axis_letters[static_cast<std::size_t>(axis)]);
+        }
+    }
+    const auto periods = static_cast<std::int64_t>(std::ceil(trajectory.duration() / options.servo_period));
+    for (std::int64_t n = 0; n <= periods; ++n) {
+        const double time = std::min(static_cast<double>(n) * options.servo_period, trajectory.duration());
+        const motion::Sample at = trajectory.at(time);
+        fmt::format_to(std::back_inserter(text), "\n{:.9g}", time);
+        for (const kinematics::AxisPositions* values : {&at.position, &at.velocity, &at.acceleration}) {
+            for (int axis = 0; axis < axis_count; ++axis) {
+                fmt::format_to(std::back_inserter(text), ",{:.9g}", (*values)[axis]);
+            }
+        }
+    }
+    write_file(options.servo, text + "\n");
+}
+
 } // namespace
 
 void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) {
@@ -91,6 +114,11 @@ void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) 
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
         ->capture_default_str();
     command.add_option("--pulses", options.pulses, "Write the pulses (CSV)")->type_name("FILE");
+    command.add_option("--servo", options.servo, "Write the set-points of a servo controller (CSV)")
+        ->type_name("FILE");
+    command.add_option("--period", options.servo_period, "Of the servo controller, s")
+        ->check(CLI::Range(1e-6, 10.0))
+        ->capture_default_str();
 }
 
 std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
@@ -99,14 +127,14 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
                                              double acceleration,
                                              const std::string& file) {
     if (options.profile.empty()) {
-        if (!options.pulses.empty()) {
-            throw Error("pulses need a motion", {}, "give --profile trapezoid or s-curve");
+        if (!options.pulses.empty() || !options.servo.empty()) {
+            throw Error(
+                "pulses and servo set-points need a motion", {}, "give --profile trapezoid or s-curve");
         }
         return std::nullopt;
     }
     const double jerk = options.profile == "s-curve" ? options.jerk : 0.0;
-    constexpr double half = 0.5; // eq. 4.2: the axes get Amax/2
-    const kinematics::MachineModel machine = gcode::cordic_machine(half * acceleration, jerk);
+    const kinematics::MachineModel machine = gcode::cordic_machine(acceleration, jerk);
     const kinematics::AxisPositions start = kinematics::AxisPositions::Zero(machine.axis_count());
     const gcode::Program program = gcode::cordic_motion(processor, made, machine, start, file);
     const motion::Trajectory trajectory = motion::plan(program, machine, {}, Progress());
@@ -114,6 +142,9 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
     report.seconds = trajectory.duration();
     sample(trajectory, report);
     report.axes = pulses_of(trajectory, options, machine.axis_count());
+    if (!options.servo.empty()) {
+        write_servo(trajectory, options, machine.axis_count());
+    }
     return report;
 }
 

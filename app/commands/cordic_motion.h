@@ -25,6 +25,8 @@ struct CordicMotionOptions {
     double timer_hz = 1e6;
     std::int64_t min_interval = 2; ///< ticks
     std::string pulses;            ///< file; empty: none
+    std::string servo;             ///< set-points of a servo controller
+    double servo_period = 1e-3;    ///< s
 };
 
 void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options);
@@ -44,9 +46,9 @@ struct CordicMotionReport {
     std::vector<AxisPulses> axes;
 };
 
-/// Plans the motion of the records, makes its pulses and writes them to the file that was asked for: tick,
-/// axis, direction and position in steps. Nothing if no motion was asked for. `acceleration` is Amax. Throws
-/// Error.
+/// Plans the motion of the records, writes its pulses and servo set-points to the files that were asked
+/// for. Nothing if no motion was asked for. `acceleration` is what
+/// the axes get together, mm/s2. Throws Error.
 [[nodiscard]] std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
                                                            const gcode::CordicProgram& made,
                                                            const CordicMotionOptions& options,

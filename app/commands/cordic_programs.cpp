@@ -1,164 +1,52 @@
 #include "app/commands/cordic_programs.h"
 
 #include "app/commands/cordic_motion.h"
+#include "app/commands/cordic_plc.h"
+#include "app/commands/cordic_source.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/cordic/assembler.h"
-#include "core/cordic/comparison.h"
 #include "core/cordic/microprogram.h"
-#include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
-#include "core/gcode/reader/cordic_program.h"
-#include "core/gcode/reader/interpreter.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace millwright::app {
 
 namespace {
 
-constexpr double least_clock_hz = 1.0;
-constexpr double most_clock_hz = 1e11;
-
 struct Options {
-    std::string file;
+    CordicSource source;
+    CordicChoice choice;
     CordicMotionOptions motion;
+    CordicPlcOptions plc;
     std::string out;
     std::string trace;
-    std::string microprogram; ///< text file; empty: ours
-    std::string format = "f32";
     double clock_hz = 8e6;
-    double tolerance = 0.001;
-    double rapid_mm_per_min = 3000.0;
-    double acceleration = 500.0;
-    int iterations = 0; ///< 0: the thesis's 29 steps
-    int wait_states = 0;
     std::int64_t most_clocks = 1'000'000'000;
-    bool thesis_direction = false;
-    bool thesis_arcs = false;
-    bool matlab_zero = false;
-    bool over_bus = false;
-    bool other_axes = false;
     bool json = false;
 };
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-/// Prints all of them; the first ends the request.
-void refuse(const std::vector<Diagnostic>& errors) {
-    for (std::size_t n = 1; n < errors.size(); ++n) {
-        fmt::print(stderr, "millwright: {}\n", to_text(errors[n]));
-    }
-    if (!errors.empty()) {
-        throw Error(errors.front());
-    }
-}
-
-gcode::CordicProgram compiled(const Options& options) {
-    gcode::CordicProgramSettings settings;
-    settings.format = cordic::parse_number_format(options.format);
-    settings.chord_tolerance = options.tolerance;
-    settings.arc_end = options.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
-    settings.rapid_speed = from_mm_per_min(options.rapid_mm_per_min);
-    settings.acceleration = options.acceleration;
-    settings.leaves_out_other_axes = options.other_axes;
-    gcode::CordicProgramBuilder builder(options.file, settings);
-    gcode::ReaderSettings reading;
-    reading.any_tool = true;
-    reading.most_errors = 100;
-    gcode::Interpreter program(options.file, std::move(reading), builder);
-    program.run();
-    refuse(program.errors());
-    gcode::CordicProgram made = builder.take();
-    refuse(made.faults);
-    for (const Diagnostic& warning : made.warnings) {
-        fmt::print(stderr, "millwright: {}\n", to_text(warning));
-    }
-    return made;
-}
-
-/// A program from G-code, or from the assembler's text (.asm), or from an image (.bin).
-gcode::CordicProgram program_of(const Options& options) {
-    const auto kind = std::filesystem::path(options.file).extension();
-    if (kind == ".bin") {
-        const std::string bytes = read_file(options.file);
-        return {cordic::parse_image(bytes_of(bytes), options.file), {}, {}, {}, {}, {}};
-    }
-    if (kind == ".asm") {
-        auto made = cordic::assemble(
-            read_file(options.file), options.file, cordic::parse_number_format(options.format));
-        refuse(made.errors);
-        return {std::move(made.image), {}, {}, {}, {}, {}};
-    }
-    return compiled(options);
-}
-
-cordic::ProcessorSettings settings_of(const Options& options) {
-    cordic::ProcessorSettings settings;
-    if (options.iterations > 0) {
-        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, options.iterations);
-    }
-    settings.zero = options.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
-    settings.sense = options.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
-    settings.publishing = options.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
-    settings.wait_states = options.wait_states;
-    return settings;
-}
-
-cordic::Processor processor_of(const Options& options, const cordic::Image& image) {
-    const cordic::ProcessorSettings settings = settings_of(options);
-    if (options.microprogram.empty()) {
-        return {settings, image};
-    }
-    auto made =
-        cordic::assemble_microprogram(read_file(options.microprogram),
-                                      options.microprogram,
-                                      cordic::microprogram_constants(settings.sequence, image.format));
-    refuse(made.errors);
-    return {settings, image, std::move(made.program)};
-}
-
-/// Why the program is not at its end, with the place in it or in the microprogram.
-Error not_at_its_end(const cordic::Processor& processor, const Options& options) {
-    const cordic::ProcessorState& state = processor.state();
-    if (state.stop == cordic::Stop::none) {
-        return Error(fmt::format("the program is not at its end after {} clocks", options.most_clocks),
-                     options.file);
-    }
-    const bool stack =
-        state.stop == cordic::Stop::stack_overflow || state.stop == cordic::Stop::stack_underflow;
-    if (stack && !options.microprogram.empty()) {
-        return Error(
-            Diagnostic{{options.microprogram, processor.microprogram().lines[state.sequencer.address], 0, -1},
-                       std::string(to_text(state.stop)),
-                       {}});
-    }
-    return Error(fmt::format("the processor stopped in the instruction at {:#06x}: {}",
-                             state.instruction_at,
-                             cordic::to_text(state.stop)),
-                 options.file);
+/// That the axes get.
+double path_acceleration(const Options& options) {
+    constexpr double half = 0.5; // eq. 4.2
+    return (options.choice.whole_acceleration ? 1.0 : half) * options.source.acceleration;
 }
 
 int show_microprogram(const Options& options) {
-    const auto publishing = options.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
+    const auto publishing = options.choice.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
     fmt::print("{}", cordic::microprogram_text(publishing));
     return 0;
 }
@@ -251,26 +139,48 @@ void print(const cordic::RunReport& report, const cordic::Processor& processor, 
     }
 }
 
-int run(const Options& options) {
-    const gcode::CordicProgram program = program_of(options);
-    cordic::Processor processor = processor_of(options, program.image);
+std::optional<cordic::SupervisedRun> execute(cordic::Processor& processor, const Options& options) {
+    if (!options.plc.logic.empty()) {
+        return run_with_logic(processor, options.plc, options.clock_hz);
+    }
     if (options.trace.empty()) {
         processor.run(options.most_clocks);
     } else {
         run_traced(processor, options);
     }
+    return std::nullopt;
+}
+
+/// Stopped by the logic is what the logic is for.
+bool is_at_an_end(const cordic::Processor& processor,
+                  const std::optional<cordic::SupervisedRun>& supervised) {
+    using cordic::SupervisedEnd;
+    if (supervised && supervised->end == SupervisedEnd::out_of_time) {
+        throw Error("the machine is not at the end of the program when its time is over", {}, "--time");
+    }
+    return processor.state().stop == cordic::Stop::halted ||
+           (supervised && supervised->end == SupervisedEnd::stopped);
+}
+
+int run(const Options& options) {
+    const gcode::CordicProgram program = cordic_program(options.source);
+    cordic::Processor processor = cordic_processor(options.choice, program.image);
+    const auto supervised = execute(processor, options);
     // Turned the other way, or stepped from elsewhere, the points are not those of the G-code.
-    const bool has_exact = !program.points.empty() && !options.thesis_direction;
+    const bool has_exact = !program.points.empty() && !options.choice.thesis_direction;
     const auto exact = has_exact ? std::span(program.points) : std::span<const cordic::ExactPoint>();
     const cordic::RunReport report = cordic::report_of(processor, exact, options.clock_hz);
     const auto motion =
         report.stop == cordic::Stop::halted
-            ? move_along(processor, program, options.motion, options.acceleration, options.file)
+            ? move_along(processor, program, options.motion, path_acceleration(options), options.source.file)
             : std::nullopt;
     if (options.json) {
         auto answer = json_of(processor, program, report, has_exact);
         if (motion) {
             answer["motion"] = json_of(*motion);
+        }
+        if (supervised) {
+            answer["logic"] = app::json_of(*supervised);
         }
         fmt::print("{}\n", answer.dump(2));
     } else {
@@ -278,15 +188,18 @@ int run(const Options& options) {
         if (motion) {
             print(*motion);
         }
+        if (supervised) {
+            app::print(*supervised);
+        }
     }
-    if (report.stop != cordic::Stop::halted) {
-        throw not_at_its_end(processor, options);
+    if (!is_at_an_end(processor, supervised)) {
+        throw not_at_its_end(processor, program, options.source, options.choice);
     }
     return 0;
 }
 
 int assemble(const Options& options) {
-    const gcode::CordicProgram program = program_of(options);
+    const gcode::CordicProgram program = cordic_program(options.source);
     const auto bytes = cordic::to_bytes(program.image);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     fmt::print("{} bytes of code, {}\n", program.image.code.size(), cordic::to_text(program.image.format));
@@ -294,91 +207,31 @@ int assemble(const Options& options) {
 }
 
 int disassemble(const Options& options) {
-    const std::string text = cordic::disassemble(program_of(options).image);
+    const std::string text = cordic::disassemble(cordic_program(options.source).image);
     std::fwrite(text.data(), 1, text.size(), stdout);
-    return 0;
-}
-
-int compare(const Options& options) {
-    const cordic::LineTime mcs51 = cordic::line_time(cordic::mcs51_line_clocks, cordic::mcs51_clock_hz);
-    const cordic::LineTime line =
-        cordic::line_time(cordic::thesis_sequence().clock_count() * 2, options.clock_hz);
-    const cordic::StitchTimes slow = cordic::stitch_times({}, mcs51.seconds);
-    const cordic::StitchTimes fast = cordic::stitch_times({}, line.seconds);
-    if (options.json) {
-        const auto json_of_line = [](const cordic::LineTime& time, const cordic::StitchTimes& stitch) {
-            return nlohmann::ordered_json{{"clocks", time.clocks},
-                                          {"seconds", time.seconds},
-                                          {"most_rpm", time.most_rpm},
-                                          {"share_of_stitch", stitch.share}};
-        };
-        nlohmann::ordered_json answer;
-        answer["mcs51"] = json_of_line(mcs51, slow);
-        answer["processor"] = json_of_line(line, fast);
-        answer["reduction"] = line.reduction;
-        answer["times_fewer_clocks"] = line.times_fewer;
-        answer["screw_rpm"] = fast.screw_rpm;
-        fmt::print("{}\n", answer.dump(2));
-        return 0;
-    }
-    fmt::print("{:<24}{:>16}{:>16}\n", "one line", "MCS-51, 8 MHz", "processor");
-    fmt::print("{:<24}{:>16}{:>16}\n", "clocks", mcs51.clocks, line.clocks);
-    fmt::print("{:<24}{:>13.6g} us{:>13.6g} us\n", "time", 1e6 * mcs51.seconds, 1e6 * line.seconds);
-    fmt::print("{:<24}{:>16.0f}{:>16.0f}\n",
-               "turns a minute, up to",
-               std::floor(mcs51.most_rpm),
-               std::floor(line.most_rpm));
-    fmt::print("{:<24}{:>14.3f} %{:>14.3f} %\n", "of a 20 ms stitch", 100.0 * slow.share, 100.0 * fast.share);
-    fmt::print(
-        "{:.3f} % fewer clocks, {:.1f} times; a stitch of 3 mm needs {:.0f} turns a minute of the screw\n",
-        100.0 * line.reduction,
-        line.times_fewer,
-        fast.screw_rpm);
     return 0;
 }
 
 CLI::App&
 add_file(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("FILE", options->file, "G-code, assembler text (.asm) or image (.bin)")->required();
-    command.add_option("--format", options->format, "Number format: f64, f32, or qI.F as in q8.24")
-        ->capture_default_str();
-    command.add_option("--tolerance", options->tolerance, "Farthest that a chord may be from its arc, mm")
-        ->check(CLI::Range(1e-9, 1e3))
-        ->capture_default_str();
-    command.add_option("--rapid", options->rapid_mm_per_min, "Speed of G0, mm/min")
-        ->check(CLI::Range(1e-3, 1e7))
-        ->capture_default_str();
-    command.add_option("--acceleration", options->acceleration, "Amax, mm/s2")
-        ->check(CLI::Range(1e-3, 1e7))
-        ->capture_default_str();
-    command.add_flag("--thesis-arcs", options->thesis_arcs, "End arcs where their rotations lead");
-    command.add_flag("--other-axes", options->other_axes, "Leave out what other axes than X, Y and Z do");
+    add_cordic_source(command, options->source);
     return command;
 }
 
 void add_run(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = add_file(group, "run", "Run a program on the processor, clock by clock", options);
-    const auto clock_hz = CLI::Range(least_clock_hz, most_clock_hz);
-    command.add_option("--clock", options->clock_hz, "Clock frequency, Hz")
-        ->check(clock_hz)
-        ->capture_default_str();
-    command.add_option("--trace", options->trace, "Write waves for GTKWave (VCD)")->type_name("FILE");
-    command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
-        ->check(CLI::Range(1, cordic::most_steps));
-    command.add_option("--wait-states", options->wait_states, "Clocks that a bus cycle waits")
-        ->check(CLI::Range(0, 255));
+    add_cordic_clock(command, options->clock_hz);
+    CLI::Option* const trace =
+        command.add_option("--trace", options->trace, "Write waves for GTKWave (VCD)")->type_name("FILE");
+    add_cordic_choice(command, options->choice);
     command.add_option("--clocks", options->most_clocks, "Stop after so many")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
         ->capture_default_str();
-    command.add_flag(
-        "--thesis-direction", options->thesis_direction, "G2 counter-clockwise, as the thesis's model");
-    command.add_flag("--matlab-zero", options->matlab_zero, "The thesis's MATLAB model where an angle is 0");
-    command.add_flag("--over-bus", options->over_bus, "Set-points byte by byte over the bus");
-    command.add_option("--microprogram", options->microprogram, "A microprogram of one's own")
-        ->type_name("FILE");
     add_cordic_motion_options(command, options->motion);
+    add_cordic_plc_options(command, options->plc);
+    trace->excludes("--plc");
     command.add_flag("--json", options->json, "Print the answer as JSON");
     command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
 }
@@ -394,15 +247,8 @@ void add_cordic_programs(CLI::App& group, Command& chosen) {
     CLI::App& showing = add_file(group, "disasm", "Print a program as assembler text", options);
     showing.callback([&chosen, options] { chosen = [options] { return disassemble(*options); }; });
     CLI::App& micro = *group.add_subcommand("microprogram", "Print the processor's microprogram");
-    micro.add_flag("--over-bus", options->over_bus, "With set-points byte by byte over the bus");
+    micro.add_flag("--over-bus", options->choice.over_bus, "With set-points byte by byte over the bus");
     micro.callback([&chosen, options] { chosen = [options] { return show_microprogram(*options); }; });
-    CLI::App& comparing =
-        *group.add_subcommand("compare", "The processor beside the thesis's micro-controller");
-    comparing.add_option("--clock", options->clock_hz, "Clock frequency, Hz")
-        ->check(CLI::Range(least_clock_hz, most_clock_hz))
-        ->capture_default_str();
-    comparing.add_flag("--json", options->json, "Print the answer as JSON");
-    comparing.callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }
 
 } // namespace millwright::app

@@ -1,4 +1,4 @@
-// millwright cordic run, asm, disasm, compare: whole programs on the CORDIC processor.
+// millwright cordic run, asm, disasm, microprogram: whole programs on the CORDIC processor.
 #pragma once
 
 #include "app/command.h"

@@ -11,6 +11,7 @@
 #include "core/base/numbers.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
+#include "core/machine/drivers/cordic/cordic_driver.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
@@ -21,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -35,6 +37,7 @@ struct Options {
     std::string driver = "virtual";
     double speed = 1.0;
     double period = 0.01;
+    double processor_hz = machine::CordicDriverOptions().clock_hz;
     RecordChoice record;         ///< of a coordinate stream
     ControllerChoice controller; ///< for grbl; its port also for stream
     PostChoice post{.post = ""}; ///< empty: that of the driver
@@ -97,7 +100,11 @@ public:
         const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
         machine::Dispatcher dispatcher(*driver_, clock_, options_.series.log);
         const JobKeys keys(dispatcher, options_.controller.keys);
-        return dispatcher.run(job, progress);
+        machine::JobOutcome outcome = dispatcher.run(job, progress);
+        if (const std::string late = cordic_ == nullptr ? "" : cordic_->remark(); !late.empty()) {
+            fmt::print(stderr, "millwright: {}: {}\n", job.name, late);
+        }
+        return outcome;
     }
 
 private:
@@ -105,6 +112,7 @@ private:
     machine::SteadyClock clock_;
     std::string model_; ///< name of the machine that the driver moves
     std::unique_ptr<machine::Driver> driver_;
+    const machine::CordicDriver* cordic_ = nullptr; ///< the same, if it is one
 
     /// The first job says which machine it is.
     void connect(const machine::Job& job) {
@@ -127,6 +135,14 @@ private:
         choice.kind = machine::driver_kind(options_.driver);
         choice.address = options_.controller.port;
         choice.period = options_.period;
+        if (choice.kind == machine::DriverKind::cordic) {
+            machine::CordicDriverOptions processor;
+            processor.clock_hz = options_.processor_hz;
+            auto made = std::make_unique<machine::CordicDriver>(
+                job.program->start, machine::VirtualSpeed{options_.speed}, clock_, job.machine, processor);
+            cordic_ = made.get();
+            return made;
+        }
         if (const auto record = record_of(options_.record)) {
             return std::make_unique<machine::StreamDriver>(
                 machine::make_link(choice.address),
@@ -196,6 +212,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
     add_controller_options(command, options->controller);
     command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
         ->type_name("S")
+        ->capture_default_str();
+    command.add_option("--clock", options->processor_hz, "Clock frequency of the CORDIC processor, Hz")
+        ->type_name("HZ")
+        ->check(CLI::Range(1.0, 1e11))
         ->capture_default_str();
     add_record_options(command, options->record);
     add_post_options(command, options->post);

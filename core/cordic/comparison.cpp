@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 
+#include <algorithm>
+
 namespace millwright::cordic {
 namespace {
 
@@ -41,6 +43,8 @@ sew(const Sewing& sewing, std::span<const double> compute_seconds, std::span<con
         Sewing one = sewing;
         one.stitch = lengths_mm[n];
         const StitchTimes times = stitch_times(one, compute_seconds[n]);
+        run.longest = std::max(run.longest, lengths_mm[n]);
+        run.slowest_computation = std::max(run.slowest_computation, compute_seconds[n]);
         run.late_computations += times.computed_in_time ? 0 : 1;
         run.late_moves += times.moved_in_time ? 0 : 1;
         if (run.first_late < 0 && !(times.computed_in_time && times.moved_in_time)) {

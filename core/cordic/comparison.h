@@ -48,6 +48,8 @@ struct SewingRun {
     std::int64_t late_computations = 0; ///< longer than a stitch
     std::int64_t late_moves = 0;  ///< the feed cannot do them between two times of the needle in the material
     std::int64_t first_late = -1; ///< stitch, from 0; -1: none
+    double longest = 0.0;         ///< stitch, mm
+    double slowest_computation = 0.0; ///< s
 };
 
 /// A row of stitches. The next line is computed during the turn before; `compute_seconds` and `lengths_mm`

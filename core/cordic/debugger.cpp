@@ -148,6 +148,18 @@ Halt Debugger::run_to(CodeAddress address, std::int64_t limit) {
     return go(limit, [&] { return fetches() && instruction() == address; });
 }
 
+Halt Debugger::run_to_line(int wanted, std::int64_t limit) {
+    bool left = line() != wanted;
+    return go(limit, [&] {
+        left = left || line() != wanted;
+        return left && fetches() && line() == wanted;
+    });
+}
+
+Halt Debugger::run_to_micro(std::uint8_t address, std::int64_t limit) {
+    return go(limit, [&] { return state().sequencer.address == address; });
+}
+
 Halt Debugger::run(std::int64_t limit) {
     return go(limit, [] { return false; });
 }

@@ -64,6 +64,10 @@ public:
     Halt run_to_set_point(std::int64_t limit);
     /// Until the instruction at `address` is about to be fetched.
     Halt run_to(CodeAddress address, std::int64_t limit);
+    /// Until an instruction of the program's `line` is about to be fetched, or fetched again.
+    Halt run_to_line(int line, std::int64_t limit);
+    /// Until the micro-instruction at `address` is executed next.
+    Halt run_to_micro(std::uint8_t address, std::int64_t limit);
     Halt run(std::int64_t limit);
     /// Breakpoints stay.
     void reset();

@@ -6,8 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -144,11 +148,16 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
                  {"--format", "q8.24", "--acceleration", "100"}},
              Bad{"d.asm",
                  ".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV XI, 7\nG01\nHLT\n",
-                 "instruction at 0x000f: a number did not fit the word"},
+                 "d.asm:5:1: the processor stopped in the instruction at 0x000f: a number did not fit the "
+                 "word"},
+             Bad{"j.ngc",
+                 "G21 F100\nG0 X-100\nG1 X100\nM2\n",
+                 "j.ngc:3:1: the processor stopped in the instruction at",
+                 {"--format", "q8.24", "--acceleration", "100"}},
              Bad{"e.asm", "MOV PC, away\n", "e.asm:1:9: there is no label away"},
              Bad{"f.asm",
                  "HLT\n",
-                 "deep.micro:2: a microprogram called more than 4 deep",
+                 "deep.micro:2:1: a microprogram called more than 4 deep",
                  {"--microprogram", micro}},
              Bad{"g.asm", "HLT\n", "label.micro:2:", {"--microprogram", label}},
              Bad{"h.bin", "MWCP?", "h.bin"},
@@ -202,6 +211,47 @@ TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {
     EXPECT_EQ(run({"cordic", "run", arc, "--pulses", pulses.string()}).exit_code, 1);
 }
 
+TEST(Cordic, WritesServoSetPointsThatAgreeWithOneAnother) {
+    const ScratchFolder folder;
+    const auto servo = folder.path() / "servo.csv";
+    const Ended ended = run({"cordic",
+                             "run",
+                             arc,
+                             "--profile",
+                             "s-curve",
+                             "--servo",
+                             servo.string(),
+                             "--period",
+                             "0.01",
+                             "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const double seconds = nlohmann::json::parse(ended.out).at("motion").at("seconds").get<double>();
+    std::istringstream lines(content_of(servo));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "time,X,Y,Z,vX,vY,vZ,aX,aY,aZ");
+    std::vector<std::array<double, 10>> rows;
+    while (std::getline(lines, line)) {
+        std::ranges::replace(line, ',', ' ');
+        std::istringstream words(line);
+        for (double& value : rows.emplace_back()) {
+            words >> value;
+        }
+    }
+    ASSERT_GT(rows.size(), 100U);
+    EXPECT_NEAR(rows.back()[0], seconds, 1e-6 * seconds);
+    EXPECT_NEAR(rows.back()[1], 5.0, 1e-5);
+    for (std::size_t n = 1; n < rows.size(); ++n) {
+        const double period = rows[n][0] - rows[n - 1][0];
+        for (std::size_t axis = 1; axis <= 3;
+             ++axis) { // what is between them is no farther than 250 mm/s2 takes
+            const double mean = 0.5 * (rows[n][axis + 3] + rows[n - 1][axis + 3]);
+            EXPECT_NEAR(rows[n][axis] - rows[n - 1][axis], mean * period, 250.0 * period * period);
+        }
+    }
+    EXPECT_EQ(run({"cordic", "run", arc, "--servo", servo.string()}).exit_code, 1);
+}
+
 TEST(Cordic, PrintsTheMicroprogramThatItRunsOn) {
     const ScratchFolder folder;
     const Ended text = run({"cordic", "microprogram"});
@@ -234,6 +284,62 @@ TEST(Cordic, ComparesWithTheMicrocontrollerOfTheThesis) {
     for (const char* figure : {"10696", "44876", "6486486", "99.308 %", "144.5", "6.685 %", "675"}) {
         EXPECT_THAT(ended.out, HasSubstr(figure));
     }
+}
+
+TEST(Cordic, SewsAProgramAndSaysWhatComesTooLate) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "seam.ngc";
+    write_content(file, "G21 F600\nG1 X3\nG1 X6\nG1 X6 Y60\nM2\n");
+    const Ended fast = run({"cordic", "sew", file.string(), "--json"});
+    ASSERT_EQ(fast.exit_code, 0) << fast.err;
+    const auto answer = nlohmann::json::parse(fast.out);
+    EXPECT_EQ(answer.at("stitches"), 3);
+    EXPECT_NEAR(answer.at("period_s").get<double>(), 0.02, 1e-12);
+    EXPECT_EQ(answer.at("late_computations"), 0);
+    EXPECT_EQ(answer.at("late_moves"), 1); // 60 mm in 13.3 ms: 13,500 turns a minute of the screw
+    EXPECT_EQ(answer.at("first_late_line"), 4);
+    const Ended slow = run({"cordic", "sew", file.string(), "--clock", "1000", "--screw-rpm", "1e5"});
+    EXPECT_THAT(slow.out, HasSubstr("3 computations and 0 moves too late"));
+    EXPECT_THAT(slow.out, HasSubstr("first: stitch 1, "));
+}
+
+TEST(Cordic, RunsBesideTheLogicOfAMachine) {
+    const Ended ended = run({"cordic",
+                             "run",
+                             arc,
+                             "--plc",
+                             "assets/samples/interlock.plc",
+                             "--inputs",
+                             "assets/samples/interlock.inputs",
+                             "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto logic = nlohmann::json::parse(ended.out).at("logic");
+    EXPECT_EQ(logic.at("end"), "finished");
+    EXPECT_NEAR(logic.at("held_s").get<double>(), 2.0, 5e-3); // the door is open for two seconds
+    EXPECT_EQ(logic.at("starved_s"), 0.0);
+    EXPECT_GT(logic.at("outputs").size(), 3U);
+    const ScratchFolder folder;
+    const auto wrong = folder.path() / "wrong.plc";
+    write_content(wrong, "LD I0\nST I1\n");
+    const Ended refused = run({"cordic", "run", arc, "--plc", wrong.string()});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("wrong.plc:2:4: I1 is not for the logic to set"));
+    EXPECT_EQ(run({"cordic", "run", arc, "--inputs", "x"}).exit_code, 2);
+}
+
+TEST(Cordic, GivesTheAxesAllOfTheAccelerationWhereItIsAskedTo) {
+    const auto largest = [](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"cordic", "run", arc, "--format", "f64", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        double most = 0.0;
+        const auto answer = nlohmann::json::parse(run(words).out);
+        for (const auto& point : answer.at("points")) {
+            most = std::max(most, std::hypot(point.at("ax").get<double>(), point.at("ay").get<double>()));
+        }
+        return most;
+    };
+    EXPECT_NEAR(largest({}), 250.0, 1e-4);
+    EXPECT_NEAR(largest({"--whole-acceleration"}), 500.0, 1e-4);
 }
 
 } // namespace

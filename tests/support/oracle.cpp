@@ -52,8 +52,12 @@ void OracleTest::SetUp() {
 }
 
 ProgramRun OracleTest::run(const std::vector<std::string>& arguments) const {
-    std::string command =
-        "HOME=" + quoted_for_shell(home_.path().string()) + " " + quoted_for_shell(found_.string());
+    return run_other(found_.string(), arguments);
+}
+
+ProgramRun OracleTest::run_other(const std::string& program,
+                                 const std::vector<std::string>& arguments) const {
+    std::string command = "HOME=" + quoted_for_shell(home_.path().string()) + " " + quoted_for_shell(program);
     for (const auto& argument : arguments) {
         command += " " + quoted_for_shell(argument);
     }

@@ -27,6 +27,9 @@ protected:
     /// there, and several run at a time. Throws std::runtime_error if it cannot be started or
     /// dies of a signal.
     [[nodiscard]] ProgramRun run(const std::vector<std::string>& arguments) const;
+    /// The same with another program of the package.
+    [[nodiscard]] ProgramRun run_other(const std::string& program,
+                                       const std::vector<std::string>& arguments) const;
 
 private:
     std::string program_;

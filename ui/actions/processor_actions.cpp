@@ -1,4 +1,5 @@
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/processor_bench.h"
 #include "ui/actions/workshop.h"
 
 namespace millwright::actions {

@@ -66,6 +66,8 @@ cordic::ProcessorSettings ProcessorBench::settings() const {
     if (choice_.iterations > 0) {
         settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice_.iterations);
     }
+    settings.sense = choice_.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
+    settings.zero = choice_.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
     return settings;
 }
 
@@ -176,6 +178,32 @@ void ProcessorBench::run() {
 void ProcessorBench::run_to(cordic::CodeAddress address) {
     running_ = false;
     halt_ = debugger_.run_to(address, clocks_of_a_run);
+}
+
+void ProcessorBench::run_to_line(int line) {
+    running_ = false;
+    halt_ = debugger_.run_to_line(line, clocks_of_a_run);
+}
+
+void ProcessorBench::run_to_micro(std::uint8_t address) {
+    running_ = false;
+    halt_ = debugger_.run_to_micro(address, clocks_of_a_run);
+}
+
+const CodeRow* ProcessorBench::first_of_line(int line) const {
+    const auto found = std::ranges::find(code_, line, &CodeRow::line);
+    return found == code_.end() ? nullptr : &*found;
+}
+
+void ProcessorBench::toggle_line_breakpoint(int line) {
+    if (const CodeRow* const row = first_of_line(line)) {
+        debugger_.toggle_breakpoint(row->address);
+    }
+}
+
+bool ProcessorBench::has_line_breakpoint(int line) const {
+    const CodeRow* const row = first_of_line(line);
+    return row != nullptr && debugger_.breakpoints().contains(row->address);
 }
 
 void ProcessorBench::reset() {

@@ -23,6 +23,8 @@ struct ProcessorChoice {
     cordic::NumberFormat format = cordic::binary32;
     int iterations = 0;             ///< of the classic sequence; 0: the thesis's 29
     double chord_tolerance = 0.01;  ///< mm
+    bool thesis_direction = false;  ///< G02 counter-clockwise, as the thesis's model turns
+    bool matlab_zero = false;       ///< no turn where nothing is left to turn, as the thesis's MATLAB model
     double clocks_a_second = 200.0; ///< while it runs, to be watched; 0: as fast as it goes
 
     friend bool operator==(const ProcessorChoice&, const ProcessorChoice&) = default;
@@ -69,10 +71,16 @@ public:
     void run();
     void pause() { running_ = false; }
     [[nodiscard]] bool running() const { return running_; }
-    /// Runs on until the instruction at `address` is fetched.
+    /// Runs on until the instruction at `address` is fetched, one of a line of the program, or a
+    /// micro-instruction is executed next; so far as a second of its clocks goes.
     void run_to(cordic::CodeAddress address);
+    void run_to_line(int line);
+    void run_to_micro(std::uint8_t address);
     void reset();
     void toggle_breakpoint(cordic::CodeAddress address) { debugger_.toggle_breakpoint(address); }
+    /// At the first instruction of a line, if it has one.
+    void toggle_line_breakpoint(int line);
+    [[nodiscard]] bool has_line_breakpoint(int line) const;
     void toggle_micro_breakpoint(std::uint8_t address) { debugger_.toggle_micro_breakpoint(address); }
     /// Why the last step or run ended.
     [[nodiscard]] cordic::Halt halt() const { return halt_; }
@@ -83,6 +91,7 @@ public:
 private:
     void compile();
     void execute_all(const cordic::Processor& processor);
+    [[nodiscard]] const CodeRow* first_of_line(int line) const;
     [[nodiscard]] cordic::ProcessorSettings settings() const;
 
     ProcessorChoice choice_;

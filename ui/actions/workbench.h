@@ -11,7 +11,6 @@
 #include "ui/actions/file_place.h"
 #include "ui/actions/job_recovery.h"
 #include "ui/actions/job_runner.h"
-#include "ui/actions/processor_bench.h"
 #include "ui/actions/session.h"
 #include "ui/render/gamepad.h"
 
@@ -20,6 +19,8 @@
 #include <vector>
 
 namespace millwright::actions {
+
+class ProcessorBench;
 
 struct Workbench {
     const project::Project& project;

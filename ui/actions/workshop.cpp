@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "ui/actions/job_source.h"
+#include "ui/actions/processor_bench.h"
 
 #include <algorithm>
 #include <utility>
@@ -39,6 +40,7 @@ Workshop::Workshop(WorkshopOptions options)
     controller_ = std::make_unique<Controller>(wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
+    processor_ = std::make_unique<ProcessorBench>();
     approach_ = std::make_unique<ApproachFinder>(wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     request_plan();
@@ -66,7 +68,7 @@ Workbench Workshop::look() const {
             left_behind_,
             job_recovery_->broken(),
             gamepad_,
-            processor_,
+            *processor_,
             queue_.jobs(),
             queue_.problem()};
 }
@@ -163,20 +165,20 @@ bool Workshop::advance(double seconds) {
 
 /// It has something to show once it is looked at.
 bool Workshop::follow_processor(double seconds) {
-    if (session_.workspace == Workspace::processor && processor_.name().empty()) {
-        guarded([this] { load_processor(processor_.choice().source); });
-        if (processor_.name().empty()) { // said once
-            processor_.load(processor_.choice().source, "M2\n", "nothing");
+    if (session_.workspace == Workspace::processor && processor_->name().empty()) {
+        guarded([this] { load_processor(processor_->choice().source); });
+        if (processor_->name().empty()) { // said once
+            processor_->load(processor_->choice().source, "M2\n", "nothing");
         }
     }
-    return processor_.advance(seconds);
+    return processor_->advance(seconds);
 }
 
 void Workshop::load_processor(ProcessorSource source) {
     const Workbench now = look();
     const auto sample = [&](const char* file) {
         const std::filesystem::path path = options_.assets / "samples" / file;
-        processor_.load(source, read_file(path), path.filename());
+        processor_->load(source, read_file(path), path.filename());
     };
     switch (source) {
     case ProcessorSource::thesis_arc:
@@ -185,12 +187,12 @@ void Workshop::load_processor(ProcessorSource source) {
         return sample("thesis-path.ngc");
     case ProcessorSource::opened_file:
         if (now.opened) {
-            processor_.load(source, read_file(now.opened->file), now.opened->file.filename());
+            processor_->load(source, read_file(now.opened->file), now.opened->file.filename());
         }
         return;
     case ProcessorSource::project:
         if (const auto listing = now.listing()) {
-            processor_.load(source, listing->text, "project");
+            processor_->load(source, listing->text, "project");
         }
         return;
     }

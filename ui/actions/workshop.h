@@ -7,6 +7,7 @@
 #include "ui/actions/stored_queue.h"
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -15,6 +16,8 @@
 #include <vector>
 
 namespace millwright::actions {
+
+enum class ProcessorSource : std::uint8_t; // processor_bench.h
 
 struct WorkshopOptions {
     std::filesystem::path assets;     ///< what ships with the program
@@ -103,7 +106,7 @@ public:
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
 
-    [[nodiscard]] ProcessorBench& processor() { return processor_; }
+    [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);
 
@@ -154,7 +157,7 @@ private:
     StoredQueue queue_;                      ///< before the jobs that it hears of
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
-    ProcessorBench processor_;
+    std::unique_ptr<ProcessorBench> processor_; ///< never null
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;

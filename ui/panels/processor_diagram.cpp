@@ -1,5 +1,6 @@
 #include "ui/panels/processor_diagram.h"
 
+#include "ui/actions/processor_bench.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/sketch.h"
 
@@ -85,8 +86,7 @@ struct Way {
 constexpr ControlSignals folds = signals({Control::fold_radius, Control::fold_move, Control::fold_space});
 constexpr ControlSignals passes = signals({Control::rotate, Control::vector, Control::correct});
 
-constexpr std::array<Way, 11> ways{{
-    {rom, bus, signals({Control::load_opcode, Control::shift_byte})},
+constexpr std::array<Way, 10> ways{{
     {bus, ir, signals({Control::load_opcode})},
     {registers, fold, folds},
     {fold, first, folds | signals({Control::load_speed, Control::fold_rise})},
@@ -117,7 +117,7 @@ ControlSignals lit_by(BlockIndex block) {
     case second:
         return signals({Control::rotate_both, Control::correct_both, Control::load_speed});
     case port:
-        return signals({Control::publish, Control::command, Control::write_byte});
+        return signals({Control::publish, Control::command});
     default:
         return 0;
     }
@@ -134,6 +134,8 @@ bool lights(BlockIndex block, const ProcessorState& state) {
         return on_bus && device == cordic::Device::rom;
     case ram:
         return on_bus && device == cordic::Device::ram;
+    case port:
+        return (on_bus && device == cordic::Device::port) || (state.pipeline.controls & lit_by(block)) != 0;
     case map:
         return state.pipeline.op == cordic::MicroOp::JMAP;
     case counter:
@@ -220,6 +222,13 @@ std::string flag(std::string_view name, bool on) {
     return fmt::format("{} {:d}  ", name, on);
 }
 
+std::vector<std::string> rom_lines(const ProcessorState& state) {
+    const std::string page = state.bus.page > 0 ? fmt::format("{:x}:", state.bus.page) : "";
+    return {fmt::format("PC {}{:04x}", page, register_of(state, Register::PC)),
+            fmt::format("byte {:02x}", state.bus.data),
+            fmt::format("at {:04x}", state.bus.address)};
+}
+
 std::vector<std::string> lines_of(BlockIndex block, const Processor& processor) {
     const ProcessorState& state = processor.state();
     const cordic::BusPins& pins = state.bus.pins;
@@ -230,9 +239,7 @@ std::vector<std::string> lines_of(BlockIndex block, const Processor& processor) 
         return {fmt::format("ALE{:d} PSEN{:d} RD{:d} WR{:d}", pins.ale, pins.psen, pins.rd, pins.wr),
                 fmt::format("A {:04x}  AD {:02x}", pins.address, pins.data)};
     case rom:
-        return {fmt::format("PC {:04x}", reg(Register::PC)),
-                fmt::format("byte {:02x}", state.bus.data),
-                fmt::format("at {:04x}", state.bus.address)};
+        return rom_lines(state);
     case ram:
         return {"8000", "to bfff"};
     case port:
@@ -300,6 +307,29 @@ void draw_way(Sketch& sketch, const Rect& from, const Rect& to, widgets::Colour 
     }
 }
 
+/// Address and data from the interface to whatever the decoder selects; what is selected is lit.
+void draw_bus(Sketch& sketch,
+              const Ui& ui,
+              const std::array<Rect, blocks.size()>& boxes,
+              const ProcessorState& state) {
+    const widgets::Palette& colours = ui.colours();
+    const Rect& from = boxes[bus];
+    const float y = from.bottom() + ui.px(9.0F);
+    const float begin = from.right() - ui.px(24.0F);
+    const bool used = lights(bus, state);
+    float lit_end = begin;
+    sketch.line({begin, y}, {boxes[port].centre().x, y}, colours.line, 2.0F);
+    for (const BlockIndex device : {rom, ram, port}) {
+        const Rect& to = boxes[device];
+        const bool lit = used && lights(device, state);
+        const float x = to.centre().x;
+        sketch.line({x, y}, {x, to.bottom()}, lit ? colours.accent : colours.line, 2.0F);
+        lit_end = lit ? x : lit_end;
+    }
+    sketch.line({begin, y}, {begin, from.bottom()}, used ? colours.accent : colours.line, 2.0F);
+    sketch.line({begin, y}, {lit_end, y}, used ? colours.accent : colours.line, 2.0F);
+}
+
 void draw_block(Ui& ui,
                 Sketch& sketch,
                 const Block& block,
@@ -352,6 +382,7 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     }
     const ControlSignals controls = processor.state().pipeline.controls;
     const widgets::Palette& colours = ui.colours();
+    draw_bus(sketch, ui, boxes, processor.state());
     for (const Way& way : ways) {
         const bool lit = (controls & way.by) != 0 || (way.by == 0 && lights(way.from, processor.state()) &&
                                                       processor.state().clocks.total > 0);

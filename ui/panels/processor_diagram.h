@@ -1,6 +1,7 @@
 // The processor as blocks with what is in them, and the ways that data take in this clock.
 #pragma once
 
+#include "core/cordic/processor.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {

@@ -1,10 +1,10 @@
 #include "ui/panels/processor_panel.h"
 
 #include "core/base/text.h"
+#include "ui/actions/processor_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/processor_diagram.h"
 #include "ui/widgets/icons.h"
-#include "ui/widgets/listing.h"
 #include "ui/widgets/sketch.h"
 #include "ui/widgets/slider.h"
 
@@ -33,9 +33,6 @@ constexpr std::array<widgets::Option, 3> kinds{
      {"fixed", "Fixed", {}, "Two's complement: 10 bits before the point, and as many behind as chosen"}}};
 constexpr std::array<NumberKind, 3> kind_of{NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
 
-constexpr std::array<widgets::Option, 3> tabs{
-    {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "G-code"}}};
-
 constexpr std::array<double, 4> speeds{20.0, 200.0, 5000.0, 0.0};
 constexpr std::array<widgets::Option, 4> speed_options{
     {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "All"}}};
@@ -58,6 +55,7 @@ std::string halt_text(const ProcessorBench& bench) {
     }
     return state.clocks.total == 0                    ? "Reset"
            : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
+           : bench.halt() == cordic::Halt::limit      ? "Not come to yet: once more goes on"
                                                       : "Stands between two clocks";
 }
 
@@ -77,88 +75,6 @@ std::string bits_text(const cordic::Processor& processor, Register name) {
 }
 
 } // namespace
-
-void ProcessorPanel::draw_code(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
-        tab_ = static_cast<CodeTab>(*chosen);
-    }
-    ui.note(tab_ == CodeTab::program ? "In step with the instructions."
-                                     : "A click sets or clears a breakpoint.");
-    switch (tab_) {
-    case CodeTab::instructions:
-        return draw_instructions(ui, now, ask);
-    case CodeTab::microprogram:
-        return draw_microprogram(ui, now, ask);
-    case CodeTab::program:
-        return draw_program(ui, now);
-    }
-}
-
-void ProcessorPanel::draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
-    const auto& code = bench.code();
-    widgets::ListingView view;
-    view.lines = std::ssize(code);
-    view.line = [&](std::ptrdiff_t row) {
-        const actions::CodeRow& at = code[static_cast<std::size_t>(row)];
-        return fmt::format("{:04x} {:>4}  {}", at.address, at.line, at.text);
-    };
-    view.current = bench.code_row();
-    view.mark = [&](std::ptrdiff_t row) {
-        const cordic::CodeAddress address = code[static_cast<std::size_t>(row)].address;
-        return bench.debugger().breakpoints().contains(address) ? ui.colours().danger : widgets::Colour{0};
-    };
-    view.numbers = false;
-    view.coloured = false;
-    if (const auto row = widgets::listing(ui, "instructions", view)) {
-        ask.processor([address = code[static_cast<std::size_t>(*row)].address](ProcessorBench& processor) {
-            processor.toggle_breakpoint(address);
-        });
-    }
-}
-
-void ProcessorPanel::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
-    widgets::ListingView view;
-    view.lines = std::ssize(bench.microprogram());
-    view.line = [&](std::ptrdiff_t row) {
-        const int address = bench.micro_address(row);
-        const std::string& text = bench.microprogram()[static_cast<std::size_t>(row)];
-        return address < 0 ? text : fmt::format("{:02x} {}", address, text);
-    };
-    view.current = bench.micro_row();
-    view.mark = [&](std::ptrdiff_t row) {
-        const int address = bench.micro_address(row);
-        const bool marked =
-            address >= 0 && bench.debugger().micro_breakpoints().contains(static_cast<std::uint8_t>(address));
-        return marked ? ui.colours().danger : widgets::Colour{0};
-    };
-    view.numbers = false;
-    view.coloured = false;
-    const auto row = widgets::listing(ui, "microprogram", view);
-    const int address = row ? bench.micro_address(*row) : -1;
-    if (address >= 0) {
-        ask.processor([address](ProcessorBench& processor) {
-            processor.toggle_micro_breakpoint(static_cast<std::uint8_t>(address));
-        });
-    }
-}
-
-void ProcessorPanel::draw_program(Ui& ui, const Workbench& now) const {
-    const ProcessorBench& bench = now.processor;
-    widgets::ListingView view;
-    view.lines = std::ssize(bench.text());
-    view.line = [&](std::ptrdiff_t row) { return bench.text()[static_cast<std::size_t>(row)]; };
-    view.current = bench.debugger().line() - 1;
-    const auto& failure = bench.failure();
-    view.fault = [&](std::ptrdiff_t row) -> std::optional<widgets::LineFault> {
-        if (failure && failure->place.line == row + 1) {
-            return widgets::LineFault{failure->place.column, failure->message};
-        }
-        return std::nullopt;
-    };
-    (void)widgets::listing(ui, "program", view);
-}
 
 void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const ProcessorBench& bench = now.processor;
@@ -259,6 +175,22 @@ void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (const auto value = widgets::slider(ui, classic ? choice.iterations : thesis_steps, steps, allowed)) {
         ProcessorChoice wanted = choice;
         wanted.iterations = *value;
+        choose(ask, wanted);
+    }
+    if (const auto on = ui.toggle("thesis_direction",
+                                  "Thesis direction",
+                                  choice.thesis_direction,
+                                  "G2 counter-clockwise, as the thesis's model; else as ISO 6983 says")) {
+        ProcessorChoice wanted = choice;
+        wanted.thesis_direction = *on;
+        choose(ask, wanted);
+    }
+    if (const auto on = ui.toggle("matlab_zero",
+                                  "MATLAB sign(0)",
+                                  choice.matlab_zero,
+                                  "No turn where the angle is 0: lengths along X are then short by 21.6 %")) {
+        ProcessorChoice wanted = choice;
+        wanted.matlab_zero = *on;
         choose(ask, wanted);
     }
     const widgets::FieldInfo tolerance{"tolerance",

@@ -1,7 +1,8 @@
-// The Processor workspace: program and microprogram with breakpoints, stepping, registers, number format.
+// The Processor workspace: stepping, registers, number format; its code and drawings are panels of their own.
 #pragma once
 
 #include "ui/panels/panel.h"
+#include "ui/panels/processor_code.h"
 #include "ui/panels/processor_plots.h"
 
 namespace millwright::panels {
@@ -14,25 +15,20 @@ public:
     /// The inspector.
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
     /// The pane at the left.
-    void draw_code(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_code(Ui& ui, const Workbench& now, ActionQueue& ask) { code_.draw(ui, now, ask); }
     /// Below the diagram.
     void draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     /// The lower pane.
     void draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) { plots_.draw(ui, now, ask); }
 
 private:
-    enum class CodeTab { instructions, microprogram, program };
-
-    void draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_program(Ui& ui, const Workbench& now) const;
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_errors(Ui& ui, const Workbench& now) const;
     void draw_registers(Ui& ui, const Workbench& now) const;
     void draw_clocks(Ui& ui, const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;
-    CodeTab tab_ = CodeTab::instructions;
+    ProcessorCode code_;
     ProcessorPlots plots_;
 };
 

@@ -1,6 +1,7 @@
 #include "ui/panels/processor_plots.h"
 
 #include "core/base/units.h"
+#include "ui/actions/processor_bench.h"
 #include "ui/render/color_map.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/legend.h"
@@ -174,6 +175,21 @@ std::vector<glm::dvec3> places_of(std::span<const cordic::PathDifference> path) 
     return places;
 }
 
+/// What each step turns by, behind which that much may be left.
+struct Angles {
+    std::vector<double> steps, degrees;
+};
+
+Angles angles_of(const cordic::Sequence& sequence) {
+    Angles angles;
+    for (int i = 0; i < sequence.step_count; ++i) {
+        angles.steps.push_back(i + 1.0);
+        angles.degrees.push_back(
+            to_degrees(std::atan(std::ldexp(1.0, -sequence.shifts[static_cast<std::size_t>(i)]))));
+    }
+    return angles;
+}
+
 } // namespace
 
 void ProcessorPlots::draw(Ui& ui, const Workbench& now, ActionQueue&) {
@@ -244,14 +260,17 @@ void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place
             errors.push_back(to_degrees(point.angle_error));
         }
     }
+    const Angles angles = angles_of(now.processor.debugger().processor().settings().sequence);
     widgets::PlotView view;
     view.x_label = "step";
     view.y_label = "angle";
     view.y_unit = "\u00b0";
     view.y_is_log = true;
-    const std::array<widgets::Series, 1> series{{{"left", steps, errors, 0, false}}};
+    const std::array<widgets::Series, 2> series{
+        {{"left", steps, errors, 0, false},
+         {"angle of the step", angles.steps, angles.degrees, ui.colours().muted, false}}};
     view.series =
-        steps.size() > 1 ? std::span<const widgets::Series>(series) : std::span<const widgets::Series>();
+        steps.empty() ? std::span<const widgets::Series>() : std::span<const widgets::Series>(series);
     view.height = inside.h;
     view.when_empty = "Step on to see it converge.";
     const Rect next = ui.rest();

@@ -1,5 +1,6 @@
 #include "ui/panels/window.h"
 
+#include "ui/actions/processor_bench.h"
 #include "ui/actions/shortcut.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/processor_diagram.h"

@@ -1,5 +1,6 @@
 // The Processor workspace with real mouse and keys in real OpenGL: stepping the thesis's arc.
 #include "tests/ui/panels/person.h"
+#include "ui/actions/processor_bench.h"
 #include "ui/panels/window.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ TEST(ProcessorWorkspace, StepsByClockMicroInstructionInstructionAndBlock) {
     EXPECT_EQ(bench.state().clocks.total, 0);
 }
 
-// The session that the manual shows: to the middle of a rotation, clock by clock.
+// To the middle of a rotation, clock by clock.
 TEST(ProcessorWorkspace, ShowsTheVectorConvergingStepByStep) {
     Bench bench({1600, 1000});
     Person& person = bench.person;
@@ -91,7 +92,7 @@ TEST(ProcessorWorkspace, ShowsTheVectorConvergingStepByStep) {
         person.click("timeline/processor_clock");
     }
     person.hover({5.0F, 990.0F});
-    person.keep("processor");
+    person.keep("processor-vector");
 }
 
 TEST(ProcessorWorkspace, StopsAtABreakpointThatIsClickedInTheListing) {
@@ -129,6 +130,42 @@ TEST(ProcessorWorkspace, RunsToABreakpointOfAnInstruction) {
     person.click("timeline/processor_run");
     EXPECT_TRUE(person.live_until([&] { return !bench.processor().running(); }));
     EXPECT_EQ(bench.processor().debugger().instruction(), address);
+}
+
+TEST(ProcessorWorkspace, RunsToALineThatIsClicked) {
+    Bench bench;
+    Person& person = bench.person;
+    person.click("code/click/run_to");
+    const widgets::Rect lines = person.place("code/instructions");
+    person.click_at({lines.x + 0.5F * lines.w, lines.y + 60.0F});
+    const auto there = bench.processor().code()[3].address;
+    EXPECT_EQ(bench.processor().debugger().instruction(), there);
+    EXPECT_TRUE(bench.processor().debugger().breakpoints().empty());
+    person.click("code/tabs/program");
+    person.frames();
+    const int line = bench.processor().debugger().line();
+    const widgets::Rect program = person.place("code/program");
+    person.click_at({program.x + 0.5F * program.w, program.y + 89.0F}); // the fifth line, the arc
+    EXPECT_NE(bench.processor().debugger().line(), line);
+    EXPECT_EQ(bench.processor().debugger().line(), 5);
+}
+
+TEST(ProcessorWorkspace, HasTheDirectionAndTheSignOfZeroOfTheThesisAsSwitches) {
+    Bench bench;
+    Person& person = bench.person;
+    const double ours = bench.processor().report().position_error;
+    person.click("inspector/format/thesis_direction");
+    person.frames();
+    EXPECT_GT(bench.processor().report().position_error, 1.0); // mm: the arc goes the other way
+    person.click("inspector/format/thesis_direction");
+    person.frames();
+    EXPECT_EQ(bench.processor().report().position_error, ours);
+    person.workshop().run("processor.thesis_path"); // whose first line goes along X
+    person.frames();
+    EXPECT_LT(bench.processor().report().speed_error, 0.01);
+    person.click("inspector/format/matlab_zero");
+    person.frames();
+    EXPECT_NEAR(bench.processor().report().speed_error, 0.216, 1e-3);
 }
 
 TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {

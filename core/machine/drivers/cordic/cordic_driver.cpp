@@ -67,6 +67,20 @@ cordic::RunReport CordicDriver::report() const {
     return report_;
 }
 
+std::string CordicDriver::remark() const {
+    const cordic::RunReport done = report();
+    if (done.late == 0) {
+        return {};
+    }
+    return fmt::format(
+        "{} of {} set-points took longer to compute at {:.6g} MHz than the motion before them; "
+        "none would up to {:.6g} mm/min",
+        done.late,
+        done.published,
+        1e-6 * options_.clock_hz,
+        to_mm_per_min(done.fastest));
+}
+
 gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {
     gcode::CordicProgramSettings settings = options_.program;
     settings.start = start;
@@ -123,6 +137,24 @@ DriverStatus CordicDriver::status() const {
     return blocks_.translated(machine_.status());
 }
 
+void CordicDriver::refuse_unfinished(const cordic::Processor& processor,
+                                     const gcode::CordicProgram& made) const {
+    const cordic::ProcessorState& state = processor.state();
+    if (state.stop == cordic::Stop::none) {
+        throw Error(fmt::format("the processor is not at the end of the program after {} clocks",
+                                options_.most_clocks),
+                    program_name);
+    }
+    if (state.stop != cordic::Stop::halted) {
+        const cordic::CodeLine at = cordic::line_at(made.code_lines, state.instruction_at);
+        throw Error(Diagnostic{{program_name, at.line, at.column, -1},
+                               fmt::format("the processor stopped in the instruction at {:#06x}: {}",
+                                           state.instruction_at,
+                                           to_text(state.stop)),
+                               {}});
+    }
+}
+
 void CordicDriver::start(Work work) {
     expects(work.listing != nullptr, "a program has a listing");
     const DriverStatus before = machine_.status();
@@ -133,15 +165,7 @@ void CordicDriver::start(Work work) {
     const gcode::CordicProgram made = compiled(*work.listing, start);
     cordic::Processor processor(options_.processor, made.image);
     processor.run(options_.most_clocks);
-    if (processor.state().stop != cordic::Stop::halted) {
-        throw Error(processor.state().stop == cordic::Stop::none
-                        ? fmt::format("the processor is not at the end of the program after {} clocks",
-                                      options_.most_clocks)
-                        : fmt::format("the processor stopped in the instruction at {:#06x}: {}",
-                                      processor.state().instruction_at,
-                                      to_text(processor.state().stop)),
-                    program_name);
-    }
+    refuse_unfinished(processor, made);
     using gcode::Axis;
     const std::array<double, 3> from{start[Axis::x], start[Axis::y], start[Axis::z]};
     const cordic::RunReport report = cordic::report_of(processor, made.points, options_.clock_hz, from);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace millwright::machine {
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] Capabilities capabilities() const override;
     /// What the processor did for the last program.
     [[nodiscard]] cordic::RunReport report() const;
+    /// Of set-points of the last program that came late, in a sentence; empty where none did.
+    [[nodiscard]] std::string remark() const;
 
     void connect() override { machine_.connect(); }
     /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, and if it
@@ -70,6 +73,8 @@ private:
 
     [[nodiscard]] gcode::CordicProgram compiled(const gcode::Listing& listing,
                                                 const gcode::AxisValues& start) const;
+    /// Throws Error with the place unless the processor has halted.
+    void refuse_unfinished(const cordic::Processor& processor, const gcode::CordicProgram& made) const;
     [[nodiscard]] static BlockMap map_of(const gcode::Program& records, const gcode::Listing& listing);
 
     std::shared_ptr<const kinematics::MachineModel> model_;

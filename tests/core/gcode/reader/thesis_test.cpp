@@ -1,20 +1,28 @@
 // What a model of the thesis's processor has to do, one test a promise, from the core of the arithmetic to
 // the programs that run on it. The folders' own tests go deeper.
+#include "core/cordic/assembler.h"
 #include "core/cordic/comparison.h"
 #include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
+#include "core/cordic/pipeline.h"
 #include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
+#include "core/cordic/supervised_run.h"
+#include "core/cordic/vcd.h"
 #include "core/gcode/reader/cordic_program.h"
 #include "core/gcode/reader/interpreter.h"
 #include "tests/core/cordic/golden.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::gcode {
@@ -231,6 +239,149 @@ TEST(Thesis, ReferenceModelRunsSideBySideOverItsOwnPath) {
     EXPECT_LT(report.position_error, 1e-5);
     EXPECT_LT(report.speed_error, 1e-5);
     EXPECT_GT(report.position_error, 0.0); // it is no copy of the model
+}
+
+TEST(Thesis, TheExamplesOfTable21CompileToExactlyThoseInstructions) {
+    const auto instructions = [](const std::string& text) {
+        std::string names;
+        const CordicProgram program = compiled(text, in_binary64());
+        for (std::span<const std::uint8_t> code(program.image.code); !code.empty();) {
+            const auto found = cordic::decode(code, program.image.format);
+            EXPECT_TRUE(found.has_value());
+            names += found->instruction.opcode == cordic::Opcode::mov
+                         ? std::string(cordic::to_text(found->instruction.target)) + " "
+                         : std::string(cordic::to_text(found->instruction.opcode)) + " ";
+            code = code.subspan(static_cast<std::size_t>(found->size));
+        }
+        return names;
+    };
+    EXPECT_EQ(instructions("G0 X5 Y5\nG0 X0 Y0\nM2\n"), "Vmax Amax XI YJ G00 XI YJ G00 M02 ");
+    CordicProgramSettings rotated = in_binary64();
+    rotated.arc_end = ArcEnd::rotated;
+    const CordicProgram arc = compiled("G21 F60 G90.1 G0 X0 Y100\nG2 X100 Y100 I50 J50\nM2\n", rotated);
+    const std::string text = cordic::disassemble(arc.image);
+    for (const char* wanted : {"MOV XI, 50", "MOV YJ, 50", "MOV Dz, ", "MOV N, ", "G02"}) {
+        EXPECT_NE(text.find(wanted), std::string::npos) << wanted;
+    }
+}
+
+TEST(Thesis, ControlUnitBeginsAtZeroAndStopsWhereItsStackOfFourOverflowsOrIsEmpty) {
+    const auto stop_of = [](const std::string& text) {
+        auto made = cordic::assemble_microprogram(text, "unit.micro");
+        EXPECT_TRUE(made.errors.empty());
+        const cordic::Image nothing{cordic::binary32, {0x01}};
+        cordic::Processor processor({}, nothing, std::move(made.program));
+        EXPECT_EQ(processor.state().sequencer.address, 0);
+        processor.run(100);
+        return processor.state().stop;
+    };
+    EXPECT_EQ(stop_of("CJS always B\nJZ | halt\nB: CJS always C\nCRTN always\nC: CJS always D\nCRTN always\n"
+                      "D: CJS always E\nCRTN always\nE: CRTN always\n"),
+              cordic::Stop::halted);
+    EXPECT_EQ(stop_of("A: CJS always A\n"), cordic::Stop::stack_overflow);
+    EXPECT_EQ(stop_of("CRTN always\n"), cordic::Stop::stack_underflow);
+}
+
+TEST(Thesis, BusReadsWithAleThenPsenAndWritesWithAleThenWrAsAWaveform) {
+    cordic::ProcessorSettings settings;
+    settings.publishing = cordic::Publishing::bus;
+    const CordicProgram program = compiled("G0 X1\nM2\n", in_binary64());
+    cordic::Processor processor(settings, program.image);
+    cordic::VcdWriter waves(processor.format(), 8e6);
+    bool addressed = false;
+    int reads = 0;
+    int writes = 0;
+    while (processor.state().stop == cordic::Stop::none) {
+        processor.clock();
+        waves.add(processor.state());
+        const cordic::BusPins& pins = processor.state().bus.pins;
+        EXPECT_LE(pins.ale + pins.psen + pins.rd + pins.wr, 1);
+        EXPECT_TRUE(addressed || !(pins.psen || pins.rd || pins.wr)); // never without an address before
+        addressed = pins.ale || (addressed && !(pins.psen || pins.rd || pins.wr));
+        reads += pins.psen ? 1 : 0;
+        writes += pins.wr ? 1 : 0;
+    }
+    EXPECT_EQ(reads, static_cast<int>(program.image.code.size()));
+    EXPECT_EQ(writes, 6 * 8 + 5); // the record, and M02
+    EXPECT_NE(waves.take().find("$var wire 1 \" ALE"), std::string::npos);
+}
+
+TEST(Thesis, FixedAndFloatVariantsHaveTheErrorsOfTheReport) {
+    struct Level {
+        cordic::NumberFormat format;
+        double rotation; ///< largest error of a unit vector at half degrees
+    };
+    for (const Level& level : {Level{cordic::binary64, 5.97e-8},
+                               Level{cordic::fixed_format(4, 16), 1.68e-4},
+                               Level{cordic::fixed_format(4, 20), 8.58e-6},
+                               Level{cordic::fixed_format(4, 24), 4.45e-7},
+                               Level{cordic::fixed_format(4, 28), 7.95e-8},
+                               Level{cordic::fixed_format(4, 32), 6.02e-8},
+                               Level{cordic::fixed_format(4, 40), 5.94e-8}}) {
+        const double worst = cordic::with_arithmetic(level.format, [&](const auto& arithmetic) {
+            const Kernel kernel(arithmetic, thesis_sequence());
+            double found = 0.0;
+            bool overflow = false;
+            for (int n = -180; n <= 180; ++n) {
+                const double z = n * pi / 360.0;
+                const auto v = kernel.rotated({arithmetic.from_double(1.0, overflow),
+                                               arithmetic.from_double(0.0, overflow),
+                                               arithmetic.from_double(z, overflow)},
+                                              overflow);
+                found = std::max({found,
+                                  std::abs(arithmetic.to_double(v.x) - std::cos(z)),
+                                  std::abs(arithmetic.to_double(v.y) - std::sin(z))});
+            }
+            return found;
+        });
+        EXPECT_NEAR(worst / level.rotation, 1.0, 0.01) << cordic::to_text(level.format);
+    }
+}
+
+TEST(Thesis, LogicIsScannedBesideTheMotionWithTimersAndInterlocks) {
+    const CordicProgram program = compiled("G21 F600\nM3 S100\nG1 X10\nM110\nG1 X0\nM30\n", in_binary64());
+    cordic::Processor processor({}, program.image);
+    cordic::Plc plc(cordic::assemble_plc("LD I0\nST HOLD\nLD U110\nTON T0, 200\nST FIN\n", "logic"));
+    cordic::SupervisedSettings settings;
+    settings.inputs = {{0.2, 0, true}, {0.7, 0, false}};
+    const auto done = cordic::run_supervised(processor, plc, settings);
+    EXPECT_EQ(done.end, cordic::SupervisedEnd::finished);
+    EXPECT_NEAR(done.held_seconds, 0.5, 3e-3);   // the interlock
+    EXPECT_NEAR(done.waited_seconds, 0.2, 3e-3); // the timer behind the machine's own M110
+    EXPECT_NEAR(done.seconds, 2.0 + 0.5 + 0.2, 1e-2);
+}
+
+TEST(Thesis, PipelineGivesAResultAClockAfterItsFillWithTheBitsOfTheIteration) {
+    const auto iterative = kernel<double>();
+    cordic::Pipeline pipeline(iterative, cordic::Mode::rotation);
+    int ready = 0;
+    for (int n = 0; n < 137; ++n) {
+        const auto vector = [](int k) { return cordic::Vector3<double>{1.0, 0.1, 0.01 * k}; };
+        if (const auto out = pipeline.clock(vector(n))) {
+            bool overflow = false;
+            EXPECT_EQ(out->vector, iterative.rotated(vector(ready), overflow));
+            ++ready;
+        }
+    }
+    EXPECT_EQ(pipeline.latency(), 29 + 8);
+    EXPECT_EQ(ready, 100);
+}
+
+TEST(Thesis, ZeroLengthTinyAndHugeMovesEndInADefinedState) {
+    CordicProgramSettings narrow;
+    narrow.format = cordic::fixed_format(10, 6);
+    narrow.acceleration = 100.0;
+    const CordicProgram still = compiled("G21 F60\nG1 X1\nG1 X1\nG1 X1.001\nM2\n", narrow);
+    EXPECT_EQ(still.warnings.size(), 2U);
+    EXPECT_EQ(executed(still).published().size(), 1U);
+    const CordicProgram huge = compiled("G21 F60\nG1 X600\nM2\n", narrow);
+    ASSERT_EQ(huge.faults.size(), 1U);
+    EXPECT_EQ(huge.faults[0].place.column, 4);
+    const CordicProgram far = compiled("G21 F60\nG1 X-500\nG1 X500\nM2\n", narrow);
+    cordic::Processor processor({}, far.image);
+    processor.run(10'000);
+    EXPECT_EQ(processor.state().stop, cordic::Stop::overflow); // of the way, not of an end
+    EXPECT_EQ(processor.published().size(), 1U);
 }
 
 } // namespace

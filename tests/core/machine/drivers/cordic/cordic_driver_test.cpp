@@ -84,6 +84,20 @@ TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
     EXPECT_EQ(read_job_log(outcome.log_file).start.driver, "cordic");
 }
 
+TEST(CordicDriver, TellsOfSetPointsThatCameLate) {
+    Bench bench;
+    (void)bench.dispatcher.run(text_job(part, "part.ngc"), {});
+    EXPECT_EQ(bench.driver.report().late, 0);
+    EXPECT_EQ(bench.driver.remark(), "");
+    CordicDriverOptions slow;
+    slow.clock_hz = 1e4;
+    CordicDriver driver(AxisPositions::Zero(3), {}, bench.clock, bench.model, slow);
+    Dispatcher dispatcher(driver, bench.clock, bench.folder.path() / "slow");
+    EXPECT_EQ(dispatcher.run(text_job(part, "part.ngc"), {}).end, JobEnd::done);
+    EXPECT_GT(driver.report().late, 10);
+    EXPECT_THAT(driver.remark(), HasSubstr("set-points took longer to compute at 0.01 MHz than the motion"));
+}
+
 TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove) {
     Bench bench;
     EXPECT_THAT(bench.refusal_of("G21 G0 X1\nG38.2 X5 F100\nM2\n"),

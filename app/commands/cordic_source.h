@@ -1,0 +1,55 @@
+// What the cordic commands have in common that take a program: where it comes from, and the processor for it.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/cordic/processor.h"
+#include "core/gcode/reader/cordic_program.h"
+
+#include <CLI/App.hpp>
+
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+struct CordicSource {
+    std::string file; ///< G-code, assembler text (.asm) or image (.bin)
+    std::string format = "f32";
+    double tolerance = 0.001;
+    double rapid_mm_per_min = 3000.0;
+    double acceleration = 500.0;
+    bool thesis_arcs = false;
+    bool other_axes = false;
+};
+
+struct CordicChoice {
+    std::string microprogram; ///< text file; empty: ours
+    int iterations = 0;       ///< 0: the thesis's 29 steps
+    int wait_states = 0;
+    bool thesis_direction = false;
+    bool matlab_zero = false;
+    bool whole_acceleration = false;
+    bool over_bus = false;
+};
+
+void add_cordic_source(CLI::App& command, CordicSource& source);
+void add_cordic_choice(CLI::App& command, CordicChoice& choice);
+void add_cordic_clock(CLI::App& command, double& clock_hz);
+
+/// Prints all of them; the first ends the request.
+void refuse(const std::vector<Diagnostic>& errors);
+
+/// Throws Error, after printing what else is wrong, if it is no program of the processor. Warnings are
+/// printed.
+[[nodiscard]] gcode::CordicProgram cordic_program(const CordicSource& source);
+
+[[nodiscard]] cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image);
+
+/// Why the processor is not at the end of `program`, with the place in it or in the microprogram. `clocks`:
+/// how many it had.
+[[nodiscard]] Error not_at_its_end(const cordic::Processor& processor,
+                                   const gcode::CordicProgram& program,
+                                   const CordicSource& source,
+                                   const CordicChoice& choice);
+
+} // namespace millwright::app

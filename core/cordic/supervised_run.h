@@ -1,0 +1,76 @@
+// The processor at work in a machine with logic beside it: a motion controller moves the axes along the
+// records at their programmed speeds, the logic is scanned at a fixed period and may hold, start and stop the
+// motion. The processor is clocked only while the controller has room for another record, so that all three
+// keep step. Times s.
+#pragma once
+
+#include "core/cordic/plc.h"
+#include "core/cordic/processor.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace millwright::cordic {
+
+/// What happens to an input from outside.
+struct InputChange {
+    double seconds = 0.0;
+    PlcBit bit = 0;
+    bool value = false;
+};
+
+struct ReadInputs {
+    std::vector<InputChange> changes; ///< by ascending time
+    std::vector<Diagnostic> errors;   ///< with line and column
+};
+
+/// Lines of "SECONDS BIT 0|1"; a semicolon begins a comment.
+[[nodiscard]] ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name);
+
+struct SupervisedSettings {
+    double clock_hz = 8e6;
+    double scan_seconds = 1e-3; ///< period of the logic
+    int records_ahead = 4;      ///< that the motion controller takes before it has executed them
+    double most_seconds = 3600.0;
+    std::array<double, 3> start{}; ///< where the axes are, mm
+    std::vector<InputChange> inputs;
+};
+
+/// How a run ended.
+enum class SupervisedEnd : std::uint8_t {
+    finished,    ///< all records are executed, the processor has halted
+    stopped,     ///< by the logic's STOP
+    fault,       ///< the processor stands for another reason; what it had handed over is executed
+    out_of_time, ///< SupervisedSettings::most_seconds
+};
+
+[[nodiscard]] std::string_view to_text(SupervisedEnd end);
+
+/// Of an output or of HOLD, START, FIN, STOP.
+struct OutputChange {
+    double seconds = 0.0;
+    PlcBit bit = 0;
+    bool value = false;
+};
+
+struct SupervisedRun {
+    SupervisedEnd end = SupervisedEnd::finished;
+    double seconds = 0.0;
+    double moved_seconds = 0.0;   ///< along records, and in dwells
+    double held_seconds = 0.0;    ///< by HOLD
+    double waited_seconds = 0.0;  ///< for START or FIN
+    double starved_seconds = 0.0; ///< for the processor, behind its first record
+    std::int64_t scans = 0;
+    std::int64_t executed = 0; ///< set-points that the axes reached
+    std::array<double, 3> position{};
+    std::vector<OutputChange> outputs;
+};
+
+/// Runs `processor` from where it is. Throws Error for settings that are not positive and finite.
+[[nodiscard]] SupervisedRun
+run_supervised(Processor& processor, Plc& plc, const SupervisedSettings& settings);
+
+} // namespace millwright::cordic

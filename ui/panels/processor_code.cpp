@@ -1,0 +1,148 @@
+#include "ui/panels/processor_code.h"
+
+#include "ui/actions/processor_bench.h"
+#include "ui/widgets/listing.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ProcessorBench;
+
+constexpr std::array<widgets::Option, 3> tabs{
+    {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "G-code"}}};
+
+/// What a click on a line asks for, of which there are two kinds.
+template <class RunTo, class Toggle>
+void act(ActionQueue& ask, bool runs, const RunTo& run_to, const Toggle& toggle) {
+    if (runs) {
+        ask.processor(run_to);
+    } else {
+        ask.processor(toggle);
+    }
+}
+
+} // namespace
+
+void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
+        tab_ = static_cast<Tab>(*chosen);
+    }
+    std::array<widgets::Option, 2> clicks{
+        {{"breakpoint", "Breakpoint", {}, "A click sets a breakpoint, another one clears it"},
+         {"run_to", "Run to", {}, "A click runs until that line is executed next"}}};
+    const ProcessorBench& bench = now.processor;
+    if (bench.failure()) {
+        clicks[1].permission = widgets::Permission::refused("The processor cannot execute this program.");
+    } else if (bench.debugger().state().stop != cordic::Stop::none) {
+        clicks[1].permission = widgets::Permission::refused("The processor stands. Reset it to begin again.");
+    }
+    if (!clicks[1].permission.allowed) {
+        click_ = Click::breakpoint;
+    }
+    {
+        const auto labels = ui.label_share(0.24F);
+        if (const auto chosen = ui.segmented("click", "A click", static_cast<int>(click_), clicks)) {
+            click_ = static_cast<Click>(*chosen);
+        }
+    }
+    switch (tab_) {
+    case Tab::instructions:
+        return draw_instructions(ui, now, ask);
+    case Tab::microprogram:
+        return draw_microprogram(ui, now, ask);
+    case Tab::program:
+        return draw_program(ui, now, ask);
+    }
+}
+
+void ProcessorCode::draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    const auto& code = bench.code();
+    widgets::ListingView view;
+    view.lines = std::ssize(code);
+    view.line = [&](std::ptrdiff_t row) {
+        const actions::CodeRow& at = code[static_cast<std::size_t>(row)];
+        return fmt::format("{:04x} {:>4}  {}", at.address, at.line, at.text);
+    };
+    view.current = bench.code_row();
+    view.mark = [&](std::ptrdiff_t row) {
+        const cordic::CodeAddress address = code[static_cast<std::size_t>(row)].address;
+        return bench.debugger().breakpoints().contains(address) ? ui.colours().danger : widgets::Colour{0};
+    };
+    view.numbers = false;
+    view.coloured = false;
+    if (const auto row = widgets::listing(ui, "instructions", view)) {
+        const cordic::CodeAddress address = code[static_cast<std::size_t>(*row)].address;
+        act(
+            ask,
+            click_ == Click::run_to,
+            [address](ProcessorBench& processor) { processor.run_to(address); },
+            [address](ProcessorBench& processor) { processor.toggle_breakpoint(address); });
+    }
+}
+
+void ProcessorCode::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    widgets::ListingView view;
+    view.lines = std::ssize(bench.microprogram());
+    view.line = [&](std::ptrdiff_t row) {
+        const int address = bench.micro_address(row);
+        const std::string& text = bench.microprogram()[static_cast<std::size_t>(row)];
+        return address < 0 ? text : fmt::format("{:02x} {}", address, text);
+    };
+    view.current = bench.micro_row();
+    view.mark = [&](std::ptrdiff_t row) {
+        const int address = bench.micro_address(row);
+        const bool marked =
+            address >= 0 && bench.debugger().micro_breakpoints().contains(static_cast<std::uint8_t>(address));
+        return marked ? ui.colours().danger : widgets::Colour{0};
+    };
+    view.numbers = false;
+    view.coloured = false;
+    const auto row = widgets::listing(ui, "microprogram", view);
+    const int address = row ? bench.micro_address(*row) : -1;
+    if (address >= 0) {
+        const auto at = static_cast<std::uint8_t>(address);
+        act(
+            ask,
+            click_ == Click::run_to,
+            [at](ProcessorBench& processor) { processor.run_to_micro(at); },
+            [at](ProcessorBench& processor) { processor.toggle_micro_breakpoint(at); });
+    }
+}
+
+void ProcessorCode::draw_program(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ProcessorBench& bench = now.processor;
+    widgets::ListingView view;
+    view.lines = std::ssize(bench.text());
+    view.line = [&](std::ptrdiff_t row) { return bench.text()[static_cast<std::size_t>(row)]; };
+    view.current = bench.debugger().line() - 1;
+    view.mark = [&](std::ptrdiff_t row) {
+        return bench.has_line_breakpoint(static_cast<int>(row) + 1) ? ui.colours().danger
+                                                                    : widgets::Colour{0};
+    };
+    const auto& failure = bench.failure();
+    view.fault = [&](std::ptrdiff_t row) -> std::optional<widgets::LineFault> {
+        if (failure && failure->place.line == row + 1) {
+            return widgets::LineFault{failure->place.column, failure->message};
+        }
+        return std::nullopt;
+    };
+    if (const auto row = widgets::listing(ui, "program", view)) {
+        const int line = static_cast<int>(*row) + 1;
+        act(
+            ask,
+            click_ == Click::run_to,
+            [line](ProcessorBench& processor) { processor.run_to_line(line); },
+            [line](ProcessorBench& processor) { processor.toggle_line_breakpoint(line); });
+    }
+}
+
+} // namespace millwright::panels
