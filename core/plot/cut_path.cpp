@@ -136,6 +136,23 @@ PathLengths lengths(const CutPath& path) {
     return lengths;
 }
 
+double deepest(const CutPath& path) {
+    double depth = 0.0;
+    for (const CutPoint& point : path) {
+        depth = std::max(depth, -point.at.z());
+    }
+    return depth;
+}
+
+void expect_within_plate(const CutPath& path, double thickness) {
+    constexpr double rounding = 1e-6;
+    const double depth = deepest(path);
+    if (!(depth <= thickness + rounding)) {
+        throw Error(
+            fmt::format("the path goes {:.3f} mm deep, and the plate is {:.3f} mm thick", depth, thickness));
+    }
+}
+
 std::vector<Level> levels_for(const Strokes& strokes, const Level& like) {
     std::vector<Level> levels;
     std::set<int> known;

@@ -67,6 +67,12 @@ struct PathLengths {
 /// In space, mm.
 [[nodiscard]] PathLengths lengths(const CutPath& path);
 
+/// How far below the top the path goes, mm; 0 if nowhere.
+[[nodiscard]] double deepest(const CutPath& path);
+
+/// Throws Error if the path goes deeper than a plate of this thickness.
+void expect_within_plate(const CutPath& path, double thickness);
+
 /// A level for each pen that draws, in the order in which they first do, each as `like` but for pen and
 /// order.
 [[nodiscard]] std::vector<Level> levels_for(const Strokes& strokes, const Level& like = {});

@@ -106,7 +106,11 @@ std::string path_file_text(const CutPath& path) {
     return text;
 }
 
-CutPath read_path(std::string_view text, const std::filesystem::path& file) {
+bool is_path_file(std::string_view text) {
+    return text.starts_with("# millwright path");
+}
+
+CutPath read_path(std::string_view text, const std::filesystem::path& file, std::vector<int>* lines) {
     CutPath path;
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -122,6 +126,9 @@ CutPath read_path(std::string_view text, const std::filesystem::path& file) {
         }
         if (number > 1 && !line.empty()) {
             path.push_back(Record(line, file, number).point());
+            if (lines != nullptr) {
+                lines->push_back(number);
+            }
         }
     }
     return path;

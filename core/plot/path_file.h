@@ -7,13 +7,19 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::plot {
 
 /// Written with the shortest numbers that read back as the same. Throws Defect if one is not finite.
 [[nodiscard]] std::string path_file_text(const CutPath& path);
 
-/// Throws Error with file and line at the first thing that is wrong.
-[[nodiscard]] CutPath read_path(std::string_view text, const std::filesystem::path& file);
+/// Whether the text begins as path files do.
+[[nodiscard]] bool is_path_file(std::string_view text);
+
+/// With the line of each record in `lines`, from 1, if they are wanted. Throws Error with file and line at
+/// the first thing that is wrong.
+[[nodiscard]] CutPath
+read_path(std::string_view text, const std::filesystem::path& file, std::vector<int>* lines = nullptr);
 
 } // namespace millwright::plot

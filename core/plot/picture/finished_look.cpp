@@ -115,12 +115,12 @@ HeightField finished(const CutPath& path, const ToolTip& tip, int longest_side, 
     field.columns = std::max(1, static_cast<int>(std::lround(size.x() / field.pitch)));
     field.rows = std::max(1, static_cast<int>(std::lround(size.y() / field.pitch)));
     field.z.assign(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows), 0.0F);
-    const Vec2 corner = lower + Vec2(field.pitch, field.pitch) / 2.0;
+    field.corner = lower + Vec2(field.pitch, field.pitch) / 2.0;
     constexpr int band_rows = 64;
     const int bands = (field.rows + band_rows - 1) / band_rows;
     parallel_for(bands, 1, [&](std::ptrdiff_t n) {
         const int first = static_cast<int>(n) * band_rows;
-        Band band(field, corner, tip, first, std::min(first + band_rows, field.rows) - 1);
+        Band band(field, field.corner, tip, first, std::min(first + band_rows, field.rows) - 1);
         constexpr std::size_t often = 10'000;
         for (std::size_t k = 1; k < path.size(); ++k) {
             if (k % often == 0) {

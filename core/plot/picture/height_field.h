@@ -1,6 +1,7 @@
 // Heights at the middles of square pixels. Lengths mm; z = 0 is the top of the work, up is positive.
 #pragma once
 
+#include "core/geometry/vectors.h"
 #include "core/plot/picture/picture.h"
 
 #include <cstddef>
@@ -15,7 +16,8 @@ struct HeightField {
     int columns = 0;
     int rows = 0;
     double pitch = 1.0;
-    std::vector<float> z; ///< rows from the top, each from the left
+    std::vector<float> z;       ///< rows from the top, each from the left
+    Vec2 corner = Vec2::Zero(); ///< where the lower left pixel lies in the drawing
 
     [[nodiscard]] std::span<const float> row(int i) const {
         const auto width = static_cast<std::size_t>(columns);

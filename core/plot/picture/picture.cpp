@@ -1,19 +1,43 @@
 #include "core/plot/picture/picture.h"
 
 #include "core/base/file_snapshot.h"
+#include "core/plot/picture/internal/exif.h"
 #include "core/plot/picture/internal/row_sink.h"
 
 namespace millwright::plot {
+
+namespace {
+
+/// Cameras lay their pictures down as they were held, and say so.
+ReadPicture read_jpeg(std::string_view bytes,
+                      const std::filesystem::path& file,
+                      PictureSettings settings,
+                      const Progress& progress) {
+    const internal::JpegTurn turn = internal::jpeg_turn(bytes);
+    if (settings.region && turn.orientation != 1) {
+        settings.region = internal::region_in_file(*settings.region, turn);
+    }
+    internal::RowSink sink(settings, file, progress);
+    internal::read_jpeg_rows(bytes, sink);
+    ReadPicture read = sink.end();
+    if (turn.orientation != 1) {
+        read.picture = internal::turned(read.picture, turn.orientation);
+    }
+    return read;
+}
+
+} // namespace
 
 ReadPicture read_picture(std::string_view bytes,
                          const std::filesystem::path& file,
                          const PictureSettings& settings,
                          const Progress& progress) {
+    if (bytes.starts_with("\xff\xd8")) {
+        return read_jpeg(bytes, file, settings, progress);
+    }
     internal::RowSink sink(settings, file, progress);
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) {
         internal::read_png_rows(bytes, sink);
-    } else if (bytes.starts_with("\xff\xd8")) {
-        internal::read_jpeg_rows(bytes, sink);
     } else if (bytes.starts_with("BM")) {
         internal::read_bmp_rows(bytes, sink);
     } else {

@@ -14,9 +14,9 @@ namespace millwright::plot {
 
 /// Passes that take away what is too much for one, before the last one follows the picture.
 struct Roughing {
-    double depth_per_pass = 1.0;     ///< > 0
-    double allowance = 0.2;          ///< is left for the last pass, >= 0
-    std::optional<double> step_over; ///< not given: half of the tool, > 0
+    double depth_per_pass = 1.0;          ///< > 0
+    double allowance = 0.2;               ///< is left for the last pass, >= 0
+    std::optional<double> step_over = {}; ///< not given: half of the tool, > 0
 };
 
 struct ReliefSettings {

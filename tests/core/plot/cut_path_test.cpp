@@ -131,6 +131,15 @@ TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
     EXPECT_EQ(levels[1].pen, 1);
 }
 
+TEST(Levels, GoNoDeeperThanThePlate) {
+    const CutPath path{{.at = {0.0, 0.0, 5.0}},
+                       {.at = {0.0, 0.0, -3.0}, .speed = 1.0, .move = CutMove::plunge}};
+    EXPECT_DOUBLE_EQ(deepest(path), 3.0);
+    EXPECT_DOUBLE_EQ(deepest({}), 0.0);
+    EXPECT_NO_THROW(expect_within_plate(path, 3.0));
+    EXPECT_THROW(expect_within_plate(path, 2.99), Error);
+}
+
 TEST(Levels, RefuseWhatCannotBeCut) {
     const millwright::test::WithoutTraps no_traps;
     const Strokes strokes = six_colours();

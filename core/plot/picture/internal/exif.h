@@ -1,0 +1,25 @@
+// How a JPEG picture was held by the camera that took it: Exif 2.3, tag 0x0112.
+#pragma once
+
+#include "core/plot/picture/picture.h"
+
+#include <string_view>
+
+namespace millwright::plot::internal {
+
+struct JpegTurn {
+    int orientation = 1; ///< 1 to 8, as Exif has it; 1: as it stands in the file
+    int width = 0;       ///< of the file's pixels; 0: not found
+    int height = 0;
+};
+
+/// Of a whole file's bytes. What is no Exif that can be read counts as none.
+[[nodiscard]] JpegTurn jpeg_turn(std::string_view bytes);
+
+/// Pixels of the file, for a region of the picture as people see it.
+[[nodiscard]] PixelRegion region_in_file(const PixelRegion& seen, const JpegTurn& turn);
+
+/// As people see it.
+[[nodiscard]] Picture turned(const Picture& picture, int orientation);
+
+} // namespace millwright::plot::internal

@@ -1,0 +1,29 @@
+// What is cut of a picture: the relief, and the frame that takes it out of its plate. Lengths mm.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/plot/cut_path.h"
+#include "core/plot/picture/height_field.h"
+#include "core/plot/picture/relief.h"
+
+#include <optional>
+
+namespace millwright::plot {
+
+struct ReliefPlan {
+    ReliefSettings relief = {};       ///< step_over not given: usual_step_over()
+    std::optional<double> plate = {}; ///< the picture is cut out of a plate so thick; not given: it stays
+    double frame_margin = 1.0;
+    Tabs tabs = {.count = 4}; ///< that hold the frame
+};
+
+/// Rows of a tool with a width leave ridges: a tenth of it apart, a ball's are a 400th of it high. A pixel
+/// where the tool has no width.
+[[nodiscard]] double usual_step_over(const ToolTip& tip, double pitch);
+
+/// Relief and frame; passes of the frame are no deeper than those of the roughing, else than the relief or
+/// half of the tool. Throws Error as relief(), and for the frame of a tool without a width; Cancelled.
+[[nodiscard]] CutPath
+relief_path(const HeightField& field, const ReliefPlan& plan, const Progress& progress = Progress());
+
+} // namespace millwright::plot

@@ -1,0 +1,45 @@
+// What is made of strokes before they are cut: compensated for the cutter, filled, put into a better order,
+// linked. Lengths mm, angles rad.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/plot/compensation.h"
+#include "core/plot/strokes.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace millwright::plot {
+
+struct StrokePlan {
+    CutterSide side = CutterSide::on_line; ///< of closed strokes
+    double tool_diameter = 3.0;
+    Corners corners = Corners::sharp;
+    std::optional<double> hatch_pitch = {}; ///< closed strokes are filled with lines so far apart
+    double hatch_angle = 0.0;               ///< to x
+    bool hatch_cross = false;
+    std::optional<double> contour_pitch = {}; ///< closed strokes are filled with outlines so far apart
+    bool order = false;                       ///< reorders and reverses for less travel
+    double link = 0.0;                        ///< joins over gaps shorter than this; 0: none
+    bool link_inside = false;                 ///< links keep to their side of the closed strokes as drawn
+
+    friend bool operator==(const StrokePlan&, const StrokePlan&) = default;
+};
+
+struct ShapedStrokes {
+    Strokes strokes;
+    std::size_t open = 0; ///< strokes that are not closed, and stay as they are
+};
+
+/// Compensated and hatched, pen by pen; without either, the strokes as they are. Throws Error naming the
+/// setting that is out of its range, for a hatch of more than a million lines, and where nothing is left.
+[[nodiscard]] ShapedStrokes shaped(const Strokes& drawn, const StrokePlan& plan);
+
+/// The shaped strokes, linked as planned. Throws Error as link().
+[[nodiscard]] Strokes linked(const Strokes& shaped, const Strokes& drawn, const StrokePlan& plan);
+
+/// All of it. Throws Error as above, or Cancelled.
+[[nodiscard]] ShapedStrokes
+planned(const Strokes& drawn, const StrokePlan& plan, const Progress& progress = Progress());
+
+} // namespace millwright::plot
