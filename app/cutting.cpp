@@ -42,7 +42,8 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
         ->capture_default_str();
     command.add_flag(
         "--against-light", preview.against_light, "Preview the light that goes through the plate");
-    command.add_option("--plate", preview.plate, "Thickness of the plate in the preview, mm");
+    command.add_option("--plate", preview.plate, "Thickness of the plate, mm; nothing is cut deeper");
+    command.add_flag("--through", preview.through, "Cuts may go deeper than the plate");
     command.add_option("--half-light", preview.half_light, "So much of the plate halves the light, mm")
         ->capture_default_str();
 }
@@ -69,13 +70,17 @@ gcode::Program program_of(const plot::CutPath& path,
                           const std::vector<std::string>& header) {
     gcode::PlotProgramSettings settings;
     settings.machine = machine.name();
+    settings.axes = gcode::plot_axes(machine);
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
     return gcode::plot_program(placed(path, options.origin), settings);
 }
 
-std::string preview_of(const plot::CutPath& path, const PreviewOptions& preview, const plot::ToolTip& tip) {
-    const plot::HeightField field = plot::finished(path, tip, preview.pixels);
+std::string preview_of(const plot::CutPath& path,
+                       const PreviewOptions& preview,
+                       const plot::ToolTip& tip,
+                       const Progress& progress) {
+    const plot::HeightField field = plot::finished(path, tip, preview.pixels, progress);
     constexpr double spare = 0.5;
     const double plate = preview.plate.value_or(spare - static_cast<double>(std::ranges::min(field.z)));
     return plot::png_bytes(preview.against_light ? plot::against_light(field, plate, preview.half_light)
@@ -84,21 +89,27 @@ std::string preview_of(const plot::CutPath& path, const PreviewOptions& preview,
 
 } // namespace
 
-double planned_seconds(const plot::CutPath& path, const CuttingOptions& options) {
+double planned_seconds(const plot::CutPath& path, const CuttingOptions& options, const Progress& progress) {
     const kinematics::MachineModel machine = machine_of(options);
-    return motion::plan(program_of(path, machine, options, {}), machine, {}, Progress()).duration();
+    return motion::plan(program_of(path, machine, options, {}), machine, {}, progress).duration();
 }
 
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
                    const plot::ToolTip& tip,
-                   const std::vector<std::string>& header) {
+                   const std::vector<std::string>& header,
+                   const Progress& progress) {
+    if (options.preview.plate && !options.preview.through) {
+        plot::expect_within_plate(path, *options.preview.plate);
+    }
     const kinematics::MachineModel machine = machine_of(options);
     const PostedText text = posted(program_of(path, machine, options, header),
                                    machine,
                                    options.post,
                                    std::filesystem::path(options.out).stem().string());
-    const std::string preview = options.preview.file.empty() ? "" : preview_of(path, options.preview, tip);
+    const std::string preview =
+        options.preview.file.empty() ? "" : preview_of(path, options.preview, tip, progress.part(0.2, 0.6));
+    progress.check();
     write_file(options.out, text.text.listing.text);
     if (!options.path_file.empty()) {
         write_file(options.path_file, plot::path_file_text(placed(path, options.origin)));
@@ -107,7 +118,7 @@ void write_program(const plot::CutPath& path,
         write_file(options.preview.file, preview);
     }
     print_notes(text);
-    const double seconds = motion::plan(text.text.program, machine, {}, Progress()).duration();
+    const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
     fmt::print("{} lines, {} min on {}\n",
                text.text.listing.line_count(),
                plot::minutes_and_seconds(seconds),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/posting.h"
+#include "core/base/progress.h"
 #include "core/kinematics/machine_model.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/tool_tip.h"
@@ -22,6 +23,7 @@ struct PreviewOptions {
     int pixels = 800; ///< of the longer side
     bool against_light = false;
     std::optional<double> plate; ///< its thickness, mm; not given: the depth of the cut and half a millimetre
+    bool through = false;        ///< the path may go deeper than a plate whose thickness is given
     double half_light = 0.3;     ///< what halves the light that goes through the plate, mm
 };
 
@@ -44,14 +46,17 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options);
 [[nodiscard]] kinematics::MachineModel machine_of(const CuttingOptions& options);
 
 /// How long the machine takes for it by the planner, s. Throws Error.
-[[nodiscard]] double planned_seconds(const plot::CutPath& path, const CuttingOptions& options);
+[[nodiscard]] double planned_seconds(const plot::CutPath& path,
+                                     const CuttingOptions& options,
+                                     const Progress& progress = Progress());
 
 /// Writes the program to `options.out`, after it was read back, and the preview of what `tip` leaves; says
 /// how many lines it has and how long the machine takes by the planner. `header` stands on its top. Throws
-/// Error.
+/// Error, or Cancelled.
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
                    const plot::ToolTip& tip,
-                   const std::vector<std::string>& header);
+                   const std::vector<std::string>& header,
+                   const Progress& progress = Progress());
 
 } // namespace millwright::app

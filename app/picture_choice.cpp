@@ -53,12 +53,12 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
     command.add_flag("--invert", choice.reading.invert, "Dark becomes bright");
 }
 
-SizedPicture read_chosen(const PictureChoice& choice) {
+SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress) {
     plot::PictureSettings settings = choice.reading;
     if (!choice.region.empty()) {
         settings.region = {choice.region[0], choice.region[1], choice.region[2], choice.region[3]};
     }
-    plot::ReadPicture read = plot::read_picture_file(choice.file, settings);
+    plot::ReadPicture read = plot::read_picture_file(choice.file, settings, progress);
     for (const Diagnostic& notice : read.notices) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }

@@ -31,6 +31,6 @@ struct SizedPicture {
 
 /// Reads it and says on standard error what a person should know. A size that is not given is the file's own,
 /// else 0.26 mm a pixel as in the KMITL thesis of 2006. Throws Error.
-[[nodiscard]] SizedPicture read_chosen(const PictureChoice& choice);
+[[nodiscard]] SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress);
 
 } // namespace millwright::app

@@ -2,9 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/plot/hatching.h"
 #include "core/plot/level_text.h"
-#include "core/plot/linking.h"
 #include "core/plot/ordering.h"
 #include "core/plot/work_time.h"
 
@@ -28,86 +26,6 @@ const std::map<std::string, CutterSide> sides = {
     {"on-line", CutterSide::on_line}, {"outside", CutterSide::outside}, {"inside", CutterSide::inside}};
 const std::map<std::string, plot::Corners> corner_kinds = {{"sharp", plot::Corners::sharp},
                                                            {"round", plot::Corners::round}};
-
-/// What one pen draws, its closed strokes apart.
-struct PenStrokes {
-    plot::Region closed;
-    Strokes open;
-};
-
-/// By pen, in the order in which they first draw.
-std::vector<std::pair<int, PenStrokes>> by_pen(const Strokes& strokes) {
-    std::vector<std::pair<int, PenStrokes>> pens;
-    for (const plot::Level& level : plot::levels_for(strokes)) {
-        PenStrokes& found = pens.emplace_back(level.pen, PenStrokes()).second;
-        for (const plot::Stroke& stroke : strokes) {
-            if (stroke.pen != level.pen) {
-                continue;
-            }
-            const plot::Region ring = plot::closed_outlines({stroke});
-            if (ring.empty()) {
-                found.open.push_back(stroke);
-            } else {
-                found.closed.push_back(ring.front());
-            }
-        }
-    }
-    return pens;
-}
-
-void append(Strokes& to, Strokes from) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-}
-
-Strokes hatched(const plot::Region& region, int pen, const StrokeCutting& options) {
-    Strokes strokes;
-    if (options.hatch_pitch) {
-        plot::HatchSettings settings;
-        settings.pitch = *options.hatch_pitch;
-        settings.angle = from_degrees(options.hatch_angle_deg);
-        settings.cross = options.hatch_cross;
-        constexpr double most_lines = 1e6;
-        if (plot::line_count(region, settings) > most_lines) {
-            throw Error(fmt::format("a hatch of {} mm has more than a million lines", settings.pitch));
-        }
-        append(strokes, plot::hatch(region, settings, pen));
-    }
-    if (options.contour_pitch) {
-        append(strokes, plot::contour_hatch(region, *options.contour_pitch, *options.contour_pitch, pen));
-    }
-    return strokes;
-}
-
-/// Compensated and hatched, pen by pen. Without either, the strokes as they are.
-Strokes shaped(const Strokes& drawn, const StrokeCutting& options) {
-    const bool hatches = options.hatch_pitch || options.contour_pitch;
-    const bool compensates = options.side != CutterSide::on_line;
-    if (!hatches && !compensates) {
-        return drawn;
-    }
-    plot::CompensationSettings settings;
-    settings.tool_diameter = options.tool_diameter;
-    settings.side = options.side;
-    settings.corners = options.corners;
-    Strokes strokes;
-    std::size_t open = 0;
-    for (auto& [pen, found] : by_pen(drawn)) {
-        open += found.open.size();
-        append(strokes, found.open);
-        append(strokes, plot::compensated(found.closed, settings, pen));
-        // Inside, the hatch keeps off the outline as the tool's middle does.
-        const bool shrinks = options.side == CutterSide::inside;
-        append(strokes,
-               hatched(shrinks ? plot::offset(found.closed, -options.tool_diameter / 2.0, options.corners)
-                               : found.closed,
-                       pen,
-                       options));
-    }
-    if (open > 0) {
-        fmt::print(stderr, "millwright: {} strokes are not closed and stay as they are\n", open);
-    }
-    return strokes;
-}
 
 plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& options) {
     plot::Level like;
@@ -151,23 +69,25 @@ void say(const char* what, const Strokes& strokes, const StrokeCutting& options)
 } // namespace
 
 void add_stroke_options(CLI::App& command, StrokeCutting& options) {
-    command.add_option("--side", options.side, "Of closed strokes: on-line, outside or inside")
+    command.add_option("--side", options.plan.side, "Of closed strokes: on-line, outside or inside")
         ->transform(CLI::CheckedTransformer(sides))
         ->default_str("on-line");
     command
-        .add_option("--tool-diameter", options.tool_diameter, "Of an end mill, for --side and --preview, mm")
+        .add_option(
+            "--tool-diameter", options.plan.tool_diameter, "Of an end mill, for --side and --preview, mm")
         ->capture_default_str();
-    command.add_option("--corners", options.corners, "For --side: sharp or round")
+    command.add_option("--corners", options.plan.corners, "For --side: sharp or round")
         ->transform(CLI::CheckedTransformer(corner_kinds))
         ->default_str("sharp");
-    command.add_option("--hatch", options.hatch_pitch, "Fill closed strokes with lines so far apart, mm");
-    command.add_option("--hatch-angle", options.hatch_angle_deg, "Of the lines to x, degrees");
-    command.add_flag("--hatch-cross", options.hatch_cross, "And once more at right angles");
     command.add_option(
-        "--contours", options.contour_pitch, "Fill closed strokes with outlines so far apart, mm");
-    command.add_flag("--order", options.order, "Reorder and reverse strokes for less travel");
-    command.add_option("--link", options.link, "Join strokes over gaps shorter than so many mm");
-    command.add_flag("--inside", options.link_inside, "Links keep to their side of closed strokes");
+        "--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm");
+    command.add_option("--hatch-angle", options.hatch_angle_deg, "Of the lines to x, degrees");
+    command.add_flag("--hatch-cross", options.plan.hatch_cross, "And once more at right angles");
+    command.add_option(
+        "--contours", options.plan.contour_pitch, "Fill closed strokes with outlines so far apart, mm");
+    command.add_flag("--order", options.plan.order, "Reorder and reverse strokes for less travel");
+    command.add_option("--link", options.plan.link, "Join strokes over gaps shorter than so many mm");
+    command.add_flag("--inside", options.plan.link_inside, "Links keep to their side of closed strokes");
     command.add_option("--depth", options.depth, "Below the top, mm")->capture_default_str();
     command.add_option("--passes", options.passes, "Cuts to the depth")->capture_default_str();
     command
@@ -180,29 +100,33 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     add_cutting_options(command, options.cutting);
 }
 
-void cut_strokes(const Strokes& drawn, const StrokeCutting& options, const std::vector<std::string>& header) {
-    Strokes strokes = shaped(drawn, options);
+void cut_strokes(const Strokes& drawn,
+                 const StrokeCutting& options,
+                 const std::vector<std::string>& header,
+                 const Progress& progress) {
+    plot::StrokePlan plan = options.plan;
+    plan.hatch_angle = from_degrees(options.hatch_angle_deg);
+    auto [strokes, open] = plot::shaped(drawn, plan);
     if (strokes.empty()) {
-        throw Error("nothing is left to cut", {}, "closed strokes may be too small for the tool");
+        throw Error("there is nothing to cut");
+    }
+    if (open > 0) {
+        fmt::print(stderr, "millwright: {} strokes are not closed and stay as they are\n", open);
     }
     say("as drawn", strokes, options);
-    if (options.order) {
-        strokes = plot::ordered(strokes);
+    if (plan.order) {
+        strokes = plot::ordered(strokes, Vec2::Zero(), progress.part(0.0, 0.3));
         say("ordered", strokes, options);
     }
-    if (options.link > 0.0) {
-        plot::LinkSettings settings;
-        settings.distance = options.link;
-        if (options.link_inside) {
-            settings.outlines = plot::closed_outlines(drawn);
-        }
-        strokes = plot::link(strokes, settings).strokes;
+    if (plan.link > 0.0) {
+        strokes = plot::linked(strokes, drawn, plan);
         say("linked", strokes, options);
     }
     write_program(plot::cut_path(strokes, cut_settings(strokes, options)),
                   options.cutting,
-                  {.kind = plot::TipKind::flat, .diameter = options.tool_diameter},
-                  header);
+                  {.kind = plot::TipKind::flat, .diameter = plan.tool_diameter},
+                  header,
+                  progress.part(0.3, 1.0));
 }
 
 } // namespace millwright::app

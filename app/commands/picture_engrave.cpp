@@ -2,6 +2,7 @@
 
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
+#include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/picture/engraving.h"
@@ -54,7 +55,8 @@ plot::CutPath halftone_path(const Options& options, const SizedPicture& sized, c
 
 int engrave(const Options& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
-    const SizedPicture sized = read_chosen(options.picture);
+    WatchedWork work;
+    const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.3));
     const plot::CutPath path =
         options.mode == "dither" ? dither_path(options, sized) : halftone_path(options, sized, tip);
     if (path.empty()) {
@@ -64,7 +66,9 @@ int engrave(const Options& options) {
                   options.cutting,
                   tip,
                   {"engraved: " + std::filesystem::path(options.picture.file).filename().string(),
-                   fmt::format("{}, {:.3f} mm, tool {}", options.mode, options.pitch, plot::to_text(tip))});
+                   fmt::format("{}, {:.3f} mm, tool {}", options.mode, options.pitch, plot::to_text(tip))},
+                  work.progress().part(0.3, 1.0));
+    work.finish();
     return 0;
 }
 

@@ -2,17 +2,15 @@
 
 #include "app/cutting.h"
 #include "app/picture_choice.h"
-#include "core/base/error.h"
+#include "app/watched_work.h"
 #include "core/base/units.h"
-#include "core/plot/picture/relief.h"
+#include "core/plot/picture/relief_plan.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -35,59 +33,32 @@ struct Options {
     plot::Tabs tabs = {.count = 4};
 };
 
-/// Rows of a tool with a width leave ridges: a tenth of it apart, a ball's are a 400th of it high.
-double usual_step_over(const plot::ToolTip& tip, double pitch) {
-    constexpr double part = 0.1;
-    const bool wide = tip.kind == plot::TipKind::ball || tip.kind == plot::TipKind::flat;
-    return wide ? part * tip.diameter : pitch;
-}
-
-plot::ReliefSettings settings_of(const Options& options, const plot::ToolTip& tip, double pitch) {
-    plot::ReliefSettings settings;
-    settings.tip = tip;
-    settings.step_over = options.step_over.value_or(usual_step_over(tip, pitch));
-    settings.merge_tolerance = options.merge;
+plot::ReliefPlan plan_of(const Options& options, const plot::ToolTip& tip) {
+    plot::ReliefPlan plan;
+    plan.relief.tip = tip;
+    plan.relief.step_over = options.step_over;
+    plan.relief.merge_tolerance = options.merge;
     if (options.depth_per_pass) {
-        settings.roughing =
+        plan.relief.roughing =
             plot::Roughing{*options.depth_per_pass, options.allowance, options.rough_step_over};
     }
-    settings.cutting = from_mm_per_min(options.cutting.feed_mm_per_min);
-    settings.plunging = from_mm_per_min(options.cutting.plunge_mm_per_min);
-    settings.safe_height = options.cutting.safe_height;
-    return settings;
-}
-
-/// Around the picture through the plate, in passes that are no deeper than those of the relief.
-plot::CutPath
-frame_path(const Options& options, const plot::HeightField& field, const plot::ReliefSettings& relief) {
-    if (relief.tip.kind == plot::TipKind::point) {
-        throw Error("a point without a diameter cuts no frame", {}, "name the tool, as ball:1.0");
-    }
-    const plot::Strokes strokes = {plot::frame(field, relief.tip.diameter, options.frame_margin)};
-    plot::Level level;
-    level.depth = *options.frame;
-    const double per_pass =
-        options.depth_per_pass.value_or(std::max(options.depth, relief.tip.diameter / 2.0));
-    level.passes = std::max(1, static_cast<int>(std::ceil(level.depth / per_pass)));
-    level.cutting = relief.cutting;
-    level.plunging = relief.plunging;
-    level.tabs = options.tabs;
-    plot::CutSettings settings;
-    settings.levels = {level};
-    settings.safe_height = relief.safe_height;
-    return plot::cut_path(strokes, settings);
+    plan.relief.cutting = from_mm_per_min(options.cutting.feed_mm_per_min);
+    plan.relief.plunging = from_mm_per_min(options.cutting.plunge_mm_per_min);
+    plan.relief.safe_height = options.cutting.safe_height;
+    plan.plate = options.frame;
+    plan.frame_margin = options.frame_margin;
+    plan.tabs = options.tabs;
+    return plan;
 }
 
 int relief(const Options& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
-    const SizedPicture sized = read_chosen(options.picture);
+    WatchedWork work;
+    const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.2));
     const plot::HeightField field = plot::height_field(sized.picture, sized.pitch, options.depth);
-    const plot::ReliefSettings settings = settings_of(options, tip, sized.pitch);
-    plot::CutPath path = plot::relief(field, settings);
-    if (options.frame) {
-        const plot::CutPath around = frame_path(options, field, settings);
-        path.insert(path.end(), around.begin(), around.end());
-    }
+    const plot::CutPath path =
+        plot::relief_path(field, plan_of(options, tip), work.progress().part(0.2, 0.5));
+    work.finish();
     const plot::PathLengths lengths = plot::lengths(path);
     fmt::print("{} points, cuts {:.3f} m, {:.3f} m in the air\n",
                path.size(),
@@ -97,7 +68,9 @@ int relief(const Options& options) {
                   options.cutting,
                   tip,
                   {"relief: " + std::filesystem::path(options.picture.file).filename().string(),
-                   fmt::format("{:.3f} mm deep, tool {}", options.depth, plot::to_text(tip))});
+                   fmt::format("{:.3f} mm deep, tool {}", options.depth, plot::to_text(tip))},
+                  work.progress().part(0.5, 1.0));
+    work.finish();
     return 0;
 }
 

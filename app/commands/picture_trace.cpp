@@ -2,6 +2,7 @@
 
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
+#include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/plot/picture/trace.h"
@@ -37,7 +38,9 @@ struct Options {
 
 int trace(const Options& options) {
     const std::filesystem::path out = options.cutting.cutting.out;
-    const SizedPicture sized = read_chosen(options.picture);
+    WatchedWork work;
+    const SizedPicture sized = read_chosen(options.picture, work.progress());
+    work.finish();
     const auto paths = plot::trace(sized.picture, options.tracing);
     if (paths.empty()) {
         throw Error("nothing in it is dark enough to be traced",
@@ -55,7 +58,8 @@ int trace(const Options& options) {
     }
     cut_strokes(plot::strokes_of(paths, sized.pitch, options.chord_tolerance),
                 options.cutting,
-                {"traced: " + std::filesystem::path(options.picture.file).filename().string()});
+                {"traced: " + std::filesystem::path(options.picture.file).filename().string()},
+                work.progress());
     return 0;
 }
 

@@ -1,5 +1,6 @@
 #include "app/commands/plot_command.h"
 
+#include "app/commands/plot_play.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -236,6 +237,7 @@ void add_plot_command(CLI::App& app, Command& chosen) {
     add_decode(group, options, chosen);
     add_info(group, options, chosen);
     add_toolpath(group, options, chosen);
+    add_plot_play(group, chosen);
 }
 
 } // namespace millwright::app

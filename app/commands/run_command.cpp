@@ -2,18 +2,11 @@
 
 #include "app/controller.h"
 #include "app/interrupt.h"
-#include "app/job_keys.h"
+#include "app/planned_machine.h"
 #include "app/posting.h"
-#include "app/progress_printer.h"
-#include "app/record_choice.h"
 #include "app/series.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/machine/clock.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/cordic/cordic_driver.h"
-#include "core/machine/drivers/make_driver.h"
-#include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/run_from_line.h"
 
@@ -34,12 +27,8 @@ namespace {
 
 struct Options {
     SeriesChoice series;
-    std::string driver = "virtual";
-    double speed = 1.0;
-    double period = 0.01;
-    double processor_hz = machine::CordicDriverOptions().clock_hz;
-    RecordChoice record;         ///< of a coordinate stream
-    ControllerChoice controller; ///< for grbl; its port also for stream
+    PlannedChoice machine;       ///< and the driver of any
+    ControllerChoice controller; ///< for grbl; its port and keys for all
     PostChoice post{.post = ""}; ///< empty: that of the driver
     std::optional<double> clearance;
 };
@@ -62,7 +51,7 @@ std::string fault_of_speed(const std::string& text) {
 machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const Options& options) {
     PostChoice choice = options.post;
     if (choice.post.empty()) {
-        choice.post = options.driver == "grbl" ? "grbl" : "linuxcnc";
+        choice.post = options.machine.driver == "grbl" ? "grbl" : "linuxcnc";
     }
     machine::Job job;
     job.name = opened.file.stem().string();
@@ -77,103 +66,31 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
 }
 
 machine::Job begun_at(machine::Job job, int line, const Options& options) {
-    if (options.driver == "cordic") {
+    if (options.machine.driver == "cordic") {
         throw Error("the cordic driver runs programs from their beginning alone");
     }
     machine::RunFromSettings settings;
     settings.clearance = options.clearance;
-    if (options.driver == "grbl") { // which executes the text
+    if (options.machine.driver == "grbl") { // which executes the text
         settings.dialect = gcode::Dialect::grbl;
         job.program = nullptr;
     }
     return machine::job_from_line(job, line, settings);
 }
 
-/// The virtual machine, or a stream of coordinates: what follows a motion that is planned here.
-class PlannedMachine {
-public:
-    explicit PlannedMachine(const Options& options) : options_(options) {}
-
-    machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop) {
-        connect(job);
-        ProgressPrinter printer;
-        const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
-        machine::Dispatcher dispatcher(*driver_, clock_, options_.series.log);
-        const JobKeys keys(dispatcher, options_.controller.keys);
-        machine::JobOutcome outcome = dispatcher.run(job, progress);
-        if (const std::string late = cordic_ == nullptr ? "" : cordic_->remark(); !late.empty()) {
-            fmt::print(stderr, "millwright: {}: {}\n", job.name, late);
-        }
-        return outcome;
-    }
-
-private:
-    const Options& options_;
-    machine::SteadyClock clock_;
-    std::string model_; ///< name of the machine that the driver moves
-    std::unique_ptr<machine::Driver> driver_;
-    const machine::CordicDriver* cordic_ = nullptr; ///< the same, if it is one
-
-    /// The first job says which machine it is.
-    void connect(const machine::Job& job) {
-        if (driver_ == nullptr) {
-            model_ = job.machine->name();
-            driver_ = make_driver(job);
-            driver_->connect();
-        } else if (job.machine->name() != model_) {
-            throw Error(fmt::format("{} is for machine '{}', and '{}' is connected",
-                                    job.project,
-                                    job.machine->name(),
-                                    model_),
-                        {},
-                        "run it by itself");
-        }
-    }
-
-    std::unique_ptr<machine::Driver> make_driver(const machine::Job& job) {
-        machine::DriverChoice choice;
-        choice.kind = machine::driver_kind(options_.driver);
-        choice.address = options_.controller.port;
-        choice.period = options_.period;
-        if (choice.kind == machine::DriverKind::cordic) {
-            machine::CordicDriverOptions processor;
-            processor.clock_hz = options_.processor_hz;
-            auto made = std::make_unique<machine::CordicDriver>(
-                job.program->start, machine::VirtualSpeed{options_.speed}, clock_, job.machine, processor);
-            cordic_ = made.get();
-            return made;
-        }
-        if (const auto record = record_of(options_.record)) {
-            return std::make_unique<machine::StreamDriver>(
-                machine::make_link(choice.address),
-                clock_,
-                job.machine,
-                job.program->start,
-                machine::StreamOptions{.period = options_.period, .record = record});
-        }
-        return machine::make_driver(choice, {job.machine, job.program->start, options_.speed}, clock_);
-    }
-};
-
-/// Before the work is done.
-void refuse_missing_port(const Options& options) {
-    if (!options.record.pattern.empty() && options.driver != "stream") {
-        throw Error("records are for the stream driver");
-    }
-    const bool inside = options.driver == "virtual" || options.driver == "cordic";
-    if (!inside && options.controller.port.empty()) {
-        throw Error("the " + options.driver + " driver needs a port", {}, "give --port");
-    }
-}
-
 int run(const Options& options) {
-    refuse_missing_port(options);
     const Interrupt interrupt;
     std::optional<Controller> controller;
-    if (options.driver == "grbl") {
+    if (options.machine.driver == "grbl") {
+        if (options.controller.port.empty()) { // before the work is done
+            throw Error("the grbl driver needs a port", {}, "give --port");
+        }
         controller.emplace(options.controller);
     }
-    PlannedMachine planned_machine(options);
+    PlannedChoice machine_choice = options.machine;
+    machine_choice.port = options.controller.port;
+    machine_choice.keys = options.controller.keys;
+    PlannedMachine planned_machine(machine_choice);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         const OpenedProject opened = open_project(file);
@@ -194,7 +111,7 @@ int run(const Options& options) {
     };
     steps.run = [&](const machine::Job& job) {
         return controller ? controller->run(job, options.series.log, interrupt.token())
-                          : planned_machine.run(job, interrupt.token());
+                          : planned_machine.run(job, options.series.log, interrupt.token());
     };
     return run_series(options.series, steps, interrupt.token());
 }
@@ -206,22 +123,23 @@ void add_run_command(CLI::App& app, Command& chosen) {
     CLI::App& command = *app.add_subcommand("run", "Run the programs of projects on a machine");
     add_series_options(command, options->series, "Project files");
     add_clearance_option(command, options->clearance);
-    command.add_option("--driver", options->driver, "Machine to run on")
+    command.add_option("--driver", options->machine.driver, "Machine to run on")
         ->required()
-        ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic"}));
+        ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
     add_controller_options(command, options->controller);
-    command.add_option("--period", options->period, "Sampling period of a coordinate stream, s")
+    command.add_option("--period", options->machine.period, "Sampling period of a coordinate stream, s")
         ->type_name("S")
         ->capture_default_str();
-    command.add_option("--clock", options->processor_hz, "Clock frequency of the CORDIC processor, Hz")
+    command
+        .add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
         ->type_name("HZ")
         ->check(CLI::Range(1.0, 1e11))
         ->capture_default_str();
-    add_record_options(command, options->record);
+    add_record_options(command, options->machine.record);
     add_post_options(command, options->post);
     command
         .add_option("--speed",
-                    options->speed,
+                    options->machine.speed,
                     "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
         ->capture_default_str();

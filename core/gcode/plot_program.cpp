@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,7 +17,13 @@ public:
     explicit PlotProgramBuilder(const PlotProgramSettings& settings)
         : settings_(settings), unit_(std::pow(10.0, -settings.length_decimals)) {
         program_.machine = settings.machine;
-        program_.axes = {{.letter = 'X'}, {.letter = 'Y'}, {.letter = 'Z'}};
+        for (std::size_t n = 0; n < index_.size(); ++n) {
+            const std::size_t found = settings.axes.find("XYZ"[n]);
+            expects(settings.axes.size() == index_.size() && found != std::string::npos,
+                    "a plot is cut by the axes X, Y and Z");
+            index_[n] = static_cast<int>(found);
+            program_.axes.push_back({.letter = settings.axes[n]});
+        }
         program_.start = kinematics::AxisPositions::Zero(3);
         at_ = program_.start;
         for (const std::string& line : settings.header) {
@@ -26,11 +34,12 @@ public:
     Program build(const plot::CutPath& path) {
         if (!path.empty()) {
             // Up first: nobody knows what stands between the tool and the first stroke.
-            move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(2));
+            move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));
             spindle(true);
         }
         bool first = true;
         for (const plot::CutPoint& point : path) {
+            ++point_;
             expects(is_finite(point.at), "a point of a plot's path is finite");
             if (point.move == plot::CutMove::tool_change) {
                 change_tool(point.tool);
@@ -48,10 +57,15 @@ private:
         Block block;
         block.kind = kind;
         block.target = at_;
+        block.path_point = point_;
         return program_.blocks.emplace_back(std::move(block));
     }
 
-    static AxisSet across() { return AxisSet::all(2); }
+    [[nodiscard]] AxisSet across() const {
+        AxisSet set = AxisSet::only(index_[0]);
+        set.insert(index_[1]);
+        return set;
+    }
 
     void spindle(bool on) {
         if (settings_.spindle_rpm > 0.0) {
@@ -83,9 +97,10 @@ private:
 
     void move(const plot::CutPoint& point, AxisSet named) {
         kinematics::AxisPositions target = at_;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int n = 0; n < 3; ++n) {
+            const int axis = index_[static_cast<std::size_t>(n)];
             if (named.contains(axis)) {
-                target[axis] = std::round(point.at[axis] / unit_) * unit_;
+                target[axis] = std::round(point.at[n] / unit_) * unit_;
             }
         }
         const double distance = (target - at_).norm();
@@ -107,10 +122,28 @@ private:
     double unit_;
     Program program_;
     kinematics::AxisPositions at_;
+    std::array<int, 3> index_{}; ///< of X, Y and Z
+    int point_ = -1;
     bool moved_ = false; ///< where the machine stands before the first block nobody knows
 };
 
 } // namespace
+
+std::string plot_axes(const kinematics::MachineModel& machine) {
+    std::string letters;
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        letters += axis.letter;
+    }
+    std::string sorted = letters;
+    std::ranges::sort(sorted);
+    if (sorted != "XYZ") {
+        throw Error(
+            fmt::format("machine '{}' has the axes {}; plots and pictures are cut by X, Y and Z alone",
+                        machine.name(),
+                        letters));
+    }
+    return letters;
+}
 
 Program plot_program(const plot::CutPath& path, const PlotProgramSettings& settings) {
     return PlotProgramBuilder(settings).build(path);

@@ -10,15 +10,19 @@
 namespace millwright::gcode {
 
 struct PlotProgramSettings {
-    std::string machine = "XYZ";     ///< the name that the program carries
-    std::vector<std::string> header; ///< comments on its top
-    double spindle_rpm = 10'000.0;   ///< 0 leaves the spindle alone
-    int length_decimals = 4;         ///< targets are rounded to them, as they are written
+    std::string machine = "XYZ";          ///< the name that the program carries
+    std::string axes = "XYZ";             ///< these three, in the order of the machine's axes
+    std::vector<std::string> header = {}; ///< comments on its top
+    double spindle_rpm = 10'000.0;        ///< 0 leaves the spindle alone
+    int length_decimals = 4;              ///< targets are rounded to them, as they are written
 };
 
-/// Axes X, Y, Z. Rapids go where the path travels, up before across; each change of tool stops the spindle
-/// and waits for a person. Points that rounding makes equal are left out. Throws Defect if a point is not
-/// finite.
+/// The letters of a machine's axes, for PlotProgramSettings. Throws Error unless they are X, Y and Z.
+[[nodiscard]] std::string plot_axes(const kinematics::MachineModel& machine);
+
+/// Each block tells the point of the path where it ends, from 0. Rapids go where the path travels, up before
+/// across; each change of tool stops the spindle and waits for a person. Points that rounding makes equal are
+/// left out. Throws Defect if a point is not finite, or for other axes.
 [[nodiscard]] Program plot_program(const plot::CutPath& path, const PlotProgramSettings& settings = {});
 
 } // namespace millwright::gcode

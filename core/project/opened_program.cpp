@@ -4,7 +4,7 @@
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/preview.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/job.h"
+#include "core/machine/file_job.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/internal/background.h"
@@ -46,25 +46,6 @@ void expect_readable(const fs::path& file) {
     if (!stream) {
         throw Error(fs::exists(file, failure) ? "cannot be read" : "there is no such file", file);
     }
-}
-
-/// The lines of a file with the blocks that were planned from them.
-gcode::Listing listing_of(std::string_view text, const gcode::Program& program) {
-    gcode::Listing listing;
-    listing.text = text;
-    if (listing.text.empty() || listing.text.back() != '\n') {
-        listing.text += '\n';
-    }
-    listing.line_starts.push_back(0);
-    for (std::size_t n = 0; n < listing.text.size(); ++n) {
-        if (listing.text[n] == '\n') {
-            listing.line_starts.push_back(n + 1);
-        }
-    }
-    for (const gcode::Block& block : program.blocks) {
-        listing.line_of_block.push_back(std::max(block.source_line, 1));
-    }
-    return listing;
 }
 
 } // namespace
@@ -225,7 +206,7 @@ private:
         motion->trajectory = std::make_shared<const motion::Trajectory>(
             motion::plan(made.program, *now.machine, {}, progress));
         motion->listing =
-            std::make_shared<const gcode::Listing>(listing_of(now.text->bytes.text(), made.program));
+            std::make_shared<const gcode::Listing>(machine::listing_of(now.text->bytes.text(), made.program));
         motion->program = std::make_shared<const gcode::Program>(std::move(made.program));
         machine::Job job;
         job.machine = now.machine;

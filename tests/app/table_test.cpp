@@ -1,4 +1,5 @@
 // A project on a table at the other end of a pseudo-terminal, both of them the real program.
+#include "tests/app/emulator.h"
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -42,6 +43,101 @@ TEST(TableCommand, RefusedRecordEndsTheJobAndTheLogSaysHowFar) {
     EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine answered 'error' to record 50"));
     table.send(SIGINT);
     EXPECT_THAT(table.end().out, HasSubstr("49 records obeyed, 0 lines that were none"));
+}
+
+std::vector<std::string>
+send_words(const std::string& file, const std::string& port, const ScratchFolder& folder) {
+    return {"send",
+            file,
+            "--driver",
+            "records",
+            "--machine",
+            "forming-table",
+            "--port",
+            port,
+            "--answer",
+            "ok",
+            "--log",
+            (folder / "jobs").string()};
+}
+
+// The sign of the thesis in small: the table refuses a record, the job ends there and says how far it got,
+// and goes on from the next line: no position is lost or gone to twice.
+TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    const auto file = folder / "sign.ngc";
+    std::string text = "G21 G90\nG0 Z5\n";
+    for (int n = 1; n <= 20; ++n) {
+        text += "G1 X" + std::to_string(n) + " Y" + std::to_string(n % 2) + " F600\n";
+    }
+    write_content(file, text + "M2\n");
+    const auto table = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--answer", "ok"});
+        return std::make_unique<Emulator>(port, more, "table");
+    };
+    auto first = table({"--refuse", "12"});
+    const Ended broken = run(send_words(file.string(), port, folder));
+    EXPECT_EQ(broken.exit_code, 1);
+    EXPECT_THAT(broken.out + broken.err, HasSubstr("the machine answered 'error' to record 12"));
+    EXPECT_THAT(first->stop().out,
+                HasSubstr("11 records obeyed, 0 lines that were none, at X 10.0000 Y 0.0000"));
+    const Ended listed = run({"jobs", (folder / "jobs").string(), "--json"});
+    EXPECT_THAT(listed.out, HasSubstr("\"next_line\": 13"));
+
+    auto second = table({});
+    auto words = send_words(file.string(), port, folder);
+    words.insert(words.end(), {"--from-line", "13", "--at", "10,0,5"});
+    const Ended resumed = run(words);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    // Ten positions are left; the approach stands there already.
+    EXPECT_THAT(second->stop().out,
+                HasSubstr("10 records obeyed, 0 lines that were none, at X 20.0000 Y 0.0000"));
+}
+
+TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    const std::string title =
+        "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n";
+    write_content(folder / "good.path", title + "1,2,5,0,rapid,1\n1,2,-1,2,plunge,1\n480,2,-1,10,cut,1\n");
+    write_content(folder / "far.path", title + "1,2,5,0,rapid,1\n480.5,2,5,0,rapid,1\n");
+    Emulator table(port, {"--answer", "ok"}, "table");
+    const Ended far = run(send_words((folder / "far.path").string(), port, folder));
+    EXPECT_EQ(far.exit_code, 1);
+    EXPECT_THAT(far.err, HasSubstr("axis X would go to 480.500, outside 0.000 ... 480.000 mm"));
+    const Ended good = run(send_words((folder / "good.path").string(), port, folder));
+    EXPECT_EQ(good.exit_code, 0) << good.err;
+    EXPECT_THAT(table.stop().out,
+                HasSubstr("4 records obeyed, 0 lines that were none, at X 480.0000 Y 2.0000"));
+}
+
+TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    std::string points;
+    for (int n = 0; n < 36; ++n) {
+        const std::string at = std::to_string(n * 10.0 / 35.0);
+        points += at + "," + at + ",0.00\n";
+    }
+    write_content(folder / "diagonal.txt", points);
+    Emulator table(port, {"--record", "{X},{Y},{Z}"}, "table");
+    const Ended played = run(
+        {"plot", "play", (folder / "diagonal.txt").string(), "--period", "0.04", "--port", port, "--json"});
+    EXPECT_EQ(played.exit_code, 0) << played.err;
+    EXPECT_THAT(played.out, HasSubstr("\"points\": 36"));
+    EXPECT_THAT(played.out, HasSubstr("\"time_s\": 1.4"));
+    EXPECT_THAT(played.out, HasSubstr("\"p99\""));
+    EXPECT_THAT(table.stop().out,
+                HasSubstr("36 records obeyed, 0 lines that were none, at X 10.0000 Y 10.0000"));
+
+    const Ended fast = run({"plot", "play", (folder / "diagonal.txt").string(), "--period", "0.02"});
+    EXPECT_EQ(fast.exit_code, 1);
+    EXPECT_THAT(fast.err, HasSubstr("goes 10.000 mm/s at the most"));
+    write_content(folder / "bad.txt", "0,0,0\n1,nan,0\n");
+    const Ended bad = run({"plot", "play", (folder / "bad.txt").string(), "--period", "1"});
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_THAT(bad.err, HasSubstr("bad.txt:2"));
 }
 
 TEST(TableCommand, WrongRecordsAreRefused) {

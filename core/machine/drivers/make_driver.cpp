@@ -4,6 +4,7 @@
 #include "core/machine/drivers/cordic/cordic_driver.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/drivers/records/records_driver.h"
 #include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/links/link.h"
@@ -15,7 +16,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> names{"virtual", "grbl", "linuxcnc", "stream", "cordic"};
+constexpr std::array<std::string_view, 6> names{"virtual", "grbl", "linuxcnc", "stream", "cordic", "records"};
 
 void require_model(const MovedAxes& axes) {
     if (!axes.model) {
@@ -25,11 +26,12 @@ void require_model(const MovedAxes& axes) {
 
 std::unique_ptr<Driver> make_stream(const DriverChoice& choice, const MovedAxes& axes, const Clock& clock) {
     const bool to_file = choice.address.starts_with("file:");
-    return std::make_unique<StreamDriver>(make_link(choice.address),
-                                          clock,
-                                          axes.model,
-                                          axes.position,
-                                          StreamOptions{.period = choice.period, .paced = !to_file});
+    return std::make_unique<StreamDriver>(
+        make_link(choice.address),
+        clock,
+        axes.model,
+        axes.position,
+        StreamOptions{.period = choice.period, .paced = !to_file, .record = choice.record});
 }
 
 } // namespace
@@ -43,7 +45,7 @@ DriverKind driver_kind(std::string_view name) {
     if (found == names.end()) {
         throw Error("there is no driver '" + std::string(name) + "'",
                     {},
-                    "virtual, grbl, linuxcnc, stream or cordic");
+                    "virtual, grbl, linuxcnc, stream, cordic or records");
     }
     return static_cast<DriverKind>(found - names.begin());
 }
@@ -61,6 +63,14 @@ std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const MovedAxes&
     case DriverKind::stream:
         require_model(axes);
         return make_stream(choice, axes, clock);
+    case DriverKind::records:
+        require_model(axes);
+        return std::make_unique<RecordsDriver>(
+            make_link(choice.address),
+            clock,
+            axes.model,
+            axes.position,
+            RecordsOptions{.format = choice.record.value_or(RecordFormat())});
     case DriverKind::cordic:
         require_model(axes);
         return std::make_unique<CordicDriver>(axes.position, VirtualSpeed{axes.speed}, clock, axes.model);

@@ -4,16 +4,19 @@
 
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
+#include "core/machine/drivers/stream/record_format.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace millwright::machine {
 
-enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic };
+enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic, records };
 
-/// "virtual", "grbl", "linuxcnc", "stream", "cordic": as on the command line, and as Driver::name().
+/// "virtual", "grbl", "linuxcnc", "stream", "cordic", "records": as on the command line, and as
+/// Driver::name().
 [[nodiscard]] std::string_view to_text(DriverKind kind);
 /// Throws Error for any other name.
 [[nodiscard]] DriverKind driver_kind(std::string_view name);
@@ -25,6 +28,9 @@ struct DriverChoice {
     std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions
     bool one_by_one = false;  ///< Grbl: each line waits for the answer to the last
     double period = 0.01;     ///< of a coordinate stream: s between samples
+    /// Of a coordinate stream: records in place of its own lines. Of a table that takes one record a move:
+    /// not given means those of the KMITL thesis, without answers.
+    std::optional<RecordFormat> record = {};
 
     friend bool operator==(const DriverChoice&, const DriverChoice&) = default;
 };
@@ -36,9 +42,9 @@ struct MovedAxes {
     double speed = 1.0;                 ///< of those inside this program, see VirtualSpeed
 };
 
-/// Disconnected; nothing moves. `axes` is for the virtual machine, the CORDIC processor and the coordinate
-/// stream alone, `clock` must outlive the driver. A stream into a file goes as fast as it can. Throws Error
-/// for what was chosen wrongly: no address, no model, a value out of range.
+/// Disconnected; nothing moves. `axes` is for the virtual machine, the CORDIC processor, the coordinate
+/// stream and records alone, `clock` must outlive the driver. A stream into a file goes as fast as it can.
+/// Throws Error for what was chosen wrongly: no address, no model, a value out of range.
 [[nodiscard]] std::unique_ptr<Driver>
 make_driver(const DriverChoice& choice, const MovedAxes& axes, Clock& clock);
 

@@ -19,7 +19,7 @@ struct RecordFormat {
     std::string pattern = "t {X} {Y} {Z} {a} {s}";
     std::string ending = "\n"; ///< of a record
     bool relative = false;     ///< axes say how far, not where
-    std::string answer;        ///< what comes back for each record before the next is sent; empty: nothing
+    std::string answer = {};   ///< what comes back for each record before the next is sent; empty: nothing
     double patience = 5.0;     ///< an answer takes no longer, s, > 0
 
     friend bool operator==(const RecordFormat&, const RecordFormat&) = default;

@@ -190,22 +190,9 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
     return true;
 }
 
-/// The next line that came, blanks and line ends taken off; nothing if there is none.
 std::optional<std::string> StreamDriver::next_answer() {
-    inbox_ += link_->read();
-    while (true) {
-        const auto end = inbox_.find_first_of("\r\n");
-        if (end == std::string::npos) {
-            return std::nullopt;
-        }
-        std::string answer = inbox_.substr(0, end);
-        inbox_.erase(0, end + 1);
-        answer.erase(0, std::min(answer.find_first_not_of(' '), answer.size()));
-        answer.erase(answer.find_last_not_of(' ') + 1);
-        if (!answer.empty()) {
-            return answer;
-        }
-    }
+    inbox_.add(link_->read());
+    return inbox_.next();
 }
 
 /// Sends, and waits for the answer where one is awaited. Why that failed; nothing if it did not.

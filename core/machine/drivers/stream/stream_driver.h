@@ -7,6 +7,7 @@
 
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
+#include "core/machine/drivers/answer_lines.h"
 #include "core/machine/drivers/stream/record_format.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/links/link.h"
@@ -108,7 +109,7 @@ private:
     std::optional<RecordText> record_text_;
     RecordPath record_path_;
     std::vector<bool> linear_; ///< of each axis
-    std::string inbox_;        ///< what came and is no whole line yet
+    AnswerLines inbox_;
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;

@@ -1,14 +1,14 @@
-// The other end of a coordinate stream of records: a table that goes where each record says and answers it.
-// Lengths mm, angles degrees.
+// The other end of records: a table that goes where each one says and answers it, at once or when it is
+// there. Lengths mm.
 #pragma once
 
 #include "core/machine/drivers/stream/record_format.h"
-#include "core/machine/links/link.h"
+#include "core/machine/emulators/emulator.h"
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <thread>
+#include <deque>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::machine {
@@ -17,46 +17,59 @@ struct TableOptions {
     int decimals = 4;
     std::int64_t silent_from = 0; ///< from this record on (counted from 1) it answers nothing; 0: never
     std::int64_t refuses = 0;     ///< this record is answered by `error`, and not obeyed; 0: none
+    bool takes_time = false;      ///< moves at the speed that {s} says, and answers when it is there
     bool keep = false;            ///< every position, for tests
 };
 
-class TableEmulator {
+/// Begins at zero.
+class TableEmulator final : public Emulator {
 public:
-    /// Stands at zero. Opens the link and serves it in a thread of its own until destroyed. Throws Error for
-    /// a format or a link that cannot be.
-    TableEmulator(std::unique_ptr<Link> link,
-                  const RecordFormat& format,
+    /// Throws Error for a format that cannot be.
+    TableEmulator(const RecordFormat& format,
                   const kinematics::MachineModel& model,
-                  TableOptions options = {});
-    TableEmulator(const TableEmulator&) = delete;
-    TableEmulator& operator=(const TableEmulator&) = delete;
-    ~TableEmulator();
+                  const TableOptions& options = {});
+
+    void receive(std::string_view bytes) override;
+    void advance(double seconds) override;
+    [[nodiscard]] std::string take_output() override;
+    [[nodiscard]] bool moving() const override { return !due_.empty(); }
+    /// Stands where it is, and refuses everything until it is switched on again.
+    void raise_alarm() override;
+    /// Knows where it stands, and nothing else.
+    void power_cycle() override;
 
     /// Records that were obeyed.
-    [[nodiscard]] std::int64_t records() const;
+    [[nodiscard]] std::int64_t records() const { return records_; }
     /// Lines that were no record.
-    [[nodiscard]] std::int64_t bad_lines() const;
+    [[nodiscard]] std::int64_t bad_lines() const { return bad_lines_; }
     /// Of each axis of the machine.
-    [[nodiscard]] std::vector<double> position() const;
+    [[nodiscard]] const std::vector<double>& position() const { return position_; }
     /// After each record, if they are kept.
-    [[nodiscard]] std::vector<std::vector<double>> positions() const;
+    [[nodiscard]] const std::vector<std::vector<double>>& positions() const { return positions_; }
 
 private:
-    void serve(const std::stop_token& stop);
     void take(const std::string& line);
-    [[nodiscard]] std::string obey(const Record& record);
+    [[nodiscard]] double time_of(const Record& record) const;
+    void obey();
+    void answer(const std::string& text, std::int64_t record);
 
-    std::unique_ptr<Link> link_;
+    struct Due {
+        Record record;
+        std::int64_t number = 0;
+    };
+
     RecordFormat format_;
     RecordText text_;
     TableOptions options_;
-    mutable std::mutex mutex_; ///< guards what follows
+    std::string inbox_, outbox_;
+    bool alarm_ = false;
+    std::deque<Due> due_;   ///< the first is on its way
+    double way_left_ = 0.0; ///< s until it is there
     std::int64_t seen_ = 0;
     std::int64_t records_ = 0;
     std::int64_t bad_lines_ = 0;
     std::vector<double> position_;
     std::vector<std::vector<double>> positions_;
-    std::jthread thread_;
 };
 
 } // namespace millwright::machine

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/drivers/stream/stream_driver.h"
+#include "core/machine/emulators/emulator_server.h"
 #include "core/machine/links/pseudo_terminal.h"
 #include "core/machine/links/serial_link.h"
 #include "tests/core/machine/links/reading.h"
@@ -32,8 +33,11 @@ RecordFormat answered(bool relative) {
 struct Bench {
     explicit Bench(const RecordFormat& format, TableOptions options = {}) : format_(format) {
         options.keep = true;
-        table = std::make_unique<TableEmulator>(
-            std::make_unique<PseudoTerminal>(port.string()), format, *model, options);
+        std::vector<std::unique_ptr<Link>> links;
+        links.push_back(std::make_unique<PseudoTerminal>(port.string()));
+        links.back()->open();
+        server = std::make_unique<EmulatorServer>(
+            std::move(links), clock, std::make_unique<TableEmulator>(format, *model, options));
         driver = std::make_unique<StreamDriver>(
             make_link(port.string()),
             clock,
@@ -45,6 +49,22 @@ struct Bench {
 
     void wait_for_end() const {
         test::wait_until([&] { return driver->status().activity == Activity::none; });
+    }
+
+    /// Asks the table.
+    template <class Ask> auto table(const Ask& ask) const {
+        return server->with_emulator(
+            [&](Emulator& emulator) { return ask(static_cast<const TableEmulator&>(emulator)); });
+    }
+    [[nodiscard]] std::int64_t records() const {
+        return table([](const TableEmulator& now) { return now.records(); });
+    }
+    [[nodiscard]] std::int64_t bad_lines() const {
+        return table([](const TableEmulator& now) { return now.bad_lines(); });
+    }
+    [[nodiscard]] double position(char letter) const {
+        const auto axis = static_cast<std::size_t>(model->axis_index(letter));
+        return table([&](const TableEmulator& now) { return now.position()[axis]; });
     }
 
     /// What became of the last lines.
@@ -59,13 +79,13 @@ struct Bench {
     SteadyClock clock;
     std::shared_ptr<const kinematics::MachineModel> model =
         std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
-    std::unique_ptr<TableEmulator> table;
+    std::unique_ptr<EmulatorServer> server;
     std::unique_ptr<StreamDriver> driver;
 };
 
 /// Each step is one that the axes can make in a period, and the last position is where the program ends.
 void expect_whole_way(const Bench& bench, double x, double y) {
-    const auto positions = bench.table->positions();
+    const auto positions = bench.table([](const TableEmulator& now) { return now.positions(); });
     const auto axis = [&](char letter) { return static_cast<std::size_t>(bench.model->axis_index(letter)); };
     ASSERT_FALSE(positions.empty());
     EXPECT_NEAR(positions.back()[axis('X')], x, 1e-4);
@@ -77,8 +97,8 @@ void expect_whole_way(const Bench& bench, double x, double y) {
         }
         before = position;
     }
-    EXPECT_EQ(bench.table->records(), bench.driver->samples());
-    EXPECT_EQ(bench.table->bad_lines(), 0);
+    EXPECT_EQ(bench.records(), bench.driver->samples());
+    EXPECT_EQ(bench.bad_lines(), 0);
 }
 
 TEST(TableEmulator, ReceivesEveryRecordInOrder) {
@@ -86,7 +106,7 @@ TEST(TableEmulator, ReceivesEveryRecordInOrder) {
         Bench bench(answered(relative));
         bench.run("G21 G90 G94\nG1 X6 Y2 F3000\nX6 Y5\n");
         expect_whole_way(bench, 6.0, 5.0);
-        EXPECT_GT(bench.table->records(), 50);
+        EXPECT_GT(bench.records(), 50);
     }
 }
 
@@ -95,7 +115,7 @@ TEST(TableEmulator, NeedsNoAnswersWhereNoneAreAsked) {
     format.pattern = "G X{X} Y{Y} Z{Z}";
     Bench bench(format);
     bench.run("G21 G90 G94\nG1 X3 F3000\n");
-    test::wait_until([&] { return bench.table->records() == bench.driver->samples(); });
+    test::wait_until([&] { return bench.records() == bench.driver->samples(); });
     expect_whole_way(bench, 3.0, 0.0);
 }
 
@@ -116,16 +136,15 @@ TEST(TableEmulator, ThatRefusesARecordIsAnAlarmAndNothingMoreIsSent) {
     bench.run("G21 G90 G94\nG1 X20 F3000\n");
     EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
     EXPECT_THAT(bench.driver->status().message, HasSubstr("the machine answered 'error' to record 40"));
-    EXPECT_EQ(bench.table->records(), 39);
+    EXPECT_EQ(bench.records(), 39);
     EXPECT_THROW((void)bench.driver->command("G1 X1 F100"), Error);
-    EXPECT_EQ(bench.table->records(), 39);
+    EXPECT_EQ(bench.records(), 39);
     // What is claimed is what was answered.
-    const auto x = static_cast<std::size_t>(bench.model->axis_index('X'));
-    EXPECT_NEAR(
-        bench.driver->status().position[static_cast<Eigen::Index>(x)], bench.table->position()[x], 1e-4);
+    const int x = bench.model->axis_index('X');
+    EXPECT_NEAR(bench.driver->status().position[x], bench.position('X'), 1e-4);
     bench.driver->reset();
     bench.run("G21 G90 G94\nG1 X20 F3000\n");
-    EXPECT_NEAR(bench.table->position()[x], 20.0, 1e-4);
+    EXPECT_NEAR(bench.position('X'), 20.0, 1e-4);
 }
 
 TEST(TableEmulator, ThatFallsSilentIsAnAlarm) {
@@ -133,18 +152,18 @@ TEST(TableEmulator, ThatFallsSilentIsAnAlarm) {
     bench.run("G21 G90 G94\nG1 X20 F3000\n");
     EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
     EXPECT_THAT(bench.driver->status().message, HasSubstr("no answer to record 25 within 5 s"));
-    EXPECT_EQ(bench.table->records(), 25);
+    EXPECT_EQ(bench.records(), 25);
 }
 
 TEST(TableEmulator, StandsWithinOneRecordOfAnEmergencyStop) {
     Bench bench(answered(false));
     (void)bench.driver->command("G21 G90 G94\nG1 X100 F3000\n");
-    test::wait_until([&] { return bench.table->records() > 30; });
+    test::wait_until([&] { return bench.records() > 30; });
     bench.driver->emergency_stop();
     const std::int64_t then = bench.driver->samples();
     test::wait_until([&] { return bench.driver->status().state == DriverState::alarm; });
     bench.driver->close();
-    EXPECT_LE(bench.table->records(), then + 1);
+    EXPECT_LE(bench.records(), then + 1);
 }
 
 } // namespace

@@ -1,0 +1,152 @@
+#include "app/commands/plot_play.h"
+
+#include "app/interrupt.h"
+#include "app/progress_printer.h"
+#include "app/record_choice.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/kinematics/machine_file.h"
+#include "core/machine/point_player.h"
+#include "core/plot/point_file.h"
+#include "core/project/assets.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+using machine::Jitter;
+using machine::PlayState;
+using machine::PlayStatus;
+
+struct Options {
+    std::string file;
+    std::string port; ///< empty: nothing is sent
+    std::string machine = "forming-table";
+    machine::PlayerOptions player;
+    RecordChoice record = {.pattern = machine::PlayerOptions().format.pattern, .format = {}};
+    bool json = false;
+};
+
+/// All lines have to be points: a table goes to none that was guessed.
+std::shared_ptr<const std::vector<Vec3>> points_of(const Options& options) {
+    plot::PointFile read = plot::read_points(read_file(options.file), options.file);
+    if (!read.diagnostics.empty()) {
+        throw Error(read.diagnostics.front());
+    }
+    return std::make_shared<const std::vector<Vec3>>(std::move(read.points));
+}
+
+void print_jitter(const Jitter& jitter) {
+    constexpr double us = 1e6;
+    fmt::print(
+        "late by us: least {:.1f}, mean {:.1f}, median {:.1f}, 95 % {:.1f}, 99 % {:.1f}, most {:.1f}\n",
+        jitter.least * us,
+        jitter.mean * us,
+        jitter.median * us,
+        jitter.p95 * us,
+        jitter.p99 * us,
+        jitter.most * us);
+    for (std::size_t n = 0; n < jitter.histogram.size(); ++n) {
+        const double part = static_cast<double>(jitter.histogram[n]) /
+                            static_cast<double>(std::max<std::int64_t>(jitter.count, 1));
+        const bool last = n == Jitter::bounds.size();
+        fmt::print("{} {:>6.0f} us {:>10}  {}\n",
+                   last ? "later than" : "up to     ",
+                   Jitter::bounds[last ? n - 1 : n] * us,
+                   jitter.histogram[n],
+                   std::string(static_cast<std::size_t>(part * 40.0 + 0.5), '#'));
+    }
+}
+
+void print_json(const PlayStatus& status) {
+    const Jitter& jitter = status.jitter;
+    const nlohmann::ordered_json answer = {
+        {"done", status.state == PlayState::done},
+        {"points", status.points},
+        {"time_s", status.time},
+        {"position_mm", {status.position.x(), status.position.y(), status.position.z()}},
+        {"late_s",
+         {{"least", jitter.least},
+          {"mean", jitter.mean},
+          {"median", jitter.median},
+          {"p95", jitter.p95},
+          {"p99", jitter.p99},
+          {"most", jitter.most}}},
+        {"histogram", jitter.histogram},
+        {"sentence", status.sentence}};
+    fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+int play(const Options& options) {
+    const Interrupt interrupt;
+    const auto points = points_of(options);
+    const kinematics::MachineModel model = kinematics::read_machine(
+        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
+    if (const auto faults =
+            machine::check_points(*points, options.player.period / options.player.speed, model, options.file);
+        !faults.empty()) {
+        throw Error(faults.front());
+    }
+    machine::PlayerOptions player = options.player;
+    player.format = record_of(options.record).value();
+    machine::SteadyClock clock;
+    machine::PointPlayer table(
+        options.port.empty() ? nullptr : machine::make_link(options.port), clock, points, model, player);
+    ProgressPrinter printer;
+    const PlayStatus end = table.play(interrupt.token(), [&](const PlayStatus& now) {
+        printer.show({static_cast<double>(now.points) / static_cast<double>(points->size()),
+                      fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, late by {:.0f} us at the most",
+                                  now.position.x(),
+                                  now.position.y(),
+                                  now.position.z(),
+                                  now.jitter.most * 1e6)});
+    });
+    printer.finish();
+    if (options.json) {
+        print_json(end);
+    } else {
+        fmt::print("{} of {} points in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
+                   end.points,
+                   points->size(),
+                   end.time,
+                   end.position.x(),
+                   end.position.y(),
+                   end.position.z());
+        print_jitter(end.jitter);
+    }
+    if (end.state != PlayState::done) {
+        throw Error(fmt::format("{}: nothing was sent after point {}", end.sentence, end.points));
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_plot_play(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point a period");
+    command.add_option("FILE", options->file, "Point file")->required();
+    command.add_option("--period", options->player.period, "Between two points, s")->required();
+    command.add_option("--port", options->port, "Serial port or tcp:HOST:PORT; without it nothing is sent")
+        ->type_name("PORT");
+    command.add_option("--machine", options->machine, "Whose limits hold: shipped machine or machine file")
+        ->capture_default_str();
+    command.add_option("--speed", options->player.speed, "Times real time")->capture_default_str();
+    add_record_options(command, options->record);
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.callback([&chosen, options] { chosen = [options] { return play(*options); }; });
+}
+
+} // namespace millwright::app

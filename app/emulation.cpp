@@ -1,0 +1,95 @@
+#include "app/emulation.h"
+
+#include "app/interrupt.h"
+#include "core/base/error.h"
+#include "core/machine/clock.h"
+#include "core/machine/emulators/emulator_server.h"
+#include "core/machine/links/fault_link.h"
+#include "core/machine/links/pseudo_terminal.h"
+#include "core/machine/links/tcp_server.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using Links = std::vector<std::unique_ptr<machine::Link>>;
+
+Links open_links(const EmulationChoice& choice,
+                 const std::string& name,
+                 const machine::FaultSpec& faults,
+                 const machine::Clock& clock) {
+    Links inner;
+    if (!choice.pty.empty()) {
+        inner.push_back(std::make_unique<machine::PseudoTerminal>(choice.pty));
+    }
+    if (choice.tcp >= 0) {
+        inner.push_back(
+            std::make_unique<machine::TcpServer>(static_cast<std::uint16_t>(choice.tcp), choice.bind));
+    }
+    if (inner.empty()) {
+        throw Error("nobody could reach the emulated controller", {}, "name --pty LINK or --tcp PORT");
+    }
+    Links links;
+    for (auto& link : inner) {
+        links.push_back(std::make_unique<machine::FaultLink>(
+            std::move(link), faults, machine::WireEnd::controller, clock));
+        links.back()->open();
+        fmt::print("{} at {}\n", name, links.back()->name());
+    }
+    std::fflush(stdout);
+    return links;
+}
+
+} // namespace
+
+void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
+    command.add_option("--pty", choice.pty, "Symbolic link to make to a pseudo-terminal")->type_name("LINK");
+    constexpr int greatest_port = 65535;
+    command.add_option("--tcp", choice.tcp, "TCP port to listen on; 0: any free one")
+        ->check(CLI::Range(0, greatest_port))
+        ->type_name("PORT");
+    command.add_option("--bind", choice.bind, "Address to listen on")
+        ->type_name("ADDRESS")
+        ->capture_default_str();
+    command.add_option("--faults", choice.faults, "Faults of wire and controller, as drop=0.001,seed=7")
+        ->type_name("SPEC");
+    constexpr double slowest = 0.01;
+    constexpr double fastest = 1000.0;
+    command.add_option("--speed", choice.speed, "Machine seconds a second")
+        ->check(CLI::Range(slowest, fastest))
+        ->capture_default_str();
+}
+
+int serve(const EmulationChoice& choice,
+          const std::string& name,
+          const std::function<std::unique_ptr<machine::Emulator>()>& make,
+          const std::function<void(const machine::Emulator&)>& last_words) {
+    const Interrupt interrupt; // before the emulator, which may have a thread
+    const machine::FaultSpec faults = machine::read_fault_spec(choice.faults);
+    machine::SteadyClock clock;
+    machine::EmulatorServer server(
+        open_links(choice, name, faults, clock), clock, make(), choice.speed, faults);
+    while (!interrupt.token().stop_requested()) {
+        constexpr double glance = 0.05;
+        clock.wait(glance);
+        if (const std::string failure = server.failure(); !failure.empty()) {
+            throw Error("the emulated controller failed: " + failure);
+        }
+    }
+    if (last_words) {
+        server.with_emulator([&](const machine::Emulator& served) { last_words(served); });
+    }
+    return 0;
+}
+
+} // namespace millwright::app

@@ -1,0 +1,35 @@
+// Emulated controllers at the other end of a wire, on the command line.
+#pragma once
+
+#include "core/machine/emulators/emulator.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+/// What the options --pty, --tcp, --bind, --faults and --speed say.
+struct EmulationChoice {
+    std::string pty;
+    int tcp = -1;
+    std::string bind = "127.0.0.1";
+    std::string faults;
+    double speed = 1.0;
+};
+
+/// Adds them to `command`.
+void add_emulation_options(CLI::App& command, EmulationChoice& choice);
+
+/// Serves until somebody ends it, then tells by `last_words` how it was. `name` is what reaches people. The
+/// exit code. Throws Error.
+[[nodiscard]] int serve(const EmulationChoice& choice,
+                        const std::string& name,
+                        const std::function<std::unique_ptr<machine::Emulator>()>& make,
+                        const std::function<void(const machine::Emulator&)>& last_words = {});
+
+} // namespace millwright::app

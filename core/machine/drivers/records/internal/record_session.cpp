@@ -1,0 +1,308 @@
+#include "core/machine/drivers/records/internal/record_session.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace millwright::machine::records {
+
+using gcode::Block;
+using gcode::BlockKind;
+using kinematics::AxisPositions;
+using kinematics::MachineAxis;
+using kinematics::MachineModel;
+
+namespace {
+
+/// The most that `limit` of the axes allows along `way`.
+double along(const MachineModel& model, const AxisPositions& way, double MachineAxis::*limit) {
+    double most = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < model.axis_count(); ++n) {
+        if (std::abs(way[n]) > 0.0) {
+            most = std::min(most, model.axis(n).*limit * way.norm() / std::abs(way[n]));
+        }
+    }
+    return most;
+}
+
+/// From rest to rest.
+double time_of(double length, double speed, double acceleration) {
+    const double to_speed = speed * speed / acceleration; // mm: to get up to it, and down again
+    return length < to_speed ? 2.0 * std::sqrt(length / acceleration) : length / speed + speed / acceleration;
+}
+
+std::vector<double> values_of(const AxisPositions& position) {
+    return {position.data(), position.data() + position.size()};
+}
+
+RecordText checked_text(const RecordsOptions& options, const MachineModel& model) {
+    constexpr int most_decimals = 9;
+    if (options.decimals < 0 || options.decimals > most_decimals) {
+        throw Error(fmt::format("{} decimals are not between 0 and {}", options.decimals, most_decimals));
+    }
+    for (const MachineAxis& axis : model.axes()) {
+        if (axis.kind != kinematics::AxisKind::linear) {
+            throw Error(fmt::format("the table is told straight moves, and '{}' has the rotary axis {}",
+                                    model.name(),
+                                    axis.letter));
+        }
+    }
+    return {options.format, model, options.decimals};
+}
+
+} // namespace
+
+RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
+                             AxisPositions position,
+                             const RecordsOptions& options)
+    : model_(std::move(model)), format_(options.format), decimals_(options.decimals),
+      text_(checked_text(options, *model_)), path_(options.format.relative, 1.0, options.decimals) {
+    expects(position.size() == model_->axis_count(), "the table stands somewhere");
+    status_.position = std::move(position);
+    status_.velocity = status_.work_offset = AxisPositions::Zero(model_->axis_count());
+}
+
+void RecordSession::opened(double /*now*/) {
+    inbox_.clear();
+    path_.begin(values_of(status_.position));
+    status_.link_lost = false;
+    if (status_.state == DriverState::disconnected) {
+        status_.state = DriverState::idle;
+    }
+}
+
+void RecordSession::lost(const std::string& why) {
+    status_.link_lost = true;
+    alarm("the link was lost: " + why);
+}
+
+void RecordSession::closed() {
+    status_.state = DriverState::disconnected;
+    status_.activity = Activity::none;
+    status_.message.clear();
+    under_way_.reset();
+    program_.reset();
+    outbox_.clear();
+}
+
+std::string RecordSession::take_output() {
+    return std::exchange(outbox_, {});
+}
+
+void RecordSession::rest(DriverState state, std::string why) {
+    status_.state = state;
+    status_.message = std::move(why);
+    rests_ = state == DriverState::holding;
+    if (state != DriverState::holding) {
+        status_.activity = Activity::none;
+        program_.reset();
+    }
+}
+
+void RecordSession::alarm(std::string why) {
+    uncertain_ = uncertain_ || (under_way_ && under_way_->record);
+    under_way_.reset();
+    outbox_.clear();
+    rest(DriverState::alarm, std::move(why));
+}
+
+void RecordSession::start(const Work& work, double now) {
+    if (status_.state != DriverState::idle && status_.state != DriverState::stopped) {
+        throw Error(
+            fmt::format("the table is {} and takes no program", to_text(status_.state)), {}, status_.message);
+    }
+    if (!work.program) {
+        throw Error("the records driver cannot run a text that was not made here");
+    }
+    for (const Block& block : work.program->blocks) {
+        expects(block.target.size() == model_->axis_count(), "the program is for this table");
+    }
+    program_ = work.program;
+    allowed_ = work.allowed_blocks.value_or(program_->block_count());
+    status_.block = 0;
+    status_.executed_blocks = status_.sent_blocks = 0;
+    status_.fraction = 0.0;
+    status_.message.clear();
+    status_.state = DriverState::running;
+    status_.activity = Activity::program;
+    tick(now);
+}
+
+void RecordSession::allow(int blocks) {
+    allowed_ = std::max(allowed_, blocks);
+}
+
+void RecordSession::receive(std::string_view bytes, double now) {
+    inbox_.add(bytes);
+    while (const auto line = inbox_.next()) {
+        if (awaits_answers() && status_.state != DriverState::alarm) {
+            answered(*line, now);
+        }
+    }
+}
+
+void RecordSession::answered(const std::string& line, double now) {
+    if (!under_way_ || !under_way_->record) {
+        alarm(fmt::format("the machine said '{}' before record {} was sent", line, records_ + 1));
+    } else if (line != format_.answer) {
+        alarm(fmt::format("the machine answered '{}' to record {}", line, records_));
+    } else {
+        land(now);
+    }
+}
+
+/// What was under way is over.
+void RecordSession::land(double now) {
+    status_.position = under_way_->target;
+    under_way_.reset();
+    executed();
+    tick(now);
+}
+
+void RecordSession::executed() {
+    ++status_.executed_blocks;
+    status_.block = std::min(status_.executed_blocks, program_->block_count() - 1);
+    if (single_block_ && status_.state == DriverState::running) {
+        status_.state = DriverState::holding;
+    }
+}
+
+void RecordSession::look_at_clock(double now) {
+    if (!under_way_ || now < under_way_->over) {
+        return;
+    }
+    if (!under_way_->record || !awaits_answers()) {
+        land(now);
+    } else if (now > under_way_->over + format_.patience) {
+        alarm(fmt::format(
+            "no answer to record {} within {} s of the time that it takes", records_, format_.patience));
+    }
+}
+
+bool RecordSession::may_begin_block() const {
+    return status_.state == DriverState::running && !under_way_ && status_.executed_blocks < allowed_;
+}
+
+void RecordSession::tick(double now) {
+    look_at_clock(now);
+    while (may_begin_block() && status_.executed_blocks < program_->block_count()) {
+        begin_block(now);
+    }
+    if (under_way_ || !program_) {
+        return;
+    }
+    if (status_.state == DriverState::stopping) {
+        rest(DriverState::stopped);
+    } else if (status_.executed_blocks == program_->block_count()) {
+        rest(DriverState::idle);
+    } else if (status_.state == DriverState::holding && !rests_) {
+        rest(DriverState::holding, status_.message);
+    }
+}
+
+void RecordSession::begin_block(double now) {
+    const Block& block = program_->blocks[static_cast<std::size_t>(status_.executed_blocks)];
+    status_.sent_blocks = status_.executed_blocks + 1;
+    if (block.kind == BlockKind::dwell) {
+        under_way_ = UnderWay{status_.position, now + block.duration, false};
+        return;
+    }
+    if (block.moves()) {
+        send(block, now);
+        return;
+    }
+    if (block.kind == BlockKind::pause) {
+        executed();
+        rest(DriverState::holding, block.text.empty() ? "the program waits" : block.text);
+        return;
+    }
+    executed();
+}
+
+void RecordSession::send(const Block& block, double now) {
+    const AxisPositions way = block.target - status_.position;
+    const double length = way.norm();
+    const double smallest = 0.5 * std::pow(10.0, -decimals_);
+    if (!(way.cwiseAbs().maxCoeff() >= smallest)) { // it stands there already, as far as records can tell
+        executed();
+        return;
+    }
+    const double fastest = along(*model_, way, &MachineAxis::max_velocity);
+    double speed = fastest;
+    if (block.kind == BlockKind::feed) {
+        constexpr double percent = 0.01;
+        speed = std::min(fastest, length / block.duration * percent * status_.overrides.feed);
+    }
+    Record record = path_.to(values_of(block.target), std::vector<bool>(values_of(way).size(), true));
+    record.speed = speed;
+    record.acceleration = along(*model_, way, &MachineAxis::max_acceleration);
+    outbox_ += text_.written(record) + format_.ending;
+    ++records_;
+    status_.feed = speed;
+    under_way_ = UnderWay{block.target, now + time_of(length, speed, record.acceleration), true};
+}
+
+void RecordSession::hold(double /*now*/) {
+    if (status_.state == DriverState::running) {
+        status_.state = DriverState::holding;
+        rests_ = !under_way_;
+    }
+}
+
+void RecordSession::resume(double now) {
+    if (status_.state == DriverState::holding) {
+        status_.state = DriverState::running;
+        status_.message.clear();
+        rests_ = false;
+        tick(now);
+    }
+}
+
+void RecordSession::stop(double now) {
+    if (status_.state == DriverState::running || status_.state == DriverState::holding) {
+        status_.state = DriverState::stopping;
+        tick(now);
+    }
+}
+
+void RecordSession::emergency_stop(double /*now*/) {
+    if (status_.state != DriverState::disconnected) {
+        alarm("emergency stop");
+    }
+}
+
+void RecordSession::reset(double /*now*/) {
+    if (status_.state != DriverState::alarm) {
+        return;
+    }
+    if (uncertain_ && format_.relative) {
+        throw Error(fmt::format("nobody knows whether record {} was obeyed", records_),
+                    {},
+                    "look where the table stands, and connect anew from there");
+    }
+    uncertain_ = false;
+    path_.begin(values_of(status_.position));
+    rest(DriverState::idle);
+}
+
+void RecordSession::home(double /*now*/) {
+    throw Error("a table that takes records cannot be homed from here");
+}
+
+void RecordSession::jog(const Jog& /*jog*/, double /*now*/) {
+    throw Error("a record cannot be taken back, so this table is not moved by hand from here");
+}
+
+void RecordSession::set_overrides(const Overrides& wanted) {
+    constexpr int least = 10;
+    constexpr int most = 200;
+    status_.overrides.feed = std::clamp(wanted.feed, least, most);
+}
+
+} // namespace millwright::machine::records

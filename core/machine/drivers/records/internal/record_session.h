@@ -1,0 +1,86 @@
+// The conversation with a table that takes one record a move: the next one goes when the last was answered,
+// or, where nothing is answered, when the move must be over. Lengths mm, times s.
+#pragma once
+
+#include "core/machine/drivers/answer_lines.h"
+#include "core/machine/drivers/internal/controller_session.h"
+#include "core/machine/drivers/records/records_driver.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::machine::records {
+
+class RecordSession final : public internal::ControllerSession {
+public:
+    RecordSession(std::shared_ptr<const kinematics::MachineModel> model,
+                  kinematics::AxisPositions position,
+                  const RecordsOptions& options);
+
+    /// Throws Error unless idle or stopped, or if the program is not for this machine.
+    void start(const Work& work, double now);
+    void allow(int blocks);
+    void set_single_block(bool on) { single_block_ = on; }
+    /// Records that were sent so far.
+    [[nodiscard]] int records() const { return records_; }
+
+    void opened(double now) override;
+    void lost(const std::string& why) override;
+    void closed() override;
+    void receive(std::string_view bytes, double now) override;
+    void tick(double now) override;
+    [[nodiscard]] std::string take_output() override;
+
+    [[nodiscard]] DriverStatus status() const override { return status_; }
+    [[nodiscard]] bool greeted() const override { return true; }
+    [[nodiscard]] bool link_lost() const override { return status_.link_lost; }
+    [[nodiscard]] std::optional<Diagnostic> stranger() const override { return std::nullopt; }
+
+    void hold(double now) override;
+    void resume(double now) override;
+    void stop(double now) override;
+    void emergency_stop(double now) override;
+    void reset(double now) override;
+    void home(double now) override;
+    void jog(const Jog& jog, double now) override;
+    void stop_jog(double /*now*/) override {}
+    void set_overrides(const Overrides& wanted) override;
+
+private:
+    /// What the machine is at.
+    struct UnderWay {
+        kinematics::AxisPositions target;
+        double over = 0.0;   ///< when it should be over
+        bool record = false; ///< else a dwell, of which nobody answers
+    };
+
+    [[nodiscard]] bool awaits_answers() const { return !format_.answer.empty(); }
+    void answered(const std::string& line, double now);
+    void look_at_clock(double now);
+    void land(double now);
+    void begin_block(double now);
+    void send(const gcode::Block& block, double now);
+    [[nodiscard]] bool may_begin_block() const;
+    void executed();
+    void rest(DriverState state, std::string why = {});
+    void alarm(std::string why);
+
+    std::shared_ptr<const kinematics::MachineModel> model_;
+    RecordFormat format_;
+    int decimals_;
+    RecordText text_;
+    RecordPath path_;
+    std::shared_ptr<const gcode::Program> program_;
+    int allowed_ = 0;
+    std::optional<UnderWay> under_way_;
+    bool rests_ = false; ///< held, and what was under way is over
+    bool single_block_ = false;
+    bool uncertain_ = false; ///< nobody knows whether the last record was obeyed
+    int records_ = 0;
+    AnswerLines inbox_;
+    std::string outbox_;
+    DriverStatus status_;
+};
+
+} // namespace millwright::machine::records

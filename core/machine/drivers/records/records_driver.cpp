@@ -1,0 +1,62 @@
+#include "core/machine/drivers/records/records_driver.h"
+
+#include "core/machine/drivers/internal/console_tap.h"
+#include "core/machine/drivers/records/internal/record_session.h"
+
+#include <utility>
+
+namespace millwright::machine {
+
+using records::RecordSession;
+
+namespace {
+
+ConsoleKind kind_of(std::string_view line, bool sent) {
+    if (sent) {
+        return ConsoleKind::line;
+    }
+    return line == "error" ? ConsoleKind::fault : ConsoleKind::answer;
+}
+
+} // namespace
+
+RecordsDriver::RecordsDriver(std::unique_ptr<Link> link,
+                             const Clock& clock,
+                             std::shared_ptr<const kinematics::MachineModel> model,
+                             kinematics::AxisPositions position,
+                             const RecordsOptions& options)
+    : SessionDriver(std::move(link),
+                    clock,
+                    std::make_unique<RecordSession>(std::move(model), std::move(position), options),
+                    {.kind_of = kind_of}) {}
+
+RecordsDriver::~RecordsDriver() {
+    close();
+}
+
+RecordSession& RecordsDriver::talk() const {
+    return static_cast<RecordSession&>(session());
+}
+
+Capabilities RecordsDriver::capabilities() const {
+    Capabilities able;
+    able.plans = able.overrides = able.single_block = able.piecewise = true;
+    return able;
+}
+
+void RecordsDriver::start(Work work) {
+    const Turn turn(*this);
+    talk().start(work, turn.now());
+}
+
+void RecordsDriver::allow(int blocks) {
+    const Turn turn(*this);
+    talk().allow(blocks);
+}
+
+void RecordsDriver::set_single_block(bool on) {
+    const Turn turn(*this);
+    talk().set_single_block(on);
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,29 @@
+// Files as jobs of a machine that is moved position by position: G-code, and path files.
+#pragma once
+
+#include "core/gcode/reader/dialect.h"
+#include "core/machine/job.h"
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace millwright::machine {
+
+/// The lines of `text` with the blocks that were made of them, by Block::source_line.
+[[nodiscard]] gcode::Listing listing_of(std::string_view text, const gcode::Program& program);
+
+struct FileJobSettings {
+    gcode::Dialect dialect = gcode::Dialect::linuxcnc; ///< of G-code
+    /// Where the machine stands; not given: at zero, or at its nearest limits.
+    std::optional<kinematics::AxisPositions> start = {};
+};
+
+/// The job of a G-code file, or of a path file (core/plot/path_file.h), whose first line says so. The blocks
+/// tell their lines. Throws Error with file and line for what is wrong in it, and for what the machine cannot
+/// do.
+[[nodiscard]] Job file_job(const std::filesystem::path& file,
+                           std::shared_ptr<const kinematics::MachineModel> machine,
+                           const FileJobSettings& settings = {});
+
+} // namespace millwright::machine

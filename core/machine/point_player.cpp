@@ -1,0 +1,218 @@
+#include "core/machine/point_player.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace millwright::machine {
+
+using kinematics::MachineAxis;
+using kinematics::MachineModel;
+
+namespace {
+
+constexpr std::string_view letters = "XYZ";
+
+std::array<std::size_t, 3> indices_of(const MachineModel& model) {
+    std::array<std::size_t, 3> found{};
+    for (std::size_t n = 0; n < found.size(); ++n) {
+        const int axis = model.axis_index(letters[n]);
+        if (axis < 0) {
+            throw Error(fmt::format("machine '{}' has no axis {}", model.name(), letters[n]));
+        }
+        found[n] = static_cast<std::size_t>(axis);
+    }
+    return found;
+}
+
+void expect_within(double value, double least, double most, const char* what) {
+    if (!(value >= least && value <= most)) {
+        throw Error(fmt::format("{} of {} is not between {} and {}", what, value, least, most));
+    }
+}
+
+PlayerOptions checked(const PlayerOptions& options) {
+    expect_within(options.period, 0.0005, 10.0, "a period");
+    expect_within(options.speed, 0.01, 100.0, "a speed");
+    expect_within(options.decimals, 0, 9, "a number of decimals");
+    return options;
+}
+
+} // namespace
+
+std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
+                                     double period,
+                                     const MachineModel& model,
+                                     const std::filesystem::path& file) {
+    const auto index = indices_of(model);
+    std::vector<Diagnostic> found;
+    std::set<std::pair<std::size_t, bool>> told;
+    const auto tell = [&](std::size_t n, std::size_t axis, bool place, std::string sentence) {
+        if (told.insert({axis, place}).second) {
+            found.push_back({{file, static_cast<int>(n) + 1, 0, -1}, std::move(sentence), {}});
+        }
+    };
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const MachineAxis& axis = model.axis(static_cast<int>(index[k]));
+            const double at = points[n][static_cast<Eigen::Index>(k)];
+            if (!(at >= axis.min && at <= axis.max)) {
+                tell(n,
+                     k,
+                     true,
+                     fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} mm",
+                                 axis.letter,
+                                 at,
+                                 axis.min,
+                                 axis.max));
+            }
+            const double way = n == 0 ? 0.0 : std::abs(at - points[n - 1][static_cast<Eigen::Index>(k)]);
+            constexpr double rounding = 1.001; // of the points' digits
+            if (way > axis.max_velocity * period * rounding) {
+                tell(n,
+                     k,
+                     false,
+                     fmt::format("axis {} would go {:.3f} mm in {} s, and goes {:.3f} mm/s at the most",
+                                 axis.letter,
+                                 way,
+                                 period,
+                                 axis.max_velocity));
+            }
+        }
+    }
+    return found;
+}
+
+PointPlayer::PointPlayer(std::unique_ptr<Link> link,
+                         Clock& clock,
+                         std::shared_ptr<const std::vector<Vec3>> points,
+                         const MachineModel& model,
+                         const PlayerOptions& options)
+    : link_(std::move(link)), clock_(clock), points_(std::move(points)), options_(checked(options)),
+      text_(options.format, model, options.decimals),
+      path_(options.format.relative, options.period, options.decimals), index_(indices_of(model)),
+      axes_(static_cast<std::size_t>(model.axis_count())) {
+    if (points_->empty()) {
+        throw Error("there is no point to play");
+    }
+    status_.position = points_->front();
+}
+
+PointPlayer::~PointPlayer() {
+    if (link_) {
+        link_->close();
+    }
+}
+
+PlayStatus PointPlayer::status() const {
+    const std::scoped_lock lock(mutex_);
+    PlayStatus now = status_;
+    now.jitter = meter_.jitter();
+    return now;
+}
+
+void PointPlayer::end(PlayState state, std::string sentence) {
+    const std::scoped_lock lock(mutex_);
+    if (status_.state == PlayState::ready || status_.state == PlayState::playing) {
+        status_.state = state;
+        status_.sentence = std::move(sentence);
+    }
+}
+
+void PointPlayer::emergency_stop() {
+    end(PlayState::emergency_stop, "emergency stop");
+}
+
+/// What the table says that it should not; empty: nothing.
+std::string PointPlayer::complaint() {
+    if (!link_) {
+        return {};
+    }
+    if (const auto why = link_->lost()) {
+        return "the link was lost: " + *why;
+    }
+    inbox_.add(link_->read());
+    while (const auto line = inbox_.next()) {
+        if (*line != options_.format.answer) {
+            return fmt::format("the table said '{}'", *line);
+        }
+    }
+    return {};
+}
+
+/// In glances, so that a stop is soon seen.
+void PointPlayer::wait_until(double time, const std::stop_token& stop) {
+    constexpr double glance = 0.02;
+    for (double left = time - clock_.now(); left > 0.0 && !stop.stop_requested();
+         left = time - clock_.now()) {
+        clock_.wait(std::min(left, glance));
+    }
+}
+
+/// False when nothing may be sent any more.
+bool PointPlayer::send(std::size_t n, double due) {
+    const Vec3& point = (*points_)[n];
+    for (std::size_t k = 0; k < 3; ++k) {
+        axes_[index_[k]] = point[static_cast<Eigen::Index>(k)];
+    }
+    if (n == 0) {
+        path_.begin(axes_);
+    }
+    const Record record = path_.to(axes_, std::vector<bool>(axes_.size(), true));
+    const std::string text = text_.written(record) + options_.format.ending;
+    const std::scoped_lock lock(mutex_);
+    if (status_.state != PlayState::playing) {
+        return false;
+    }
+    meter_.add(clock_.now() - due);
+    if (link_) {
+        link_->write(text);
+    }
+    status_.points = static_cast<std::int64_t>(n) + 1;
+    status_.position = point;
+    status_.time = static_cast<double>(n) * options_.period;
+    return true;
+}
+
+PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listener) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (std::exchange(begun_, true)) {
+            throw Error("these points were played before");
+        }
+        if (status_.state == PlayState::ready) {
+            status_.state = PlayState::playing;
+        }
+    }
+    if (link_) {
+        link_->open();
+    }
+    const double interval = options_.period / options_.speed;
+    const double begin = clock_.now();
+    double told = begin;
+    for (std::size_t n = 0; n < points_->size(); ++n) {
+        const double due = begin + static_cast<double>(n) * interval;
+        wait_until(due, stop);
+        if (const std::string why = complaint(); !why.empty()) {
+            end(PlayState::emergency_stop, why);
+        }
+        if (stop.stop_requested()) {
+            emergency_stop();
+        }
+        if (!send(n, due)) {
+            return status();
+        }
+        constexpr double between_reports = 0.1;
+        if (listener && clock_.now() - told >= between_reports) {
+            told = clock_.now();
+            listener(status());
+        }
+    }
+    end(PlayState::done, {});
+    return status();
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,294 @@
+// The driver's side of records and an emulated table with a wire between them, in computed time.
+#include "core/machine/drivers/records/internal/record_session.h"
+
+#include "core/machine/emulators/table/table_emulator.h"
+#include "core/machine/file_job.h"
+#include "tests/core/machine/drivers/session_wire.h"
+#include "tests/support/machines.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+namespace millwright::machine::records {
+namespace {
+
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+using testing::HasSubstr;
+
+const std::shared_ptr<const MachineModel>& table_model() {
+    static const auto model = std::make_shared<const MachineModel>(test::machine("forming-table"));
+    return model;
+}
+
+RecordFormat answered(bool relative = false) {
+    RecordFormat format;
+    format.relative = relative;
+    format.answer = "ok";
+    return format;
+}
+
+Job job_of(const std::string& text) {
+    const test::ScratchFolder folder;
+    const auto file = folder / "part.ngc";
+    std::ofstream(file) << text;
+    return file_job(file, table_model());
+}
+
+/// A way around with `count` corners that no two neighbours share.
+std::string zigzag(int count) {
+    std::string text = "G21 G90\nG0 X5 Y5\nG1 F600\n";
+    for (int n = 1; n < count; ++n) {
+        text += "X" + std::to_string(5 + n) + " Y" + std::to_string(5 + n % 2) + "\n";
+    }
+    return text + "M2\n";
+}
+
+class Wire : public test::SessionWire<RecordSession, TableEmulator> {
+public:
+    explicit Wire(TableEmulator& table,
+                  const RecordFormat& format,
+                  AxisPositions at = AxisPositions::Zero(3),
+                  const FaultSpec& faults = {})
+        : SessionWire(table, RecordSession(table_model(), std::move(at), {.format = format}), 0.01) {
+        greet();
+        begin_faults(faults);
+    }
+    void start(const Job& job) { session.start({job.program, nullptr, job.listing, {}}, now); }
+};
+
+TableEmulator table_of(const RecordFormat& format, TableOptions options = {}) {
+    options.keep = true;
+    return {format, *table_model(), options};
+}
+
+std::vector<AxisPositions> moves_of(const Job& job, int from = 0) {
+    std::vector<AxisPositions> targets;
+    AxisPositions at = job.program->start;
+    for (int n = 0; n < job.program->block_count(); ++n) {
+        const auto& block = job.program->blocks[static_cast<std::size_t>(n)];
+        if (n >= from && block.moves() && (block.target - at).norm() > 1e-6) {
+            targets.push_back(block.target);
+        }
+        at = block.target;
+    }
+    return targets;
+}
+
+void expect_same_way(const TableEmulator& table, const std::vector<AxisPositions>& targets) {
+    ASSERT_EQ(table.positions().size(), targets.size());
+    for (std::size_t n = 0; n < targets.size(); ++n) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(table.positions()[n][axis], targets[n][static_cast<Eigen::Index>(axis)], 1e-4) << n;
+        }
+    }
+}
+
+TEST(RecordSession, GivesEachMoveOnceAndInOrder) {
+    const Job job = job_of(zigzag(20));
+    for (const bool relative : {false, true}) {
+        for (const bool takes_time : {false, true}) {
+            TableEmulator table = table_of(answered(relative), {.takes_time = takes_time});
+            Wire wire(table, answered(relative));
+            wire.start(job);
+            ASSERT_TRUE(wire.run_to_end());
+            EXPECT_EQ(wire.state(), DriverState::idle);
+            EXPECT_EQ(wire.session.status().executed_blocks, job.block_count());
+            expect_same_way(table, moves_of(job));
+        }
+    }
+}
+
+// 3 mm in x at 2 mm/s: the words of the thesis. A rapid goes as fast as the axes: 10 mm/s, 200 mm/s^2.
+TEST(RecordSession, SaysWhereHowFastAndWithWhichAcceleration) {
+    TableEmulator table = table_of(answered(true));
+    Wire wire(table, answered(true));
+    wire.start(job_of("G21 G91\nG0 Y4\nG1 X3 F120\nG1 X3 Y-4 F6000\nM2\n"));
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.sent,
+              "t 0.0000 4.0000 0.0000 200.0000 10.0000\n"
+              "t 3.0000 0.0000 0.0000 200.0000 2.0000\n"
+              "t 3.0000 -4.0000 0.0000 250.0000 12.5000\n"); // Y at its limits, 10 and 200
+}
+
+TEST(RecordSession, WaitsWhereNothingIsAnswered) {
+    const RecordFormat silent;
+    TableEmulator table = table_of(silent);
+    Wire wire(table, silent);
+    const double begin = wire.now;
+    wire.start(job_of("G21 G90\nG1 X20 F600\nM2\n"));
+    ASSERT_TRUE(wire.run_to_end());
+    // 20 mm at 10 mm/s, and up to it and down again with 200 mm/s^2.
+    EXPECT_NEAR(wire.now - begin, 2.05, 0.03);
+    EXPECT_EQ(wire.state(), DriverState::idle);
+}
+
+TEST(RecordSession, IsHeldWithinOneRecordAndGoesOn) {
+    const Job job = job_of(zigzag(20));
+    TableEmulator table = table_of(answered(true), {.takes_time = true});
+    Wire wire(table, answered(true));
+    wire.start(job);
+    ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
+    const auto records = wire.session.records();
+    wire.session.hold(wire.now);
+    EXPECT_FALSE(wire.run_until([&] { return wire.session.records() > records; }, 60.0));
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    EXPECT_EQ(table.records(), records);
+    wire.session.resume(wire.now);
+    ASSERT_TRUE(wire.run_to_end());
+    expect_same_way(table, moves_of(job));
+}
+
+TEST(RecordSession, IsStoppedWithinOneRecord) {
+    TableEmulator table = table_of(answered(), {.takes_time = true});
+    Wire wire(table, answered());
+    wire.start(job_of(zigzag(20)));
+    ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
+    const auto records = wire.session.records();
+    wire.session.stop(wire.now);
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.state(), DriverState::stopped);
+    EXPECT_EQ(table.records(), records);
+    EXPECT_EQ(wire.session.status().position[table_model()->axis_index('X')],
+              table.position()[static_cast<std::size_t>(table_model()->axis_index('X'))]);
+}
+
+TEST(RecordSession, SendsNothingAfterAnEmergencyStop) {
+    TableEmulator table = table_of(answered(), {.takes_time = true});
+    Wire wire(table, answered());
+    wire.start(job_of(zigzag(20)));
+    ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
+    wire.session.emergency_stop(wire.now);
+    wire.sent.clear();
+    EXPECT_FALSE(wire.run_until([&] { return !wire.sent.empty(); }, 60.0));
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THROW(wire.start(job_of(zigzag(3))), Error);
+}
+
+TEST(RecordSession, TakesARefusalForAnAlarmAndGoesOnFromThere) {
+    const Job job = job_of(zigzag(20));
+    TableEmulator table = table_of(answered(true), {.refuses = 7});
+    Wire wire(table, answered(true));
+    wire.start(job);
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the machine answered 'error' to record 7"));
+    EXPECT_EQ(table.records(), 6);
+}
+
+TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
+    TableEmulator table = table_of(answered(true), {.silent_from = 3});
+    Wire wire(table, answered(true));
+    wire.start(job_of(zigzag(20)));
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_THAT(wire.session.status().message, HasSubstr("no answer to record 3 within 5 s"));
+    EXPECT_THROW(wire.session.reset(wire.now), Error);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+}
+
+TEST(RecordSession, WaitsForAPersonWhereTheProgramDoes) {
+    TableEmulator table = table_of(answered());
+    Wire wire(table, answered());
+    wire.start(job_of("G21 G90\nG1 X20 F600\nM0\nG1 X10\nM2\n"));
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0));
+    EXPECT_FALSE(wire.run_until([&] { return table.records() > 1; }, 60.0));
+    wire.session.resume(wire.now);
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(table.records(), 2);
+}
+
+TEST(RecordSession, GivesNoBlockThatIsNotAllowed) {
+    const Job job = job_of(zigzag(20));
+    TableEmulator table = table_of(answered());
+    Wire wire(table, answered());
+    wire.session.start({job.program, nullptr, job.listing, 5}, wire.now);
+    EXPECT_FALSE(wire.run_until([&] { return wire.session.status().sent_blocks > 5; }, 60.0));
+    wire.session.allow(job.block_count());
+    ASSERT_TRUE(wire.run_to_end());
+    expect_same_way(table, moves_of(job));
+}
+
+/// Without what the first and the last of `positions` share with their neighbours.
+std::vector<std::vector<double>> without_repeats(std::vector<std::vector<double>> positions) {
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
+}
+
+// Wires that stall or break, tables that lose their answers, are switched off or stop: each time a person
+// looks, and the rest of the program is given. What is claimed was obeyed, and in the end each position was
+// gone to, in order. A position whose answer was lost is gone to again, from itself.
+TEST(RecordSession, LosesAndDoublesNothingInThousandFaults) {
+    std::mt19937 random(4);
+    const Job job = job_of(zigzag(30));
+    const auto targets = moves_of(job);
+    const auto any = [&](int least, int most) {
+        return std::uniform_int_distribution<std::int64_t>(least, most)(random);
+    };
+    int faults = 0;
+    for (int run = 0; run < 1000; ++run) {
+        TableEmulator table = table_of(answered(), {.takes_time = run % 2 == 0});
+        int done = 0;
+        AxisPositions at = AxisPositions::Zero(3);
+        for (int attempt = 0; done < job.block_count(); ++attempt) {
+            ASSERT_LT(attempt, 200);
+            FaultSpec faults_now;
+            faults_now.seed = random();
+            switch (any(0, 4)) {
+            case 0:
+                faults_now.stall = any(0, 400);
+                break;
+            case 1:
+                faults_now.disconnect = any(0, 400);
+                break;
+            case 2:
+                faults_now.alarm = any(0, 400);
+                break;
+            case 3:
+                faults_now.reset = any(0, 400);
+                break;
+            default:
+                faults_now.drop = 0.02;
+                faults_now.toward_controller = false;
+            }
+            Wire wire(table, answered(), at, faults_now);
+            auto rest = std::make_shared<gcode::Program>(*job.program);
+            rest->start = at;
+            rest->blocks.erase(rest->blocks.begin(), rest->blocks.begin() + done);
+            const auto before = table.records();
+            wire.session.start({rest, nullptr, job.listing, {}}, wire.now);
+            ASSERT_TRUE(wire.run_to_end(3600.0));
+            const DriverStatus status = wire.session.status();
+            EXPECT_GE(table.records() - before, wire.session.records() - 1);
+            faults += status.state == DriverState::alarm ? 1 : 0;
+            done += status.executed_blocks;
+            at = status.position;
+            table.power_cycle();
+        }
+        const auto positions = without_repeats(table.positions());
+        ASSERT_EQ(positions.size(), targets.size()) << run;
+        for (std::size_t n = 0; n < targets.size(); ++n) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                ASSERT_NEAR(positions[n][axis], targets[n][static_cast<Eigen::Index>(axis)], 1e-4) << run;
+            }
+        }
+    }
+    EXPECT_GT(faults, 1000);
+}
+
+TEST(RecordSession, RefusesWhatATableCannotDo) {
+    const auto five_axes = std::make_shared<const MachineModel>(test::machine("rotary-tilt-gui"));
+    EXPECT_THROW(RecordSession(five_axes, AxisPositions::Zero(five_axes->axis_count()), {}), Error);
+    TableEmulator table = table_of(answered());
+    Wire wire(table, answered());
+    EXPECT_THROW(wire.session.start({}, wire.now), Error);
+    EXPECT_THROW(wire.session.home(wire.now), Error);
+    EXPECT_THROW(wire.session.jog({}, wire.now), Error);
+}
+
+} // namespace
+} // namespace millwright::machine::records

@@ -1,0 +1,183 @@
+// In computed time: whoever waits is as late as the test wants.
+#include "core/machine/point_player.h"
+
+#include "tests/support/machines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+
+class LateClock final : public Clock {
+public:
+    [[nodiscard]] double now() const override { return now_; }
+    void wait(double seconds) override {
+        now_ += seconds + late;
+        late = 0.0;
+    }
+    double late = 0.0; ///< of the next awakening, s
+
+private:
+    double now_ = 100.0;
+};
+
+/// Keeps what is sent, and when.
+class KeptLink final : public Link {
+public:
+    struct Kept {
+        std::vector<std::string> records;
+        std::vector<double> times;
+        std::string says;
+        std::optional<std::string> lost;
+    };
+    KeptLink(Kept& kept, const Clock& clock) : kept_(kept), clock_(clock) {}
+
+    [[nodiscard]] std::string name() const override { return "kept"; }
+    void open() override {}
+    void write(std::string_view bytes) override {
+        kept_.records.emplace_back(bytes);
+        kept_.times.push_back(clock_.now());
+    }
+    [[nodiscard]] std::string read() override { return std::exchange(kept_.says, {}); }
+    void wait(double /*seconds*/) override {}
+    [[nodiscard]] std::optional<std::string> lost() const override { return kept_.lost; }
+    void close() noexcept override {}
+
+private:
+    Kept& kept_;
+    const Clock& clock_;
+};
+
+/// The points of the thesis: 36 from (0, 0) to (10, 10).
+std::shared_ptr<const std::vector<Vec3>> diagonal() {
+    std::vector<Vec3> points;
+    for (int n = 0; n < 36; ++n) {
+        points.emplace_back(n * 10.0 / 35.0, n * 10.0 / 35.0, 0.0);
+    }
+    return std::make_shared<const std::vector<Vec3>>(std::move(points));
+}
+
+struct Bench {
+    LateClock clock;
+    KeptLink::Kept kept;
+    kinematics::MachineModel model = test::machine("forming-table");
+    PointPlayer player;
+
+    explicit Bench(const PlayerOptions& options = {.period = 0.04, .decimals = 2})
+        : player(std::make_unique<KeptLink>(kept, clock), clock, diagonal(), model, options) {}
+};
+
+TEST(PointPlayer, SendsOnePointAPeriod) {
+    Bench bench;
+    const PlayStatus status = bench.player.play({});
+    EXPECT_EQ(status.state, PlayState::done);
+    ASSERT_EQ(bench.kept.records.size(), 36U);
+    EXPECT_EQ(bench.kept.records[0], "0.00,0.00,0.00\n");
+    EXPECT_EQ(bench.kept.records[1], "0.29,0.29,0.00\n");
+    EXPECT_EQ(bench.kept.records[35], "10.00,10.00,0.00\n");
+    for (std::size_t n = 1; n < bench.kept.times.size(); ++n) {
+        EXPECT_NEAR(bench.kept.times[n] - bench.kept.times[n - 1], 0.04, 1e-9);
+    }
+    EXPECT_EQ(status.points, 36);
+    EXPECT_NEAR(status.time, 1.4, 1e-12);
+    EXPECT_LT(status.jitter.most, 1e-9);
+}
+
+// The rest until the second point, 40 ms, begins with an awakening that is 30 ms late after 20 ms: that point
+// comes 10 ms late, the next one in its own time.
+TEST(PointPlayer, MeasuresDelaysAndDoesNotAddThemUp) {
+    Bench bench;
+    bench.clock.late = 0.03;
+    const PlayStatus status = bench.player.play({});
+    EXPECT_NEAR(bench.kept.times.back() - bench.kept.times.front(), 1.4, 1e-9);
+    EXPECT_NEAR(status.jitter.most, 0.01, 1e-9);
+    EXPECT_LT(status.jitter.median, 1e-6);
+}
+
+TEST(PointPlayer, PlaysFasterOrSlowerThanTheTime) {
+    Bench bench({.period = 0.04, .speed = 4.0});
+    (void)bench.player.play({});
+    EXPECT_NEAR(bench.kept.times.back() - bench.kept.times.front(), 0.35, 1e-9);
+}
+
+TEST(PointPlayer, SendsNothingAfterAnEmergencyStop) {
+    Bench bench({.period = 0.4});
+    std::size_t then = 0;
+    const PlayStatus status = bench.player.play({}, [&](const PlayStatus& now) {
+        EXPECT_NEAR(now.position.x(), (static_cast<double>(now.points) - 1.0) * 10.0 / 35.0, 1e-12);
+        if (now.points == 12) {
+            bench.player.emergency_stop();
+            then = bench.kept.records.size();
+        }
+    });
+    EXPECT_EQ(then, 12U);
+    EXPECT_EQ(bench.kept.records.size(), then);
+    EXPECT_EQ(status.state, PlayState::emergency_stop);
+    EXPECT_NEAR(status.position.x(), 11.0 * 10.0 / 35.0, 1e-12);
+    EXPECT_THROW((void)bench.player.play({}), Error);
+}
+
+TEST(PointPlayer, StopsForWhoAsksTheWorkToStop) {
+    Bench bench({.period = 0.4});
+    std::stop_source stop;
+    const PlayStatus status = bench.player.play(stop.get_token(), [&](const PlayStatus& now) {
+        if (now.points == 5) {
+            stop.request_stop();
+        }
+    });
+    EXPECT_EQ(bench.kept.records.size(), 5U);
+    EXPECT_EQ(status.state, PlayState::emergency_stop);
+}
+
+TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
+    Bench complains({.period = 0.4});
+    const PlayStatus said = complains.player.play(
+        {}, [&](const PlayStatus& now) { complains.kept.says = now.points == 7 ? "limit Z\n" : ""; });
+    EXPECT_EQ(complains.kept.records.size(), 7U);
+    EXPECT_THAT(said.sentence, HasSubstr("the table said 'limit Z'"));
+
+    Bench goes({.period = 0.4});
+    const PlayStatus gone = goes.player.play({}, [&](const PlayStatus& now) {
+        if (now.points == 7) {
+            goes.kept.lost = "unplugged";
+        }
+    });
+    EXPECT_EQ(goes.kept.records.size(), 7U);
+    EXPECT_THAT(gone.sentence, HasSubstr("the link was lost: unplugged"));
+}
+
+TEST(PointPlayer, PlaysForTheEyesWithoutALink) {
+    LateClock clock;
+    PointPlayer player(nullptr, clock, diagonal(), test::machine("forming-table"));
+    EXPECT_EQ(player.play({}).state, PlayState::done);
+}
+
+TEST(PointPlayer, RefusesWhatCannotBePlayed) {
+    LateClock clock;
+    const auto model = test::machine("forming-table");
+    const auto none = std::make_shared<const std::vector<Vec3>>();
+    EXPECT_THROW(PointPlayer(nullptr, clock, none, model), Error);
+    EXPECT_THROW(PointPlayer(nullptr, clock, diagonal(), model, {.period = 0.0}), Error);
+    EXPECT_THROW(PointPlayer(nullptr, clock, diagonal(), model, {.speed = std::nan("")}), Error);
+    EXPECT_THROW(PointPlayer(nullptr, clock, diagonal(), model, {.format = {.pattern = "{A}"}}), Error);
+}
+
+TEST(CheckPoints, FindsWhatIsOutsideOrTooFastOnceAnAxis) {
+    const auto model = test::machine("forming-table");
+    EXPECT_TRUE(check_points(*diagonal(), 0.04, model, "p").empty());
+    // 0.2857 mm in 0.02 s is 14.3 mm/s, and X and Y go 10.
+    const auto fast = check_points(*diagonal(), 0.02, model, "p");
+    ASSERT_EQ(fast.size(), 2U);
+    EXPECT_EQ(fast.front().place.line, 2);
+    const auto far = check_points({Vec3(0, 0, 0), Vec3(0.0, 550.1, 0.0)}, 100.0, model, "p");
+    ASSERT_EQ(far.size(), 1U);
+    EXPECT_THAT(far.front().message, HasSubstr("axis Y would go to 550.100"));
+}
+
+} // namespace
+} // namespace millwright::machine
