@@ -55,6 +55,10 @@ void ActionQueue::save_file(std::filesystem::path file) {
     requests_.emplace_back([file = std::move(file)](Workshop& workshop) { workshop.save(file); });
 }
 
+void ActionQueue::plot(std::function<void(PlotBench&)> what) {
+    requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.plot()); });
+}
+
 void ActionQueue::processor(std::function<void(ProcessorBench&)> what) {
     requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.processor()); });
 }

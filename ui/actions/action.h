@@ -87,6 +87,8 @@ public:
 
     /// What is to be done with the processor.
     void processor(std::function<void(ProcessorBench&)> what);
+    /// ... and with the plot.
+    void plot(std::function<void(PlotBench&)> what);
     /// What the connected machine is to do, at once.
     void tell(std::function<void(machine::Driver&)> what);
     /// A change of the job queue.

@@ -12,7 +12,7 @@ namespace millwright::actions {
 struct HandSettings {
     machine::DriverChoice choice;
     /// Of the other kinds, by DriverKind: each keeps its own.
-    std::array<std::string, 5> addresses{"", "", "tcp:127.0.0.1:5007", "", ""};
+    std::array<std::string, 6> addresses{"", "", "tcp:127.0.0.1:5007", "", "", ""};
     double step = 0.0; ///< mm or deg of one press; 0: as long as it is held
     double speed_mm_per_min = 1000.0;
     double turn_deg_per_min = 720.0;

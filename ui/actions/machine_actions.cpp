@@ -145,11 +145,12 @@ void run_next(Hands& hands) {
 }
 
 Permission can_stop_at_once(const Workbench& now) {
-    return now.job.running || now.controller.connected() ? Permission{}
-                                                         : Permission::refused("No machine is connected.");
+    const bool moves = now.job.running || now.controller.connected() || now.plot.table().playing();
+    return moves ? Permission{} : Permission::refused("No machine is connected.");
 }
 
 void stop_at_once(Hands& hands) {
+    hands.workshop.plot().table().emergency_stop();
     hands.workshop.controller().emergency_stop();
     hands.jobs.emergency_stop();
 }

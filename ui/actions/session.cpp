@@ -10,6 +10,7 @@ Session new_session() {
                       viewport::layers_of(ViewKind::error),
                       viewport::layers_of(ViewKind::toolpath),
                       viewport::layers_of(ViewKind::machine),
+                      viewport::layers_of(ViewKind::toolpath),
                       viewport::layers_of(ViewKind::toolpath)};
     return session;
 }

@@ -19,8 +19,8 @@
 namespace millwright::actions {
 
 /// A choice of panes and layers, not a mode that hides data.
-enum class Workspace { design, grid, toolpath, program, machine, processor };
-inline constexpr int workspace_count = 6;
+enum class Workspace { design, grid, toolpath, program, machine, processor, plot };
+inline constexpr int workspace_count = 7;
 
 /// What the lower pane shows.
 enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, queue, jobs, log };
@@ -32,6 +32,8 @@ struct PaneSizes {
     float lower = 190.0F;
     float processor = 270.0F; ///< the lower pane in the Processor workspace
     float code = 330.0F;      ///< the left one there
+    float layers = 330.0F;    ///< the left one in the Plot & Picture workspace
+    float bench = 210.0F;     ///< and the lower one
     float listing = 350.0F;   ///< the left pane in the Program and Machine workspaces
     bool outline_shown = true;
     bool inspector_shown = true;
@@ -73,6 +75,7 @@ struct Session {
                                                      LowerTab::plots,
                                                      LowerTab::motion,
                                                      LowerTab::console,
+                                                     LowerTab::log,
                                                      LowerTab::log};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
@@ -80,6 +83,8 @@ struct Session {
     FileQuestion question = FileQuestion::none;
     bool search_wanted = false;           ///< open the palette in the next frame
     bool fit_wanted = true;               ///< fit the view in the next frame
+    std::optional<bool> flat_wanted;      ///< look at it from above, or into space, in the next frame
+    bool against_light = false;           ///< how a finished plot is looked at
     bool quit = false;                    ///< nothing is in the way any more: close the window
     std::vector<widgets::Notice> notices; ///< to be shown; taken by the window
     std::vector<std::string> log;         ///< every notice, newest last

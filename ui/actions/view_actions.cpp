@@ -65,6 +65,16 @@ void add_view_actions(Actions& actions) {
         go<Workspace::machine>,
         is_in<Workspace::machine>);
     add(actions,
+        {"view.plot",
+         "View",
+         "Plot & Picture",
+         "Plots and pictures become parts: levels, hatching, reliefs.",
+         "Shift+F5",
+         ""},
+        always,
+        go<Workspace::plot>,
+        is_in<Workspace::plot>);
+    add(actions,
         {"view.processor", "View", "Processor", "The CORDIC processor, clock by clock.", "F7", ""},
         always,
         go<Workspace::processor>,

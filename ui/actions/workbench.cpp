@@ -38,6 +38,10 @@ std::shared_ptr<const project::Evaluation> Workbench::shown() const {
 }
 
 bool Workbench::in_file() const {
+    if (session.workspace == Workspace::plot) { // the program that was made of the plot
+        const auto made = plot.latest();
+        return opened && made && opened->file == made->program;
+    }
     return opened && (session.workspace == Workspace::program || session.workspace == Workspace::machine);
 }
 
@@ -64,12 +68,18 @@ std::shared_ptr<const motion::Trajectory> Workbench::trajectory() const {
     if (in_file()) {
         return opened->motion ? opened->motion->trajectory : nullptr;
     }
+    if (session.workspace == Workspace::plot) {
+        return nullptr; // not that of the project
+    }
     return plan ? plan->plan.trajectory : nullptr;
 }
 
 std::shared_ptr<const gcode::Program> Workbench::program() const {
     if (in_file()) {
         return opened->motion ? opened->motion->program : nullptr;
+    }
+    if (session.workspace == Workspace::plot) {
+        return nullptr;
     }
     return plan ? plan->plan.program : nullptr;
 }

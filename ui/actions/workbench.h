@@ -11,6 +11,7 @@
 #include "ui/actions/file_place.h"
 #include "ui/actions/job_recovery.h"
 #include "ui/actions/job_runner.h"
+#include "ui/actions/plot_bench.h"
 #include "ui/actions/session.h"
 #include "ui/render/gamepad.h"
 
@@ -44,6 +45,7 @@ struct Workbench {
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
     const ProcessorBench& processor;
+    const PlotBench& plot;
     std::vector<machine::QueuedJob> queue; ///< in their order
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none

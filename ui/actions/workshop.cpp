@@ -37,6 +37,7 @@ Workshop::Workshop(WorkshopOptions options)
     const auto wake = options_.wake ? options_.wake : [] {};
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
     reader_ = std::make_unique<project::ProgramReader>(wake);
+    plot_ = std::make_unique<PlotBench>(options_.assets, wake);
     controller_ = std::make_unique<Controller>(wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
@@ -54,7 +55,9 @@ Workbench Workshop::look() const {
             document(),
             pipeline_->latest(),
             pipeline_->adaptation(),
-            reader_->activity().busy ? reader_->activity() : pipeline_->activity(),
+            plot_->activity().busy     ? plot_->activity()
+            : reader_->activity().busy ? reader_->activity()
+                                       : pipeline_->activity(),
             reader_->latest(),
             jobs_->view(),
             approach_->answer(),
@@ -69,6 +72,7 @@ Workbench Workshop::look() const {
             job_recovery_->broken(),
             gamepad_,
             *processor_,
+            *plot_,
             queue_.jobs(),
             queue_.problem()};
 }
@@ -142,6 +146,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 }
 
 bool Workshop::advance(double seconds) {
+    follow_plot();
     follow_file();
     follow_begin();
     follow_queue();
@@ -234,6 +239,8 @@ void Workshop::edit(const std::string& title,
 
 void Workshop::wait_idle() {
     pipeline_->wait_idle();
+    plot_->wait_idle();
+    follow_plot();
     reader_->wait_idle();
     jobs_->wait();
     follow_begin();

@@ -106,6 +106,9 @@ public:
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
 
+    [[nodiscard]] PlotBench& plot() { return *plot_; }
+    /// Writes the program of the plot beside it and opens it at the machine. Throws Error.
+    void send_plot();
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);
@@ -132,6 +135,8 @@ private:
     void look_at_another();
     void open_gcode(const std::filesystem::path& file);
     void follow_file();
+    void open_plot(const std::filesystem::path& file);
+    void follow_plot();
     void remember(const std::filesystem::path& file);
     void start_autosave();
     void follow_autosave();
@@ -158,11 +163,13 @@ private:
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
     std::unique_ptr<ProcessorBench> processor_; ///< never null
+    std::unique_ptr<PlotBench> plot_;
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
+    std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
     bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;                    ///< a job was running when it was last looked at
 };

@@ -32,6 +32,10 @@ project::Project on_disk(const fs::path& file) {
 } // namespace
 
 void Workshop::open(const fs::path& file) {
+    if (project::is_plot_file(file)) {
+        open_plot(file);
+        return;
+    }
     if (!is_project_file(file)) {
         open_gcode(file);
         return;
@@ -58,6 +62,44 @@ void Workshop::open_gcode(const fs::path& file) {
     remember(file);
 }
 
+void Workshop::open_plot(const fs::path& file) {
+    if (jobs_->view().running) {
+        throw Error("a job is running; a plot can be opened when it has ended", file);
+    }
+    plot_->open(file);
+    session_.flat_wanted = true; // drawings are read from above
+    session_.workspace = Workspace::plot;
+    session_.question = FileQuestion::none;
+    session_.fit_wanted = true;
+    remember(file);
+}
+
+/// The program that was made of the plot takes the place of an opened one, while one looks at the plot.
+void Workshop::follow_plot() {
+    const auto made = plot_->latest();
+    if (session_.workspace != Workspace::plot || !made || !made->finished || made->program.empty() ||
+        made->revision == followed_plot_ || jobs_->view().running) {
+        return;
+    }
+    followed_plot_ = made->revision;
+    project::ReadingChoice reading;
+    reading.machine = made->settings.machine;
+    guarded([&] { reader_->open(made->program, reading, options_.assets); });
+    session_.file.step.reset();
+    session_.begin = {};
+    session_.playback.playing = false;
+    tells_of_file_ = false;
+}
+
+void Workshop::send_plot() {
+    const fs::path program = plot_->write_program();
+    session_.file.reading.machine = plot_->settings().machine;
+    open_gcode(program);
+    session_.workspace = Workspace::machine;
+    follow_file();
+    tell(session_, widgets::Severity::good, "G-code written.", program.string());
+}
+
 void Workshop::read_again() {
     if (const auto opened = reader_->latest()) {
         open_gcode(fs::path(opened->file));
@@ -74,6 +116,7 @@ void Workshop::close_file() {
 void Workshop::cancel_work() {
     pipeline_->cancel();
     reader_->cancel();
+    plot_->cancel();
 }
 
 /// The file's motion and the project's each keep their time; and a person is told once what is wrong with the

@@ -19,7 +19,7 @@ using machine::DriverKind;
 using machine::DriverState;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 5> kinds{
+constexpr std::array<widgets::Option, 6> kinds{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
      {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
      {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
@@ -27,11 +27,13 @@ constexpr std::array<widgets::Option, 5> kinds{
      {"cordic",
       "CORDIC processor",
       {},
-      "The G-code processor's model with a machine inside this program; X, Y and Z only"}}};
+      "The G-code processor's model with a machine inside this program; X, Y and Z only"},
+     {"records", "Table by records", {}, "A table that takes one record a move, as t x y z a s"}}};
 
 std::string kind_text(DriverKind kind) {
     return kind == DriverKind::virtual_machine ? "virtual machine"
            : kind == DriverKind::stream        ? "coordinate stream"
+           : kind == DriverKind::records       ? "table by records"
                                                : std::string(kinds[static_cast<std::size_t>(kind)].label);
 }
 
@@ -138,6 +140,8 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
                 "axes", "Axes", choice.axes, "Letters of the machine's axes: XYZ, and any of ABC behind")) {
             choose(ask, [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
         }
+    } else if (choice.kind == DriverKind::records) {
+        draw_records(ui, now, ask);
     } else {
         const widgets::FieldInfo info{
             "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
@@ -146,6 +150,33 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
         }
         ui.note("It tells nothing back. The machine has to stand at zero when it is connected.");
     }
+}
+
+void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const machine::RecordFormat format = now.session.hand.choice.record.value_or(machine::RecordFormat());
+    const auto change = [&](const std::function<void(machine::RecordFormat&)>& what) {
+        choose(ask, [what](actions::HandSettings& hand) {
+            machine::RecordFormat changed = hand.choice.record.value_or(machine::RecordFormat());
+            what(changed);
+            hand.choice.record = changed;
+        });
+    };
+    if (const auto pattern =
+            ui.text_field("record",
+                          "Record",
+                          format.pattern,
+                          "Letters of axes in braces, {s} the speed, {a} the acceleration")) {
+        change([text = *pattern](machine::RecordFormat& f) { f.pattern = text; });
+    }
+    if (const auto answer = ui.text_field(
+            "answer", "Answer", format.answer, "What comes back for each record; empty: nothing")) {
+        change([text = *answer](machine::RecordFormat& f) { f.answer = text; });
+    }
+    if (const auto on =
+            ui.toggle("relative", "Relative", format.relative, "Records say how far, not where")) {
+        change([on = *on](machine::RecordFormat& f) { f.relative = on; });
+    }
+    ui.note("The table has to stand where the program begins, else at zero, when it is connected.");
 }
 
 void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -167,19 +198,20 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (!looked_) {
         look_for_ports();
     }
-    std::vector<widgets::Option> options;
-    for (const Port& port : ports_) {
-        options.push_back({port.path, port.label});
-    }
-    if (options.empty()) {
+    if (ports_.empty()) {
         ui.note("No serial port was found on this computer.");
     } else {
-        const auto at = std::ranges::find(ports_, now.session.hand.choice.address, &Port::path);
-        if (const auto chosen =
-                ui.choice("ports", "Found here", static_cast<int>(at - ports_.begin()), options)) {
-            choose(ask, [path = ports_[static_cast<std::size_t>(*chosen)].path](actions::HandSettings& hand) {
-                hand.choice.address = path;
-            });
+        std::vector<widgets::Option> options{{"none", "Choose ..."}};
+        int at = 0;
+        for (const Port& port : ports_) {
+            at = port.path == now.session.hand.choice.address ? static_cast<int>(options.size()) : at;
+            options.push_back({port.path, port.label});
+        }
+        if (const auto chosen = ui.choice("ports", "Found here", at, options); chosen && *chosen > 0) {
+            choose(ask,
+                   [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::HandSettings& hand) {
+                       hand.choice.address = path;
+                   });
         }
     }
     if (ui.button("look", "Look for ports again", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {

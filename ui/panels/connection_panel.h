@@ -15,6 +15,7 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_address(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const;

@@ -16,7 +16,8 @@ namespace {
 namespace icons = widgets::icons;
 using actions::Workspace;
 
-constexpr std::array<std::string_view, 6> menus{"File", "Edit", "View", "Grid", "Machine", "Processor"};
+constexpr std::array<std::string_view, 7> menus{
+    "File", "Edit", "View", "Grid", "Machine", "Processor", "Plot"};
 
 constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
     {{"design", "Design", icons::design},
@@ -24,7 +25,8 @@ constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
      {"toolpath", "Toolpath", icons::toolpath},
      {"program", "Program", icons::program},
      {"machine", "Machine", icons::machine},
-     {"processor", "Processor", icons::processor}}};
+     {"processor", "Processor", icons::processor},
+     {"plot", "Plot", icons::plot}}};
 
 std::string widget_id(std::string_view action_id) {
     std::string id(action_id);
@@ -123,6 +125,10 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     for (const std::string_view title : menus) {
         if (title == "Processor" && now.session.workspace != Workspace::processor) {
             continue; // there is room for it where it is wanted
+        }
+        const bool plots = now.session.workspace == Workspace::plot;
+        if ((title == "Plot" && !plots) || (title == "Grid" && plots)) {
+            continue;
         }
         if (title != menus.front()) {
             ui.beside();

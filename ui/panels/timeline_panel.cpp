@@ -86,9 +86,24 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// Of a plot whose program is not there.
+void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
+    const auto made = now.plot.latest();
+    const bool long_one = made && made->path && made->path->size() > project::most_points_at_once;
+    widgets::TimelineView view;
+    view.permission = widgets::Permission::refused(
+        now.plot.file().empty() ? "Nothing is open."
+        : long_one              ? "Of more than 100,000 points there is a program once it is written."
+                                : "There is no program of it yet.");
+    (void)widgets::timeline(ui, "timeline", view);
+}
+
 void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.in_file()) {
         return draw_file(ui, now, ask);
+    }
+    if (now.session.workspace == actions::Workspace::plot) {
+        return draw_nothing(ui, now);
     }
     refresh(now);
     widgets::TimelineView view;

@@ -15,6 +15,7 @@ public:
 
 private:
     void refresh(const Workbench& now);
+    void draw_nothing(Ui& ui, const Workbench& now) const;
     void draw_file(Ui& ui, const Workbench& now, ActionQueue& ask);
 
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< that `series_` was made of

@@ -74,6 +74,11 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.layers = now.session.layers_now();
     scene.selected = now.session.selected;
     scene.error = now.session.error;
+    scene.against_light = now.session.against_light;
+    const bool plots = now.session.workspace == Workspace::plot;
+    if (plots && !now.plot.file().empty()) {
+        scene.plot = now.plot.latest();
+    }
     if (now.in_file()) {
         scene.opened = now.opened;
         scene.now = now.moment();
@@ -83,7 +88,7 @@ viewport::Scene scene_of(const Workbench& now) {
         }
         return scene;
     }
-    if (!now.plan) {
+    if (!now.plan || plots) {
         return scene;
     }
     const project::Plan& plan = now.plan->plan;
@@ -141,8 +146,27 @@ void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// From above at first: a drawing is read that way.
+void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
+    const auto made = now.plot.latest();
+    const bool there = made && made->path && made->file == now.plot.file();
+    if (now.session.flat_wanted) {
+        const bool flat = *now.session.flat_wanted;
+        view_.look_from(flat ? render::StandardView::top : render::StandardView::iso);
+        view_.set_projection(flat ? render::Projection::orthographic : render::Projection::perspective);
+        view_.fit();
+        ask.show([](actions::Session& session) { session.flat_wanted.reset(); });
+    }
+    if (now.session.fit_wanted && there) {
+        view_.fit();
+        ask.show([](actions::Session& session) { session.fit_wanted = false; });
+    }
+}
+
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
-    if (now.in_file()) {
+    if (now.session.workspace == Workspace::plot) {
+        fit_plot(now, ask);
+    } else if (now.in_file()) {
         fit_file(now, ask);
     } else if (now.session.fit_wanted && shows_the_project(now)) {
         view_.fit();

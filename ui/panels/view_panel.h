@@ -22,6 +22,7 @@ public:
 
 private:
     void fit_file(const Workbench& now, ActionQueue& ask);
+    void fit_plot(const Workbench& now, ActionQueue& ask);
 
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;

@@ -42,6 +42,8 @@ float actions::PaneSizes::*left_size(const actions::Session& session) {
         return &actions::PaneSizes::listing;
     case Workspace::processor:
         return &actions::PaneSizes::code;
+    case Workspace::plot:
+        return &actions::PaneSizes::layers;
     default:
         return &actions::PaneSizes::outline;
     }
@@ -49,6 +51,7 @@ float actions::PaneSizes::*left_size(const actions::Session& session) {
 
 float actions::PaneSizes::*lower_size(const actions::Session& session) {
     return session.workspace == Workspace::processor ? &actions::PaneSizes::processor
+           : session.workspace == Workspace::plot    ? &actions::PaneSizes::bench
                                                      : &actions::PaneSizes::lower;
 }
 
@@ -74,8 +77,8 @@ bool pressed(const actions::Shortcut& keys, bool typing) {
 Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()), processor_(workshop.catalogue()), lower_(workshop.catalogue()),
-      dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
+      machine_(workshop.catalogue()), processor_(workshop.catalogue()), plot_(workshop.catalogue()),
+      lower_(workshop.catalogue()), dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
 
 Window::Layout
 Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
@@ -139,6 +142,8 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
         const auto pane = ui.pane("lower", place.lower);
         if (now.session.workspace == Workspace::processor) {
             processor_.draw_plots(ui, now, ask_);
+        } else if (now.session.workspace == Workspace::plot) {
+            plot_.draw_bench(ui, now, ask_);
         } else {
             lower_.draw(ui, now, ask_);
         }
@@ -199,6 +204,9 @@ void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
     } else if (now.session.workspace == Workspace::processor) {
         const auto pane = ui.pane("code", place, "Code");
         processor_.draw_code(ui, now, ask_);
+    } else if (now.session.workspace == Workspace::plot) {
+        const auto pane = ui.pane("layers", place, "Plot & Picture");
+        plot_.draw_layers(ui, now, ask_);
     } else {
         const auto pane = ui.pane("outline", place, "Project");
         outline_.draw(ui, now, ask_);
@@ -219,6 +227,8 @@ void Window::draw_inspector(Ui& ui, const Workbench& now) {
         return machine_.draw(ui, now, ask_);
     case Workspace::processor:
         return processor_.draw(ui, now, ask_);
+    case Workspace::plot:
+        return plot_.draw(ui, now, ask_);
     }
 }
 

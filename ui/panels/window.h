@@ -11,6 +11,7 @@
 #include "ui/panels/machine_panel.h"
 #include "ui/panels/menu_bar.h"
 #include "ui/panels/outline_panel.h"
+#include "ui/panels/plot_panel.h"
 #include "ui/panels/processor_panel.h"
 #include "ui/panels/program_panel.h"
 #include "ui/panels/timeline_panel.h"
@@ -59,6 +60,7 @@ private:
     ProgramPanel program_;
     MachinePanel machine_;
     ProcessorPanel processor_;
+    PlotPanel plot_;
     LowerPanel lower_;
     TimelinePanel timeline_;
     Dialogs dialogs_;

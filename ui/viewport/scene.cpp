@@ -93,8 +93,9 @@ bool operator==(const Scene& a, const Scene& b) {
                               b.singular_points,
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
            a.shown == b.shown && a.start == b.start && a.watched == b.watched && a.weight == b.weight &&
-           a.opened == b.opened && a.opened_now == b.opened_now && same(a.now, b.now) &&
-           a.selected == b.selected && a.error == b.error;
+           a.opened == b.opened && a.opened_now == b.opened_now && a.plot == b.plot &&
+           a.against_light == b.against_light && same(a.now, b.now) && a.selected == b.selected &&
+           a.error == b.error;
 }
 
 std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {

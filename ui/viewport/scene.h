@@ -8,6 +8,7 @@
 #include "core/grid/improver.h"
 #include "core/project/evaluation.h"
 #include "core/project/opened_program.h"
+#include "core/project/plot_work.h"
 #include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
@@ -105,6 +106,8 @@ struct Scene {
     std::shared_ptr<const project::WeightMap> weight;
     std::shared_ptr<const project::OpenedProgram> opened = nullptr; ///< in place of everything above
     std::optional<ProgramMoment> opened_now = std::nullopt;
+    std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
+    bool against_light = false;                                ///< the finished plot as light goes through
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     ErrorScale error;

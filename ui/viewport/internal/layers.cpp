@@ -7,6 +7,7 @@ std::vector<std::unique_ptr<Layer>> make_layers() {
     for (const auto make : {make_machine_layer,
                             make_fixture_layer,
                             make_surface_layer,
+                            make_plot_layer,
                             make_weight_layer,
                             make_origin_layer,
                             make_grid_layer,

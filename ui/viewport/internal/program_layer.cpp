@@ -1,12 +1,11 @@
-// The path of an opened program: millions of pieces, of which each picture shows as many as there is time
-// for, those first that matter most on the screen.
+// The path of an opened program, and the tool on it.
 
 #include "core/base/error.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
+#include "ui/viewport/internal/path_buffers.h"
 #include "ui/viewport/internal/solids.h"
-#include "ui/viewport/program_sight.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -17,30 +16,9 @@ namespace millwright::viewport {
 
 namespace {
 
-using gcode::PathChunk;
-using gcode::PathKind;
-
-constexpr int chunks_an_update = 2; // about 2 ms each without a graphics card
-// What takes a processor of 2 GHz about 25 and 100 ms without a graphics card.
-constexpr std::size_t points_while_moving = 25'000;
-constexpr std::size_t points_at_rest = 100'000;
-// Of ten thousand passes from afar most cover each other: drawing them all takes longer than their points.
-constexpr double same_while_moving_px = 1.0;
 constexpr double tool_share = 0.025; // radius of the tool to that of the path
 constexpr float rapid_opacity = 0.55F;
 constexpr float current_width_px = 3.0F;
-
-render::PathBuffer buffer_of(const PathChunk& chunk) {
-    const glm::vec3 min(chunk.min[0], chunk.min[1], chunk.min[2]);
-    const glm::vec3 max(chunk.max[0], chunk.max[1], chunk.max[2]);
-    std::vector<render::PathVertex> vertices;
-    vertices.reserve(chunk.points.size());
-    for (const gcode::PathPoint& point : chunk.points) {
-        vertices.push_back(
-            render::path_vertex(point.xyz(), static_cast<std::uint16_t>(point.kind()), min, max));
-    }
-    return {vertices, min, max};
-}
 
 std::array<glm::vec4, render::path_kinds>
 kind_colors(const glm::vec3& feed, const glm::vec3& rapid, const glm::vec3& probe) {
@@ -55,14 +33,13 @@ public:
     void update(const Scene& scene) override {
         unfinished_ = false;
         if (!scene.opened) {
-            buffers_.clear();
-            shown_.clear();
+            path_.clear();
             return;
         }
         if (!tool_) {
             tool_.emplace(tool_solid());
         }
-        follow_chunks(scene.opened->path.chunks);
+        unfinished_ = !path_.follow(scene.opened->path.chunks);
         if (scene.opened_now != at_) {
             at_ = scene.opened_now;
             current_ = at_ ? lines_of(scene.opened->path, at_->first, at_->end) : render::LineBuffer();
@@ -82,7 +59,7 @@ public:
         if (!scene.opened) {
             return;
         }
-        if (scene.layers.toolpath) {
+        if (scene.layers.toolpath && !scene.plot) { // a plot has its own colours
             draw_path(scene, canvas);
         }
         if (canvas.highlight.path_point) {
@@ -99,22 +76,6 @@ public:
     }
 
 private:
-    /// A stretch of the same program only grows; of another one, or read again, every chunk is another.
-    void follow_chunks(const std::vector<std::shared_ptr<const PathChunk>>& chunks) {
-        const auto [ours, theirs] = std::mismatch(shown_.begin(), shown_.end(), chunks.begin(), chunks.end());
-        const auto kept = static_cast<std::size_t>(ours - shown_.begin());
-        shown_.resize(kept);
-        buffers_.resize(kept);
-        for (auto next = theirs; next != chunks.end(); ++next) {
-            if (next - theirs == chunks_an_update) {
-                unfinished_ = true;
-                return;
-            }
-            shown_.push_back(*next);
-            buffers_.push_back(buffer_of(**next));
-        }
-    }
-
     static render::LineBuffer lines_of(const gcode::PreviewPath& path, std::int64_t first, std::int64_t end) {
         constexpr std::int64_t most_pieces = 4000; // one step of a program may be a long spline
         std::vector<render::LineVertex> vertices;
@@ -132,17 +93,9 @@ private:
         style.done_color = kind_colors(colors.selected, colors.rapid, colors.selected);
         style.model = canvas.s_T_w;
         const bool moving = canvas.edges == render::Edges::rough || !scene.opened->finished;
-        const auto chosen = pieces_in_sight(shown_,
-                                            path_view(canvas.view, scene),
-                                            moving ? points_while_moving : points_at_rest,
-                                            moving ? same_while_moving_px : 0.0);
         const std::int64_t done =
             scene.opened_now && scene.layers.trace ? scene.opened_now->place.point - 1 : 0;
-        for (std::size_t k = 0; k < shown_.size(); ++k) {
-            style.done = static_cast<int>(
-                std::clamp<std::int64_t>(done - shown_[k]->first, -1, PathChunk::most_points));
-            canvas.painter.path(buffers_[k], chosen[k], style, canvas.view);
-        }
+        path_.draw(scene, canvas, style, moving, done);
     }
 
     static void draw_thick(const Canvas& canvas, const render::LineBuffer& lines, const glm::vec3& color) {
@@ -163,8 +116,7 @@ private:
         tool_->draw(canvas, glm::scale(model, glm::vec3(size)), canvas.colors.tool);
     }
 
-    std::vector<std::shared_ptr<const PathChunk>> shown_;
-    std::vector<render::PathBuffer> buffers_; ///< of `shown_`
+    PathBuffers path_;
     std::optional<ProgramMoment> at_;
     render::LineBuffer current_; ///< the step at `at_`
     std::optional<SolidBuffers> tool_;

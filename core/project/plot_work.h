@@ -1,0 +1,117 @@
+// A plot or a picture that a person opened to cut it: what is set for it, and what comes of that, derived in
+// the background. Lengths mm, angles rad, speeds mm/s.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/gcode/reader/preview_path.h"
+#include "core/plot/cut_path.h"
+#include "core/plot/picture/height_field.h"
+#include "core/plot/picture/picture.h"
+#include "core/plot/picture/png_writer.h"
+#include "core/plot/picture/tool_tip.h"
+#include "core/plot/stroke_plan.h"
+#include "core/plot/work_time.h"
+#include "core/project/pipeline.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::project {
+
+/// What becomes of a picture.
+enum class PictureUse { relief, outlines, halftone, dots };
+
+struct PlotSettings {
+    double plotter_unit = 0.025; ///< of HPGL
+    PictureUse use = PictureUse::relief;
+    double picture_width = 0.0; ///< 0: as the file says, else 0.26 mm a pixel
+    plot::GrayRule gray = plot::GrayRule::mean;
+    bool invert = false;
+    double depth = 1.0;                   ///< of white, or of engraved dots
+    double dot_pitch = 1.0;               ///< of halftone and dots
+    double threshold = 0.5;               ///< of outlines
+    plot::ToolTip tip = {};               ///< of reliefs, halftone and dots; strokes are cut by an end mill
+    std::optional<double> step_over = {}; ///< between rows of a relief; not given: a tenth of the tool
+    std::optional<double> depth_per_pass = {}; ///< roughing of a relief; not given: none
+    std::optional<double> frame = {};          ///< the relief is cut out of a plate so thick
+    plot::StrokePlan strokes = {};
+    plot::Level level = {}; ///< what pens have that are not in `levels`; feed and plunge of pictures, too
+    std::vector<plot::Level> levels = {}; ///< a pen each or several times
+    double safe_height = 5.0;
+    double plate = 0.0; ///< thickness that the path must not go through; 0: not known
+    double spindle_rpm = 10'000.0;
+    Vec2 origin = Vec2::Zero(); ///< where that of the drawing lies on the machine
+    std::string machine = "forming-table";
+    std::string post = "linuxcnc-xyz";
+
+    friend bool operator==(const PlotSettings&, const PlotSettings&) = default;
+};
+
+/// Everything known of an opened plot at one moment. Immutable once published; parts that are not there yet
+/// are null or empty.
+struct PlotResult {
+    std::filesystem::path file;
+    PlotSettings settings;
+    bool picture = false;
+    std::vector<Diagnostic> notices; ///< of the reader
+    std::optional<Diagnostic> failure;
+    std::vector<plot::Level> levels; ///< in force, of plots and outlines
+    std::size_t drawn_strokes = 0;
+    std::shared_ptr<const plot::Strokes> strokes; ///< as planned, where they lie on the machine
+    plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model; of plots and outlines
+    std::shared_ptr<const plot::CutPath> path;
+    plot::PathLengths lengths;
+    /// What is cut, a level each; a relief's one.
+    struct LevelPath {
+        int pen = 1;
+        gcode::PreviewPath path;
+    };
+    std::vector<LevelPath> cuts;
+    gcode::PreviewPath air; ///< where the tool travels
+    /// What stands when it is cut, at most 160 squares long, and the light that goes through half a
+    /// millimetre more than the cut.
+    std::shared_ptr<const plot::HeightField> look;
+    plot::GrayImage light;
+    std::filesystem::path program; ///< file of its G-code, as long as the worker lives; empty: none
+    bool finished = false;
+    std::uint64_t revision = 0; ///< grows with every publication
+};
+
+/// Longer paths get no program before a person asks for it.
+inline constexpr std::size_t most_points_at_once = 100'000;
+
+/// One file at a time, on a thread of its own. Called from the owner's thread; every member returns at once.
+class PlotWorker {
+public:
+    /// `wake` is called from the worker whenever something new can be looked at.
+    PlotWorker(std::filesystem::path assets, std::function<void()> wake);
+    PlotWorker(const PlotWorker&) = delete;
+    PlotWorker& operator=(const PlotWorker&) = delete;
+    ~PlotWorker();
+
+    /// Derives everything anew; what is shown stays until something new is there.
+    void request(const std::filesystem::path& file, const PlotSettings& settings);
+    void cancel();
+
+    /// Null while none is open.
+    [[nodiscard]] std::shared_ptr<const PlotResult> latest() const;
+    [[nodiscard]] Activity activity() const;
+    void wait_idle() const;
+
+private:
+    class Worker;
+    std::unique_ptr<Worker> worker_;
+};
+
+/// Whether the name is that of a plot or a picture: .plt, .hpgl, .hpg, .png, .jpg, .jpeg, .bmp, .path.
+[[nodiscard]] bool is_plot_file(const std::filesystem::path& file);
+
+/// The program of a path, posted and read back. Throws Error.
+[[nodiscard]] std::string plot_program_text(const PlotResult& result, const std::filesystem::path& assets);
+
+} // namespace millwright::project

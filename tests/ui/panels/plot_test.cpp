@@ -1,0 +1,189 @@
+// The Plot & Picture workspace with real mouse and keys in real OpenGL.
+#include "tests/support/scratch_folder.h"
+#include "tests/ui/panels/person.h"
+#include "ui/panels/window.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using actions::PlotBench;
+using actions::Workspace;
+using test::Person;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+/// A person who has dropped a file on the window.
+struct Bench {
+    explicit Bench(const fs::path& file, const render::PixelSize& screen = {1280, 800}) : person(screen) {
+        fs::copy_file(file, folder / file.filename());
+        drop(folder / file.filename());
+    }
+    void drop(const fs::path& file) {
+        actions::ActionQueue ask; // as the window does it for what is dropped on it
+        ask.open_file(file);
+        person.workshop().perform(ask);
+        settle();
+    }
+    /// Until everything is derived and looked at.
+    void settle() {
+        person.wait_idle();
+        person.frames(3);
+    }
+    [[nodiscard]] PlotBench& plot() { return person.workshop().plot(); }
+    [[nodiscard]] const project::PlotResult& made() {
+        result = plot().latest();
+        return *result;
+    }
+    /// Pixels of the window that are like it.
+    [[nodiscard]] int pixels_like(const std::function<bool(int r, int g, int b)>& wanted) {
+        const render::Picture picture = person.picture();
+        return static_cast<int>(std::ranges::count_if(
+            picture.pixels, [&](const render::Pixel& at) { return wanted(at[0], at[1], at[2]); }));
+    }
+
+    test::ScratchFolder folder;
+    Person person;
+    std::shared_ptr<const project::PlotResult> result;
+};
+
+TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
+    ASSERT_FALSE(bench.made().failure);
+    for (const char* path : {"layers/levels",
+                             "layers/level/depth",
+                             "layers/figures/thesis",
+                             "inspector/cutter/tool",
+                             "inspector/fill/hatch",
+                             "inspector/travel/link",
+                             "lower/materials",
+                             "timeline/timeline/play"}) {
+        EXPECT_TRUE(bench.person.sees(path)) << path;
+    }
+    EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
+    EXPECT_GT(bench.person.workshop().look().duration(), 60.0);
+    bench.person.keep("plot");
+}
+
+TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    const plot::WorkTime before = bench.made().as_planned;
+    bench.person.fill_in("inspector/travel/link", "3");
+    bench.settle();
+    const plot::WorkTime linked = bench.made().as_planned;
+    EXPECT_LT(linked.runs, before.runs);
+    EXPECT_LT(linked.seconds, before.seconds);
+    EXPECT_NEAR(linked.distance(), before.distance(), 1e-6); // as in the thesis
+    bench.person.click("inspector/travel/order");
+    bench.settle();
+    EXPECT_LT(bench.made().as_planned.seconds, linked.seconds);
+}
+
+TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
+    Bench bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
+    const auto levels = bench.plot().levels();
+    ASSERT_GE(levels.size(), 2U);
+    bench.person.fill_in("layers/level/depth", "2.5");
+    bench.settle();
+    EXPECT_DOUBLE_EQ(bench.made().levels.front().depth, 2.5);
+    const double cut = bench.made().lengths.cut;
+    bench.person.click("layers/level/enabled");
+    bench.settle();
+    EXPECT_FALSE(bench.made().levels.front().enabled);
+    EXPECT_LT(bench.made().lengths.cut, cut);
+    bench.person.click("layers/level/enabled");
+    bench.settle();
+    bench.person.click("layers/level/again");
+    bench.settle();
+    EXPECT_EQ(bench.made().levels.size(), levels.size() + 1);
+    EXPECT_GT(bench.made().lengths.cut, cut);
+}
+
+TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
+    Bench bench("assets/samples/pictures/snail.png");
+    ASSERT_FALSE(bench.made().failure);
+    EXPECT_TRUE(bench.made().picture);
+    ASSERT_TRUE(bench.made().look);
+    bench.person.fill_in("inspector/source/width", "60");
+    bench.settle();
+    bench.person.fill_in("inspector/source/depth", "2");
+    bench.settle();
+    EXPECT_NEAR(static_cast<double>(std::ranges::min(bench.made().look->z)), -2.0, 0.3);
+    bench.person.click("inspector/plot_space");
+    bench.settle();
+    bench.person.keep("plot-relief");
+    const auto gray = [&] {
+        return bench.pixels_like(
+            [](int r, int g, int b) { return std::abs(r - g) < 3 && std::abs(g - b) < 3 && r > 60; });
+    };
+    const int lit = gray();
+    bench.person.click("inspector/light");
+    bench.settle();
+    EXPECT_GT(gray(), 2 * lit + 1000);
+    bench.person.keep("plot-light");
+}
+
+TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("lower/materials/material0");
+    bench.settle();
+    // Hardwood: 0.003 in for 1/8 inch, in proportion for 3 mm, two edges, 10,000 a minute.
+    EXPECT_NEAR(bench.plot().settings().level.cutting, 24.0, 1e-9);
+    EXPECT_NEAR(bench.made().levels.front().plunging, 8.0, 1e-9);
+    EXPECT_NEAR(bench.plot().settings().spindle_rpm, 10'000.0, 1e-9);
+}
+
+TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    std::ofstream(bench.folder / "everyday.ngc") << "mine\n";
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::machine);
+    EXPECT_TRUE(fs::exists(bench.folder / "everyday-2.ngc"));
+    EXPECT_EQ(fs::file_size(bench.folder / "everyday.ngc"), 5U);
+    EXPECT_EQ(bench.person.workshop().look().opened->file.filename(), "everyday-2.ngc");
+    EXPECT_TRUE(bench.person.workshop().look().opened->findings.empty());
+}
+
+TEST(PlotWorkspace, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().status.points > 3; }));
+    EXPECT_TRUE(bench.person.sees("lower/read_out/X"));
+    EXPECT_TRUE(bench.person.sees("lower/histogram"));
+    bench.person.keep("plot-table");
+    bench.person.click("emergency/machine_emergency_stop");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    const auto stopped = bench.plot().table().view();
+    EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
+    EXPECT_LT(stopped.status.points, stopped.total);
+    EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
+}
+
+TEST(PlotWorkspace, SaysWhatIsWrongWithAFileAndKeepsWorking) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    std::ofstream(bench.folder / "junk.png") << "this is no picture";
+    bench.drop(bench.folder / "junk.png");
+    ASSERT_TRUE(bench.made().failure);
+    EXPECT_THAT(to_text(*bench.made().failure), HasSubstr("junk.png"));
+    EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), HasSubstr("junk.png"));
+    bench.drop(bench.folder / "everyday.plt");
+    EXPECT_FALSE(bench.made().failure);
+}
+
+} // namespace
+} // namespace millwright::panels

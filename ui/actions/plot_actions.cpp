@@ -1,0 +1,106 @@
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using widgets::Permission;
+
+Permission has_path(const Workbench& now) {
+    const auto made = now.plot.latest();
+    if (now.plot.file().empty()) {
+        return Permission::refused("Open a plot or a picture first.");
+    }
+    return made && made->finished && made->path && !made->failure
+               ? Permission{}
+               : Permission::refused(made && made->failure ? to_text(*made->failure)
+                                                           : "The path is still being computed.");
+}
+
+Permission can_send(const Workbench& now) {
+    return now.job.running ? Permission::refused("A job is running.") : has_path(now);
+}
+
+Permission can_play(const Workbench& now) {
+    const auto made = now.plot.latest();
+    if (const Permission path = has_path(now); !path.allowed) {
+        return path;
+    }
+    if (!made->strokes) {
+        return Permission::refused("Points are played of strokes: plots, and outlines of pictures.");
+    }
+    return now.plot.table().playing() ? Permission::refused("The table is moving.") : Permission{};
+}
+
+Permission is_playing(const Workbench& now) {
+    return now.plot.table().playing() ? Permission{} : Permission::refused("The table stands.");
+}
+
+template <bool flat> void look(Hands& hands) {
+    hands.session.workspace = Workspace::plot;
+    hands.session.flat_wanted = flat;
+}
+
+} // namespace
+
+void add_plot_actions(Actions& actions) {
+    constexpr std::string_view menu = "Plot";
+    add(actions,
+        {"plot.flat", menu, "Look from above", "The drawing as it lies on the table.", "", ""},
+        always,
+        look<true>);
+    add(actions,
+        {"plot.space", menu, "Look into space", "With depths and travel.", "", ""},
+        always,
+        look<false>);
+    add(
+        actions,
+        {"plot.light",
+         menu,
+         "Against the light",
+         "Shows the light that goes through the finished plate, as black plastic is looked at.",
+         "",
+         ""},
+        always,
+        [](Hands& hands) { hands.session.against_light = !hands.session.against_light; },
+        [](const Workbench& now) { return now.session.against_light; });
+    add(actions,
+        {"plot.write_program",
+         menu,
+         "Write the G-code",
+         "Beside the plot; no other file is replaced.",
+         "",
+         icons::save},
+        has_path,
+        [](Hands& hands) {
+            const std::filesystem::path file = hands.workshop.plot().write_program();
+            tell(hands.session, widgets::Severity::good, "G-code written.", file.string());
+        });
+    add(actions,
+        {"plot.to_machine",
+         menu,
+         "To the machine",
+         "Writes the G-code and opens it in the Machine workspace, where it is sent or queued.",
+         "",
+         icons::machine},
+        can_send,
+        [](Hands& hands) { hands.workshop.send_plot(); });
+    add(actions,
+        {"plot.play_table",
+         menu,
+         "Play to the table",
+         "Sends one point a period at constant velocity.",
+         "",
+         icons::play},
+        can_play,
+        [](Hands& hands) { hands.workshop.plot().play_table(); });
+    add(actions,
+        {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},
+        is_playing,
+        [](Hands& hands) { hands.workshop.plot().table().emergency_stop(); });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,91 @@
+#include "ui/actions/table_player.h"
+
+#include "core/plot/decode.h"
+
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
+                                                const plot::Strokes& strokes,
+                                                const kinematics::MachineModel& model,
+                                                machine::Clock& clock,
+                                                std::int64_t& total) {
+    plot::DecodeSettings decoding;
+    decoding.mode = plot::DecodeMode::path;
+    decoding.velocity = choice.velocity;
+    decoding.period = choice.period;
+    decoding.pen_up_z = choice.pen_up;
+    decoding.pen_down_z = choice.pen_down;
+    constexpr std::int64_t most = 5'000'000;
+    decoding.most_points = most;
+    auto points = std::make_shared<const std::vector<Vec3>>(plot::decode(strokes, decoding));
+    if (const auto faults = machine::check_points(*points, choice.period / choice.speed, model, "the points");
+        !faults.empty()) {
+        throw Error(faults.front());
+    }
+    total = std::ssize(*points);
+    machine::PlayerOptions options;
+    options.period = choice.period;
+    options.speed = choice.speed;
+    return std::make_shared<machine::PointPlayer>(
+        choice.port.empty() ? nullptr : machine::make_link(choice.port), clock, points, model, options);
+}
+
+} // namespace
+
+void TablePlayer::play(const TableChoice& choice,
+                       const plot::Strokes& strokes,
+                       const std::shared_ptr<const kinematics::MachineModel>& model) {
+    if (playing()) {
+        throw Error("the table is moving", {}, "stop it, or wait for its end");
+    }
+    thread_ = {};
+    const std::scoped_lock lock(mutex_);
+    player_.reset();
+    failure_.reset();
+    try {
+        player_ = player_of(choice, strokes, *model, clock_, total_);
+    } catch (const Error& error) {
+        failure_ = error.diagnostic();
+        return;
+    }
+    thread_ = std::jthread([this, player = player_](const std::stop_token& stop) {
+        try {
+            (void)player->play(stop, [this](const machine::PlayStatus&) { wake_(); });
+        } catch (const Error& error) {
+            const std::scoped_lock failed(mutex_);
+            failure_ = error.diagnostic();
+        }
+        wake_();
+    });
+}
+
+void TablePlayer::emergency_stop() {
+    const std::scoped_lock lock(mutex_);
+    if (player_) {
+        player_->emergency_stop();
+    }
+}
+
+TableView TablePlayer::view() const {
+    const std::scoped_lock lock(mutex_);
+    TableView view;
+    view.failure = failure_;
+    if (player_) {
+        view.there = true;
+        view.total = total_;
+        view.status = player_->status();
+    }
+    return view;
+}
+
+void TablePlayer::wait() {
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,67 @@
+// Points that are played to an XYZ table, one a period, in a thread of its own.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/geometry/vectors.h"
+#include "core/kinematics/machine_model.h"
+#include "core/machine/point_player.h"
+#include "core/plot/strokes.h"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace millwright::actions {
+
+struct TableChoice {
+    std::string port = {}; ///< empty: for the eyes alone
+    double velocity = 8.0; ///< along the path, mm/s
+    double period = 0.02;  ///< between two points, s
+    double speed = 1.0;    ///< times real time
+    double pen_up = 5.0;   ///< Z between strokes, mm
+    double pen_down = 0.0;
+
+    friend bool operator==(const TableChoice&, const TableChoice&) = default;
+};
+
+/// How it stands, for one frame.
+struct TableView {
+    bool there = false;     ///< something was played, or is
+    std::int64_t total = 0; ///< points
+    machine::PlayStatus status;
+    std::optional<Diagnostic> failure; ///< it could not begin
+};
+
+class TablePlayer {
+public:
+    explicit TablePlayer(std::function<void()> wake) : wake_(std::move(wake)) {}
+    TablePlayer(const TablePlayer&) = delete;
+    TablePlayer& operator=(const TablePlayer&) = delete;
+    ~TablePlayer() = default; // the thread stops the player: nothing is sent any more
+
+    /// In whole paths at constant velocity; limits of the machine are checked before. What is wrong is told
+    /// by view(). Throws Error while one is playing.
+    void play(const TableChoice& choice,
+              const plot::Strokes& strokes,
+              const std::shared_ptr<const kinematics::MachineModel>& model);
+    /// At once.
+    void emergency_stop();
+    [[nodiscard]] TableView view() const;
+    [[nodiscard]] bool playing() const { return view().status.state == machine::PlayState::playing; }
+    /// Blocks until nothing is played (tests).
+    void wait();
+
+private:
+    std::function<void()> wake_;
+    machine::SteadyClock clock_;
+    mutable std::mutex mutex_; ///< guards what follows
+    std::shared_ptr<machine::PointPlayer> player_;
+    std::int64_t total_ = 0;
+    std::optional<Diagnostic> failure_;
+    std::jthread thread_;
+};
+
+} // namespace millwright::actions

@@ -1,0 +1,298 @@
+#include "ui/panels/plot_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/plot/work_time.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/plot_fields.h"
+#include "ui/viewport/pen_colors.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+
+namespace millwright::panels {
+
+namespace icons = widgets::icons;
+namespace fs = std::filesystem;
+
+namespace {
+
+using plot::Level;
+using widgets::FieldInfo;
+
+std::vector<fs::path> samples_in(const fs::path& assets) {
+    std::vector<fs::path> found;
+    for (const char* folder : {"plot", "pictures"}) {
+        std::error_code failure;
+        for (const auto& entry : fs::directory_iterator(assets / "samples" / folder, failure)) {
+            if (project::is_plot_file(entry.path())) {
+                found.push_back(entry.path());
+            }
+        }
+    }
+    std::ranges::sort(found);
+    return found;
+}
+
+std::string level_cell(const Level& level, int column) {
+    switch (column) {
+    case 0:
+        return fmt::format("{} {}", level.pen, viewport::pen_name(level.pen));
+    case 1:
+        return level.enabled ? fmt::format("{}", level.order) : "off";
+    case 2:
+        return fmt::format("{:.3g}", level.depth);
+    case 3:
+        return fmt::format("{}", level.passes);
+    default:
+        return fmt::format("{:.0f}", to_mm_per_min(level.cutting));
+    }
+}
+
+void set_level(ActionQueue& ask, std::size_t n, std::function<void(Level&)> what) {
+    ask.plot([n, what = std::move(what)](actions::PlotBench& bench) { bench.set_level(n, what); });
+}
+
+std::string metres(double mm) {
+    constexpr double m = 1e-3;
+    return fmt::format("{:.3f}", m * mm);
+}
+
+std::string sources_of(const plot::CuttingValues& values) {
+    return "Feed: " + values.feed.source + ". Plunge: " + values.plunge.source +
+           ". Depth a pass: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source +
+           ".";
+}
+
+} // namespace
+
+void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (!looked_for_samples_) {
+        samples_ = samples_in(now.assets);
+        looked_for_samples_ = true;
+    }
+    ui.value("file", "File", now.plot.file().empty() ? "none" : now.plot.file().filename().string());
+    std::vector<std::string> names;
+    for (const fs::path& sample : samples_) {
+        names.push_back(sample.filename().string());
+    }
+    std::vector<widgets::Option> options{{"none", "Choose ..."}};
+    int at = 0;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        options.push_back({names[n], names[n]});
+        at = now.plot.file().filename() == samples_[n].filename() ? static_cast<int>(n) + 1 : at;
+    }
+    if (const auto chosen = ui.choice("sample", "Samples", at, options); chosen && *chosen > 0) {
+        ask.open_file(samples_[static_cast<std::size_t>(*chosen) - 1]);
+    }
+    action_button(ui, now, ask, catalogue_, "file.open", widgets::Rank::normal, "Open a plot or picture ...");
+}
+
+void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_source(ui, now, ask);
+    if (now.plot.file().empty()) {
+        ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, or a path file.");
+        return;
+    }
+    const std::vector<Level> levels = now.plot.levels();
+    if (!levels.empty()) {
+        ui.heading("Levels");
+        constexpr std::array<widgets::Column, 5> columns{{{"Pen", "", 1.5F, false},
+                                                          {"Order", "", 1.0F, true},
+                                                          {"Depth", "", 1.0F, true},
+                                                          {"Passes", "", 1.1F, true},
+                                                          {"mm/min", "", 1.2F, true}}};
+        level_ = std::min(level_, levels.size() - 1);
+        widgets::TableView view;
+        view.columns = columns;
+        view.rows = std::ssize(levels);
+        view.cell = [&](std::ptrdiff_t row, int column) {
+            return level_cell(levels[static_cast<std::size_t>(row)], column);
+        };
+        view.row_id = [](std::ptrdiff_t row) { return fmt::format("level{}", row); };
+        view.chosen = static_cast<std::ptrdiff_t>(level_);
+        if (const auto row = widgets::table(ui, "levels", view)) {
+            level_ = static_cast<std::size_t>(*row);
+        }
+        draw_level(ui, now, ask, level_);
+    }
+    draw_figures(ui, now);
+}
+
+void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const {
+    const Level level = now.plot.levels()[n];
+    const auto scope = ui.scope("level");
+    ui.gap();
+    if (const auto on = ui.toggle("enabled", "Cut it", level.enabled, "Else its strokes stay")) {
+        set_level(ask, n, [on = *on](Level& l) { l.enabled = on; });
+    }
+    const auto whole = [&](const FieldInfo& info, int Level::*member) {
+        if (const auto value = ui.integer(level.*member, info)) {
+            set_level(ask, n, [v = *value, member](Level& l) { l.*member = v; });
+        }
+    };
+    const auto number = [&](const FieldInfo& info, double unit, double Level::*member) {
+        if (const auto value = ui.number(level.*member / unit, info)) {
+            set_level(ask, n, [v = *value * unit, member](Level& l) { l.*member = v; });
+        }
+    };
+    whole({"order", "Order", "", "Levels with a smaller one are cut first", -1000, 1000, 0, 0},
+          &Level::order);
+    number({"depth", "Depth", "mm", "Below the top", 0.0, 150.0, 1.0, 3}, 1.0, &Level::depth);
+    whole({"passes", "Passes", "", "Of equal depth, one below the other", 1, 1000, 1, 0}, &Level::passes);
+    const double unit = from_mm_per_min(1.0);
+    number({"cutting", "Feed", "mm/min", "Along the strokes", 1.0, 1e5, 480.0, 0}, unit, &Level::cutting);
+    number({"plunging", "Plunge", "mm/min", "Into the work", 1.0, 1e5, 120.0, 0}, unit, &Level::plunging);
+    whole({"tool", "Tool", "", "Where it differs the tool is changed by hand", 0, 1000, 1, 0}, &Level::tool);
+    const FieldInfo tabs{
+        "tabs", "Tabs", "", "Bridges on closed strokes, 6 mm wide and 1 mm high", 0, 1000, 0, 0};
+    if (const auto count = ui.integer(level.tabs.count, tabs)) {
+        set_level(ask, n, [v = *count](Level& l) { l.tabs.count = v; });
+    }
+    const auto line = ui.row(2);
+    if (ui.button(
+            "again", "Cut once more", {}, {{}, widgets::Rank::normal, 0.0F, "A second level of this pen"})) {
+        ask.plot([n](actions::PlotBench& bench) { bench.add_level(n); });
+    }
+    if (ui.button(
+            "remove", "Remove", {}, {{}, widgets::Rank::quiet, 0.0F, "A pen's only level is switched off"})) {
+        ask.plot([n](actions::PlotBench& bench) { bench.remove_level(n); });
+    }
+}
+
+void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("figures", "Before it is sent");
+    const auto made = now.plot.latest();
+    if (!section || !made) {
+        return;
+    }
+    if (made->failure) {
+        ui.text(to_text(*made->failure));
+        return;
+    }
+    ui.value("cut", "Cuts", metres(made->lengths.cut), "m");
+    ui.value("air", "In the air", metres(made->lengths.travel), "m");
+    if (made->as_drawn.runs > 0) {
+        ui.value(
+            "runs", "Lifts", fmt::format("{} (as drawn {})", made->as_planned.runs, made->as_drawn.runs));
+        ui.value("thesis",
+                 "Time, thesis",
+                 fmt::format("{} (as drawn {})",
+                             plot::minutes_and_seconds(made->as_planned.seconds),
+                             plot::minutes_and_seconds(made->as_drawn.seconds)),
+                 "min");
+    }
+    const double planned = now.in_file() ? now.duration() : 0.0;
+    ui.value("planner", "Time, planner", planned > 0.0 ? plot::minutes_and_seconds(planned) : "...", "min");
+    ui.value("left",
+             "Remaining",
+             planned > 0.0 ? plot::minutes_and_seconds(std::max(planned - now.time(), 0.0)) : "...",
+             "min");
+}
+
+void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.plot.file().empty()) {
+        ui.note("Nothing is open yet. Choose a sample at the left to see how it goes.");
+        return;
+    }
+    {
+        const auto line = ui.row(2);
+        action_button(ui, now, ask, catalogue_, "plot.to_machine", widgets::Rank::primary);
+        action_button(ui, now, ask, catalogue_, "plot.write_program");
+    }
+    {
+        const auto line = ui.row(2);
+        action_button(ui, now, ask, catalogue_, "plot.flat", widgets::Rank::normal, "Above");
+        action_button(ui, now, ask, catalogue_, "plot.space", widgets::Rank::normal, "Space");
+    }
+    if (const auto on = ui.toggle("light",
+                                  "Against the light",
+                                  now.session.against_light,
+                                  "The light that goes through the finished plate")) {
+        ask.run("plot.light");
+    }
+    if (const auto section = ui.section("source", "Source")) {
+        picture_fields(ui, now, ask);
+    }
+    if (!cuts_brightness(now)) {
+        stroke_fields(ui, now, ask);
+    }
+    work_fields(ui, now, ask);
+}
+
+void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto& materials = now.plot.materials();
+    const double diameter = std::max(now.plot.tool_diameter(), 0.1);
+    constexpr std::array<widgets::Column, 6> columns{{{"Material", "", 2.4F, false},
+                                                      {"Feed", "mm/min", 1.0F, true},
+                                                      {"Plunge", "mm/min", 1.0F, true},
+                                                      {"Depth a pass", "mm", 1.1F, true},
+                                                      {"Spindle", "1/min", 1.0F, true},
+                                                      {"Kind", "", 0.8F, false}}};
+    std::vector<plot::CuttingValues> values;
+    for (const plot::Material& material : materials) {
+        values.push_back(material.values(diameter));
+    }
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(materials);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const auto n = static_cast<std::size_t>(row);
+        const std::array<std::string, 6> cells{materials[n].name(),
+                                               fmt::format("{:.0f}", to_mm_per_min(values[n].feed.value)),
+                                               fmt::format("{:.0f}", to_mm_per_min(values[n].plunge.value)),
+                                               fmt::format("{:.2f}", values[n].depth_per_pass.value),
+                                               fmt::format("{:.0f}", values[n].spindle_rpm.value),
+                                               materials[n].kind()};
+        return cells[static_cast<std::size_t>(column)];
+    };
+    view.row_id = [](std::ptrdiff_t row) { return fmt::format("material{}", row); };
+    view.chosen = now.plot.material() ? static_cast<std::ptrdiff_t>(*now.plot.material()) : -1;
+    view.when_empty = "Open a plot or a picture first.";
+    if (const auto row = widgets::table(ui, "materials", view)) {
+        ask.plot([n = static_cast<std::size_t>(*row)](actions::PlotBench& bench) { bench.use_material(n); });
+    }
+    if (now.plot.material()) {
+        ui.note(
+            fmt::format("For a tool of {:.2f} mm. {}", diameter, sources_of(values[*now.plot.material()])));
+    } else {
+        ui.note(fmt::format(
+            "For a tool of {:.2f} mm. A click takes the values; their sources stand here then.", diameter));
+    }
+}
+
+void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
+    const auto made = now.plot.latest();
+    if (!made || made->notices.empty()) {
+        ui.note("Nothing was wrong in it.");
+        return;
+    }
+    for (const Diagnostic& notice : made->notices) {
+        ui.text(to_text(notice));
+    }
+}
+
+void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const std::array<widgets::Option, 3> tabs{{{"materials", "Materials", icons::table},
+                                               {"table", "XYZ table", icons::machine},
+                                               {"notices", "Notices", icons::info}}};
+    if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
+        tab_ = static_cast<Tab>(*chosen);
+    }
+    switch (tab_) {
+    case Tab::materials:
+        return draw_materials(ui, now, ask);
+    case Tab::table:
+        return table_.draw(ui, now, ask);
+    case Tab::notices:
+        return draw_notices(ui, now);
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,43 @@
+// The Plot & Picture workspace: levels of the pens, how strokes and pictures are cut, materials, and a table
+// that points are played to.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/panels/table_pane.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace millwright::panels {
+
+class PlotPanel final : public Panel {
+public:
+    /// `catalogue` must outlive it.
+    explicit PlotPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), table_(catalogue) {}
+
+    /// The inspector.
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    /// The pane at the left.
+    void draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask);
+    /// The lower pane.
+    void draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask);
+
+private:
+    enum class Tab { materials, table, notices };
+
+    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const;
+    void draw_figures(Ui& ui, const Workbench& now) const;
+    void draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_notices(Ui& ui, const Workbench& now) const;
+
+    const actions::Catalogue& catalogue_;
+    TablePane table_;
+    std::size_t level_ = 0; ///< chosen
+    Tab tab_ = Tab::materials;
+    std::vector<std::filesystem::path> samples_;
+    bool looked_for_samples_ = false;
+};
+
+} // namespace millwright::panels

@@ -1,0 +1,182 @@
+#include "ui/panels/table_pane.h"
+
+#include "core/base/text.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/sketch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::TableChoice;
+using machine::Jitter;
+using machine::PlayState;
+using widgets::FieldInfo;
+using widgets::Rect;
+
+void change(ActionQueue& ask, std::function<void(TableChoice&)> what) {
+    ask.plot([what = std::move(what)](actions::PlotBench& bench) {
+        TableChoice choice = bench.table_choice();
+        what(choice);
+        bench.set_table(choice);
+    });
+}
+
+std::string_view state_text(PlayState state) {
+    switch (state) {
+    case PlayState::ready:
+        return "ready";
+    case PlayState::playing:
+        return "moving";
+    case PlayState::done:
+        return "every point was sent";
+    case PlayState::emergency_stop:
+        return "stopped at once";
+    }
+    return {};
+}
+
+std::string bound_text(std::size_t n) {
+    const bool last = n == Jitter::bounds.size();
+    const double us = 1e6 * Jitter::bounds[last ? n - 1 : n];
+    const std::string limit = us < 1000.0 ? fmt::format("{:.0f} us", us) : fmt::format("{:.3g} ms", us / 1e3);
+    return last ? "later" : limit;
+}
+
+/// A bar for each bound, as long as its share.
+void histogram(Ui& ui, const Jitter& jitter, const Rect& box) {
+    ui.record("histogram", box);
+    widgets::Sketch sketch(ui, box);
+    const float row = box.h / static_cast<float>(jitter.histogram.size());
+    const float words = ui.px(64.0F);
+    const float figures = ui.px(80.0F);
+    for (std::size_t n = 0; n < jitter.histogram.size(); ++n) {
+        const float y = box.y + row * static_cast<float>(n);
+        const double part = jitter.count > 0
+                                ? static_cast<double>(jitter.histogram[n]) / static_cast<double>(jitter.count)
+                                : 0.0;
+        const float length = static_cast<float>(part) * std::max(box.w - words - figures, 0.0F);
+        sketch.text({box.x, y, words - ui.px(8.0F), row},
+                    bound_text(n),
+                    ui.colours().muted,
+                    widgets::TextAlign::right,
+                    widgets::TextFont::small);
+        sketch.box(
+            {box.x + words, y + 0.15F * row, length, 0.7F * row}, ui.colours().accent, ui.colours().accent);
+        sketch.text({box.x + words + length + ui.px(8.0F), y, figures, row},
+                    fmt::format("{}", jitter.histogram[n]),
+                    ui.colours().text,
+                    widgets::TextAlign::left,
+                    widgets::TextFont::small);
+    }
+}
+
+/// What is known, a line each: name and text.
+std::vector<std::array<std::string, 2>> read_out(const actions::TableView& table) {
+    const machine::PlayStatus& now = table.status;
+    constexpr double us = 1e6;
+    return {{"X", fixed(now.position.x(), 3) + " mm"},
+            {"Y", fixed(now.position.y(), 3) + " mm"},
+            {"Z", fixed(now.position.z(), 3) + " mm"},
+            {"Table", std::string(state_text(now.state))},
+            {"Points", fmt::format("{} of {}", now.points, table.total)},
+            {"Late, mean", fmt::format("{:.0f} us", us * now.jitter.mean)},
+            {"99 % below", fmt::format("{:.0f} us", us * now.jitter.p99)},
+            {"Latest", fmt::format("{:.0f} us", us * now.jitter.most)}};
+}
+
+void draw_read_out(Ui& ui, const actions::TableView& table, const Rect& box) {
+    const auto lines = read_out(table);
+    const float row = box.h / static_cast<float>(lines.size());
+    const float name = 0.4F * box.w;
+    widgets::Sketch sketch(ui, box);
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+        const float y = box.y + row * static_cast<float>(n);
+        ui.record("read_out/" + std::string(1, "XYZTPmpl"[n]), {box.x, y, box.w, row});
+        sketch.text({box.x, y, name, row}, lines[n][0], ui.colours().muted);
+        sketch.text({box.x + name, y, box.w - name, row},
+                    lines[n][1],
+                    ui.colours().text,
+                    widgets::TextAlign::left,
+                    n < 3 ? widgets::TextFont::mono : widgets::TextFont::normal);
+    }
+}
+
+} // namespace
+
+void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const TableChoice& choice = now.plot.table_choice();
+    if (const auto port = ui.text_field("port",
+                                        "Port",
+                                        choice.port,
+                                        "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH; "
+                                        "empty: nothing is sent")) {
+        change(ask, [port = *port](TableChoice& c) { c.port = port; });
+    }
+    const auto number = [&](const FieldInfo& info, double value, double unit, double TableChoice::*member) {
+        if (const auto chosen = ui.number(value, info)) {
+            change(ask, [v = *chosen * unit, member](TableChoice& c) { c.*member = v; });
+        }
+    };
+    number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
+           choice.velocity,
+           1.0,
+           &TableChoice::velocity);
+    number({"period", "Period", "ms", "Between two points", 0.5, 1000.0, 20.0, 1},
+           1e3 * choice.period,
+           1e-3,
+           &TableChoice::period);
+    number({"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2},
+           choice.speed,
+           1.0,
+           &TableChoice::speed);
+    number({"pen_up", "Z up", "mm", "Between strokes", -100.0, 100.0, 5.0, 2},
+           choice.pen_up,
+           1.0,
+           &TableChoice::pen_up);
+    number({"pen_down", "Z down", "mm", "On strokes", -100.0, 100.0, 0.0, 2},
+           choice.pen_down,
+           1.0,
+           &TableChoice::pen_down);
+}
+
+void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    {
+        const auto line = ui.row(2);
+        action_button(ui, now, ask, catalogue_, "plot.play_table", widgets::Rank::primary, "Play");
+        action_button(ui, now, ask, catalogue_, "plot.stop_table", widgets::Rank::danger, "Stop");
+    }
+    const Rect all = ui.rest();
+    const float gap = ui.px(24.0F);
+    const float part = (all.w - 2.0F * gap) / 3.0F;
+    const actions::TableView table = now.plot.table().view();
+    {
+        const auto width = ui.width(part);
+        draw_choice(ui, now, ask);
+    }
+    const Rect middle{all.x + part + gap, all.y, part, std::max(all.h, ui.px(150.0F))};
+    const Rect right{middle.x + part + gap, middle.y, part, middle.h};
+    if (table.there) {
+        draw_read_out(ui, table, middle);
+        histogram(ui, table.status.jitter, right);
+    } else {
+        widgets::Sketch sketch(ui, {middle.x, middle.y, 2.0F * part + gap, ui.px(24.0F)});
+        sketch.text(sketch.rect(),
+                    table.failure ? to_text(*table.failure)
+                                  : "Points at constant velocity go to the table, one a period.",
+                    table.failure ? ui.colours().warning : ui.colours().muted);
+    }
+    if (table.status.state == PlayState::playing) {
+        constexpr double frame = 0.03;
+        ui.change_in(frame);
+    }
+}
+
+} // namespace millwright::panels
