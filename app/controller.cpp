@@ -24,7 +24,8 @@ namespace millwright::app {
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice) {
     command.add_flag("--one-by-one", choice.one_by_one, "Wait for the answer to each line before the next");
     command.add_flag("--unlock", choice.unlock, "Unlock a locked controller without homing");
-    command.add_flag("--keys", choice.keys, "Obey p r + - 0 b q from an input that is no terminal, too");
+    command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
+    command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
     return *command
                 .add_option("--port",
                             choice.port,
@@ -56,6 +57,9 @@ void Controller::connect() {
         }
         driver_->reset();
     }
+    if (choice_.optional_stop) {
+        driver_->set_optional_stop(true);
+    }
     const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver_.get());
     const std::string name = grbl != nullptr ? "Grbl " + grbl->readout().version : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
@@ -78,19 +82,23 @@ Controller::run(const machine::Job& job, const std::string& log_folder, const st
     show_warnings(job);
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
     ProgressPrinter printer;
-    const JobKeys keys(dispatcher, choice_.keys);
+    const JobKeys keys(dispatcher, choice_.keys, choice_.optional_stop);
     const Progress progress([](const Progress::Report&) {}, stop);
-    const std::string how = keys.listening() ? " (r goes on)" : "";
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
-        const auto& now = report.driver;
-        printer.show(
-            {static_cast<double>(now.executed_blocks) / report.blocks,
-             fmt::format("Block {} of {}{}",
-                         now.executed_blocks,
-                         report.blocks,
-                         now.state == machine::DriverState::holding ? ", holding: " + now.message + how
-                                                                    : "")});
+        printer.show(report_of(report, keys.listening()));
     });
+}
+
+Progress::Report report_of(const machine::JobReport& report, bool keys) {
+    const machine::DriverStatus& now = report.driver;
+    std::string text = fmt::format("Block {} of {}", now.executed_blocks, report.blocks);
+    if (now.state == machine::DriverState::holding) {
+        text += ", holding" + (now.message.empty() ? "" : ": " + now.message) + (keys ? " (r goes on)" : "");
+    }
+    const bool planned = report.planned_time > 0.0;
+    return {planned ? now.planned_time / report.planned_time
+                    : static_cast<double>(now.executed_blocks) / report.blocks,
+            std::move(text)};
 }
 
 std::string now_for_people() {

@@ -1,7 +1,9 @@
 // A job on a controller that plans for itself, on the command line.
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/machine/clock.h"
+#include "core/machine/dispatcher.h"
 #include "core/machine/driver.h"
 #include "core/machine/job.h"
 
@@ -16,17 +18,18 @@ class Option;
 
 namespace millwright::app {
 
-/// Which controller, and what the options --port, --one-by-one and --unlock say.
+/// Which controller, and what the options --port, --one-by-one, --unlock, --keys and --optional-stop say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
     bool one_by_one = false;
     bool unlock = false;
-    bool keys = false;        ///< of JobKeys also from an input that is no terminal
+    bool keys = false; ///< of JobKeys also from an input that is no terminal
+    bool optional_stop = false;
     std::string axes = "XYZ"; ///< of a LinuxCNC
 };
 
-/// Adds --port, --one-by-one, --unlock and --keys to `command`; returns --port.
+/// Adds these to `command`; returns --port.
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice);
 
 /// A controller on which jobs are run one after another, over one connection.
@@ -55,6 +58,9 @@ private:
     machine::SteadyClock clock_;
     std::unique_ptr<machine::Driver> driver_;
 };
+
+/// What a person reads of a running job. `keys` can be pressed.
+[[nodiscard]] Progress::Report report_of(const machine::JobReport& report, bool keys);
 
 /// Date and time for people.
 [[nodiscard]] std::string now_for_people();

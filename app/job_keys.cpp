@@ -51,7 +51,8 @@ private:
 
 } // namespace
 
-JobKeys::JobKeys(machine::Dispatcher& dispatcher, bool always) : dispatcher_(dispatcher) {
+JobKeys::JobKeys(machine::Dispatcher& dispatcher, bool always, bool optional_stop)
+    : dispatcher_(dispatcher), optional_stop_(optional_stop) {
     if (!always && !is_own_terminal()) {
         return;
     }
@@ -98,6 +99,9 @@ void JobKeys::obey(char key) {
         case 'b':
             single_block_ = !single_block_;
             return dispatcher_.set_single_block(single_block_);
+        case 'o':
+            optional_stop_ = !optional_stop_;
+            return dispatcher_.set_optional_stop(optional_stop_);
         case '+':
         case '-':
             overrides_.feed =

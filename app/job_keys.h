@@ -1,5 +1,5 @@
 // A running job under the keys of the person at the terminal: p holds, r resumes (also after M0), + and -
-// change the feed by 10 %, 0 makes it 100 % again, b switches single block, q stops.
+// change the feed by 10 %, 0 makes it 100 % again, b switches single block, o optional stops, q stops.
 #pragma once
 
 #include "core/machine/dispatcher.h"
@@ -11,7 +11,8 @@ namespace millwright::app {
 class JobKeys {
 public:
     /// Listens to standard input while it is this program's terminal; to any standard input if `always`.
-    JobKeys(machine::Dispatcher& dispatcher, bool always);
+    /// `optional_stop`: how the switch is now.
+    JobKeys(machine::Dispatcher& dispatcher, bool always, bool optional_stop);
     JobKeys(const JobKeys&) = delete;
     JobKeys& operator=(const JobKeys&) = delete;
     ~JobKeys();
@@ -25,6 +26,7 @@ private:
     machine::Dispatcher& dispatcher_;
     machine::Overrides overrides_;
     bool single_block_ = false;
+    bool optional_stop_;
     int over_ = -1;       ///< readable when nobody listens any more
     std::jthread thread_; // last: it uses what stands before it
 };

@@ -3,37 +3,82 @@
 #include "app/job_keys.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/make_driver.h"
+#include "core/machine/drivers/virtual_machine/virtual_machine.h"
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <utility>
 
 namespace millwright::app {
 
-PlannedMachine::PlannedMachine(const PlannedChoice& choice) : choice_(choice) {
+namespace {
+
+std::string fault_of_speed(const std::string& text) {
+    using machine::VirtualSpeed;
+    double speed = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), speed);
+    const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+    const bool inside = speed >= VirtualSpeed::slowest && speed <= VirtualSpeed::fastest;
+    return whole && (inside || exactly_equal(speed, VirtualSpeed::unlimited))
+               ? std::string()
+               : fmt::format("'{}' is neither 0 nor between {} and {}",
+                             text,
+                             VirtualSpeed::slowest,
+                             VirtualSpeed::fastest);
+}
+
+} // namespace
+
+void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice) {
+    command.add_option("--period", choice.period, "Sampling period of a coordinate stream, s")
+        ->type_name("S")
+        ->capture_default_str();
+    add_record_options(command, choice.record);
+    command
+        .add_option("--speed",
+                    choice.speed,
+                    "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
+        ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
+        ->capture_default_str();
+}
+
+void check(const PlannedMachineChoice& choice) {
     const bool takes_records = choice.driver == "stream" || choice.driver == "records";
     if (!choice.record.pattern.empty() && !takes_records) {
         throw Error("records are for the stream and records drivers");
     }
-    if (takes_records && choice.port.empty()) {
+    const bool inside = choice.driver == "virtual" || choice.driver == "cordic";
+    if (!inside && choice.controller.port.empty()) {
         throw Error("the " + choice.driver + " driver needs a port", {}, "give --port");
     }
 }
-
-PlannedMachine::~PlannedMachine() = default;
 
 machine::JobOutcome
 PlannedMachine::run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop) {
     connect(job);
     ProgressPrinter printer;
-    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
+    bool begun = false; // from then on the report says more
+    const Progress progress(
+        [&](const Progress::Report& report) {
+            if (!begun) {
+                printer.show(report);
+            }
+        },
+        stop);
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
-    const JobKeys keys(dispatcher, choice_.keys);
-    machine::JobOutcome outcome = dispatcher.run(job, progress);
+    const JobKeys keys(dispatcher, choice_.controller.keys, choice_.controller.optional_stop);
+    machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+        begun = true;
+        printer.show(report_of(report, keys.listening()));
+    });
     if (const std::string late = cordic_ == nullptr ? "" : cordic_->remark(); !late.empty()) {
         fmt::print(stderr, "millwright: {}: {}\n", job.name, late);
     }
@@ -41,38 +86,39 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
 }
 
 void PlannedMachine::connect(const machine::Job& job) {
-    if (driver_ != nullptr) {
-        if (job.machine->name() != model_) {
-            throw Error(fmt::format("{} is for machine '{}', and '{}' is connected",
-                                    job.project,
-                                    job.machine->name(),
-                                    model_),
-                        {},
-                        "run it by itself");
-        }
-        return;
+    if (driver_ == nullptr) {
+        model_ = job.machine->name();
+        driver_ = make_driver(job);
+        driver_->connect();
+        driver_->set_optional_stop(choice_.controller.optional_stop);
+    } else if (job.machine->name() != model_) {
+        throw Error(
+            fmt::format(
+                "{} is for machine '{}', and '{}' is connected", job.project, job.machine->name(), model_),
+            {},
+            "run it by itself");
     }
-    machine::DriverChoice wanted;
-    wanted.kind = machine::driver_kind(choice_.driver);
-    wanted.address = choice_.port;
-    wanted.period = choice_.period;
-    RecordChoice record = choice_.record;
-    if (choice_.driver == "records" && record.pattern.empty()) {
-        record.pattern = machine::RecordFormat().pattern;
-    }
-    wanted.record = record_of(record);
-    if (wanted.kind == machine::DriverKind::cordic) {
+}
+
+std::unique_ptr<machine::Driver> PlannedMachine::make_driver(const machine::Job& job) {
+    machine::DriverChoice choice;
+    choice.kind = machine::driver_kind(choice_.driver);
+    choice.address = choice_.controller.port;
+    choice.period = choice_.period;
+    if (choice.kind == machine::DriverKind::cordic) {
         machine::CordicDriverOptions processor;
         processor.clock_hz = choice_.processor_hz;
         auto made = std::make_unique<machine::CordicDriver>(
             job.program->start, machine::VirtualSpeed{choice_.speed}, clock_, job.machine, processor);
         cordic_ = made.get();
-        driver_ = std::move(made);
-    } else {
-        driver_ = machine::make_driver(wanted, {job.machine, job.program->start, choice_.speed}, clock_);
+        return made;
     }
-    model_ = job.machine->name();
-    driver_->connect();
+    RecordChoice record = choice_.record;
+    if (choice_.driver == "records" && record.pattern.empty()) {
+        record.pattern = machine::RecordFormat().pattern;
+    }
+    choice.record = record_of(record);
+    return machine::make_driver(choice, {job.machine, job.program->start, choice_.speed}, clock_);
 }
 
 } // namespace millwright::app

@@ -2,6 +2,7 @@
 // planned here, or one that is told each move.
 #pragma once
 
+#include "app/controller.h"
 #include "app/record_choice.h"
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
@@ -12,35 +13,43 @@
 #include <stop_token>
 #include <string>
 
+namespace CLI {
+class App;
+} // namespace CLI
+
 namespace millwright::app {
 
-struct PlannedChoice {
-    std::string driver = "virtual"; ///< stream, cordic or records
-    std::string port = {};
-    double speed = 1.0;                                            ///< of those inside this program
-    double period = 0.01;                                          ///< of a coordinate stream, s
-    double processor_hz = machine::CordicDriverOptions().clock_hz; ///< clock of the CORDIC processor
-    RecordChoice record = {};                                      ///< of a coordinate stream, and of records
-    bool keys = false; ///< of JobKeys also from an input that is no terminal
+/// What the options --driver, --speed, --period and those of records and controllers say.
+struct PlannedMachineChoice {
+    std::string driver = "virtual"; ///< or cordic, stream, records
+    double speed = 1.0;             ///< times real time; 0: as fast as it goes
+    double period = 0.01;           ///< of a coordinate stream, s
+    double processor_hz = machine::CordicDriverOptions().clock_hz;
+    RecordChoice record;            ///< of a coordinate stream, and of records
+    ControllerChoice controller;    ///< port of these, keys, optional stops
 };
 
-/// Connected for the first job, which says which machine it is; the next ones go over the same connection.
+/// Adds --speed, --period and those of records to `command`.
+void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice);
+
+/// Throws Error for what is missing or too much, before any work is done.
+void check(const PlannedMachineChoice& choice);
+
+/// Runs jobs one after another, over one connection; the first says which machine it is.
 class PlannedMachine {
 public:
-    /// Throws Error, before any work is done, if a port is missing or the driver takes no records.
-    explicit PlannedMachine(const PlannedChoice& choice);
-    PlannedMachine(const PlannedMachine&) = delete;
-    PlannedMachine& operator=(const PlannedMachine&) = delete;
-    ~PlannedMachine();
+    /// `choice` must outlive it.
+    explicit PlannedMachine(const PlannedMachineChoice& choice) : choice_(choice) {}
 
-    /// Runs the job to its end under a progress bar; logs go to `log_folder`. Throws Error.
+    /// Under a progress bar. Throws Error, before anything moves if the job is at fault.
     [[nodiscard]] machine::JobOutcome
     run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop);
 
 private:
     void connect(const machine::Job& job);
+    [[nodiscard]] std::unique_ptr<machine::Driver> make_driver(const machine::Job& job);
 
-    const PlannedChoice& choice_;
+    const PlannedMachineChoice& choice_;
     machine::SteadyClock clock_;
     std::string model_; ///< name of the machine that the driver moves
     std::unique_ptr<machine::Driver> driver_;

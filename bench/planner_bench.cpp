@@ -6,6 +6,7 @@
 #include "core/gcode/reader/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/motion/time_estimate.h"
 
 #include <benchmark/benchmark.h>
 
@@ -76,6 +77,30 @@ BENCHMARK_CAPTURE(plan, rounded_jerk, gcode::PathMode::continuous, true, 0)->Uni
 BENCHMARK_CAPTURE(plan, rounded_jerk_16_blocks, gcode::PathMode::continuous, true, 16)
     ->Unit(benchmark::kMillisecond);
 
+/// The duration alone, in flat memory.
+void estimate(benchmark::State& state, gcode::PathMode mode, bool jerk) {
+    constexpr int blocks = 100'000;
+    const kinematics::MachineModel machine = five_axes(jerk);
+    const gcode::Program program = wave(machine, blocks, mode);
+    motion::FilterTime filter(machine, program.start);
+    for (const gcode::Block& block : program.blocks) {
+        filter.add(block);
+    }
+    double duration = 0.0;
+    for (auto _ : state) {
+        motion::TimeEstimate time(machine, {}, program.start, filter);
+        for (const gcode::Block& block : program.blocks) {
+            time.add(block);
+        }
+        duration = time.finish();
+        benchmark::DoNotOptimize(duration);
+    }
+    state.SetItemsProcessed(state.iterations() * blocks);
+    state.counters["duration_s"] = duration;
+}
+BENCHMARK_CAPTURE(estimate, exact_path, gcode::PathMode::exact_path, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(estimate, rounded_jerk, gcode::PathMode::continuous, true)->Unit(benchmark::kMillisecond);
+
 /// What a machine with all of its axes does for a file; nothing if it cannot.
 gcode::Program sample(const kinematics::MachineModel& machine, const std::filesystem::path& file) {
     gcode::MachineProgramBuilder builder(machine, file);
@@ -100,6 +125,7 @@ void samples(benchmark::State& state, bool jerk) {
     double whole = 0.0;
     double short_sighted = 0.0;
     double worst = 0.0;
+    double best = 1.0;
     for (auto _ : state) {
         whole = short_sighted = worst = 0.0;
         for (const gcode::Program& program : programs) {
@@ -108,12 +134,14 @@ void samples(benchmark::State& state, bool jerk) {
             whole += ours;
             short_sighted += theirs;
             worst = std::max(worst, theirs > 0.0 ? ours / theirs : 0.0);
+            best = std::min(best, theirs > 0.0 ? ours / theirs : 1.0);
         }
     }
     state.counters["programs"] = static_cast<double>(programs.size());
     state.counters["whole_s"] = whole;
     state.counters["16_blocks_s"] = short_sighted;
     state.counters["largest_ratio"] = worst;
+    state.counters["smallest_ratio"] = best;
 }
 BENCHMARK_CAPTURE(samples, acceleration, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(samples, jerk, true)->Unit(benchmark::kMillisecond);

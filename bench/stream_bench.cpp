@@ -1,16 +1,20 @@
 // Streaming 1,000 short blocks a second to an emulated Grbl over a pseudo-terminal, in real time: how full
 // its planner is meanwhile. 15 blocks are full; a planner that runs dry brakes.
 #include "core/base/error.h"
+#include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/emulators/grbl/grbl_server.h"
 #include "core/machine/job.h"
+#include "core/machine/job_log.h"
 #include "core/machine/links/pseudo_terminal.h"
 #include "core/machine/links/serial_link.h"
+#include "tests/support/scratch_folder.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -40,45 +44,100 @@ template <class Look> void watch(const machine::Driver& driver, const Look& look
     expects(driver.status().state == DriverState::idle, "the emulated controller ends well");
 }
 
-void stream(benchmark::State& state) {
+/// A driver and an emulated controller that can do 1,000 such blocks a second.
+struct Wire {
     machine::SteadyClock clock;
-    auto terminal = std::make_unique<machine::PseudoTerminal>();
-    terminal->open();
-    auto near_end = std::make_unique<machine::SerialLink>(terminal->path());
-    std::vector<std::unique_ptr<machine::Link>> links;
-    links.push_back(std::move(terminal));
-    machine::GrblServer server(std::move(links), clock, {.keep_truth = false});
-    machine::GrblDriver driver(std::move(near_end), clock);
-    driver.connect();
-    for (const char* setting : {"$110=12000", "$120=9000"}) {
-        (void)driver.command(setting);
-        watch(driver, [] {});
+    std::unique_ptr<machine::GrblServer> server;
+    std::unique_ptr<machine::GrblDriver> driver;
+
+    Wire() {
+        auto terminal = std::make_unique<machine::PseudoTerminal>();
+        terminal->open();
+        auto near_end = std::make_unique<machine::SerialLink>(terminal->path());
+        std::vector<std::unique_ptr<machine::Link>> links;
+        links.push_back(std::move(terminal));
+        server = std::make_unique<machine::GrblServer>(
+            std::move(links), clock, machine::GrblEmulatorOptions{.keep_truth = false});
+        driver = std::make_unique<machine::GrblDriver>(std::move(near_end), clock);
+        driver->connect();
+        for (const char* setting : {"$110=12000", "$120=9000"}) {
+            (void)driver->command(setting);
+            watch(*driver, [] {});
+        }
     }
+    [[nodiscard]] int planned() const {
+        return server->with_controller([](machine::GrblEmulator& grbl) { return grbl.planned_blocks(); });
+    }
+};
+
+void show(benchmark::State& state, std::vector<int> planned, double seconds) {
+    std::ranges::sort(planned);
+    const auto share = [&](double of) {
+        return planned[static_cast<std::size_t>(of * static_cast<double>(planned.size() - 1))];
+    };
+    state.counters["blocks_a_s"] = blocks / seconds;
+    state.counters["planned_least"] = planned.front();
+    state.counters["planned_1_percent"] = share(0.01);
+    state.counters["planned_median"] = share(0.5);
+}
+
+void stream(benchmark::State& state) {
+    Wire wire;
     for (auto _ : state) {
         std::vector<int> planned;
-        const double begin = clock.now();
-        driver.start({nullptr, nullptr, machine::text_job(short_blocks(), "short.ngc").listing, {}});
-        watch(driver, [&] {
-            const int sent = driver.status().sent_blocks;
+        const double begin = wire.clock.now();
+        wire.driver->start({nullptr, nullptr, machine::text_job(short_blocks(), "short.ngc").listing, {}});
+        watch(*wire.driver, [&] {
+            const int sent = wire.driver->status().sent_blocks;
             if (sent > blocks / 10 && sent < blocks) {
-                planned.push_back(server.with_controller(
-                    [](machine::GrblEmulator& grbl) { return grbl.planned_blocks(); }));
+                planned.push_back(wire.planned());
             }
         });
-        const double seconds = clock.now() - begin;
-        std::ranges::sort(planned);
-        const auto share = [&](double of) {
-            return planned[static_cast<std::size_t>(of * static_cast<double>(planned.size() - 1))];
-        };
-        state.counters["blocks_a_s"] = blocks / seconds;
-        state.counters["planned_least"] = planned.front();
-        state.counters["planned_1_percent"] = share(0.01);
-        state.counters["planned_median"] = share(0.5);
+        show(state, std::move(planned), wire.clock.now() - begin);
     }
-    driver.close();
+    wire.driver->close();
+}
+
+/// As a job: with a log that is written before anything is sent. `unknown`: of so many blocks nobody would
+/// know, had the program been killed; `log_lines`: a second.
+void stream_a_job(benchmark::State& state) {
+    Wire wire;
+    const test::ScratchFolder folder;
+    for (auto _ : state) {
+        std::vector<int> planned;
+        std::atomic<bool> over = false;
+        std::jthread look([&] {
+            for (; !over; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+                const int sent = wire.driver->status().sent_blocks;
+                if (sent > blocks / 10 && sent < blocks) {
+                    planned.push_back(wire.planned());
+                }
+            }
+        });
+        machine::Dispatcher dispatcher(*wire.driver, wire.clock, folder.path());
+        const machine::JobOutcome outcome =
+            dispatcher.run(machine::text_job(short_blocks(), "short.ngc"), {});
+        over = true;
+        look.join();
+        expects(outcome.end == machine::JobEnd::done, "the job is done");
+        const machine::ReadLog log = machine::read_job_log(outcome.log_file);
+        int allowed = 0;
+        std::vector<int> unknown;
+        for (const machine::LogRecord& record : log.records) {
+            allowed = std::max(allowed, record.allowed_blocks);
+            unknown.push_back(allowed - record.executed_blocks);
+        }
+        std::ranges::sort(unknown);
+        state.counters["unknown_median"] = unknown[unknown.size() / 2];
+        state.counters["unknown_most"] = unknown.back();
+        state.counters["log_lines"] = static_cast<double>(log.records.size()) / outcome.elapsed;
+        show(state, std::move(planned), outcome.elapsed);
+    }
+    wire.driver->close();
 }
 
 BENCHMARK(stream)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1)->Repetitions(3);
+BENCHMARK(stream_a_job)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1)->Repetitions(3);
 
 } // namespace
 } // namespace millwright

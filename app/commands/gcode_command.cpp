@@ -9,6 +9,7 @@
 #include "core/gcode/reader/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/motion/time_estimate.h"
 #include "core/project/assets.h"
 
 #include <CLI/Config.hpp>
@@ -19,10 +20,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -93,12 +96,16 @@ void print_json(const gcode::Interpreter& program, std::int64_t moves) {
     answer["lines"] = program.line_count();
     answer["moves"] = moves;
     answer["errors"] = std::move(errors);
+    if (program.further_errors() > 0) {
+        answer["further_errors"] = program.further_errors();
+    }
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int check(const Options& options) {
     gcode::ReaderSettings settings = settings_of(options);
     settings.most_errors = most_errors_shown;
+    settings.read_on = true;
     MoveCounter moves;
     gcode::Interpreter program(options.file, std::move(settings), moves);
     program.run();
@@ -108,8 +115,16 @@ int check(const Options& options) {
         for (const Diagnostic& error : program.errors()) {
             fmt::print(stderr, "millwright: {}\n", to_text(error));
         }
-        fmt::print(
-            "{} lines, {} moves, {} errors\n", program.line_count(), moves.count(), program.errors().size());
+        if (program.further_errors() > 0) {
+            fmt::print(stderr,
+                       "millwright: {}: {} more errors are not listed\n",
+                       options.file,
+                       program.further_errors());
+        }
+        fmt::print("{} lines, {} moves, {} errors\n",
+                   program.line_count(),
+                   moves.count(),
+                   std::ssize(program.errors()) + program.further_errors());
     }
     return program.errors().empty() ? 0 : 1;
 }
@@ -188,24 +203,114 @@ int convert(const Options& options) {
     return 0;
 }
 
-/// How long the machine takes: the duration of the motion that is planned for it.
+/// The blocks of a G-code file for a machine, a thousand at a time.
+class BlockStream {
+public:
+    /// `text`: the file's, if it can be read only once.
+    BlockStream(const Options& options,
+                const kinematics::MachineModel& machine,
+                const std::optional<std::string>& text)
+        : builder_(machine, options.file, settings()),
+          reader_(text ? gcode::Interpreter(*text, options.file, settings_of(options), builder_)
+                       : gcode::Interpreter(options.file, settings_of(options), builder_)) {}
+
+    /// False at the end of the file.
+    [[nodiscard]] bool next(std::vector<gcode::Block>& blocks) {
+        blocks.clear();
+        constexpr int lines = 1000;
+        bool more = true;
+        for (int n = 0; n < lines && more; ++n) {
+            more = reader_.step();
+        }
+        builder_.take_blocks(blocks);
+        return more;
+    }
+    [[nodiscard]] const std::vector<Diagnostic>& errors() const { return reader_.errors(); }
+    [[nodiscard]] int block_count() const { return builder_.block_count(); }
+    [[nodiscard]] gcode::MachineProgram rest() { return builder_.take(); }
+
+private:
+    static gcode::MachineProgramSettings settings() {
+        gcode::MachineProgramSettings settings;
+        settings.most_blocks = std::numeric_limits<int>::max(); // none is kept
+        return settings;
+    }
+
+    gcode::MachineProgramBuilder builder_;
+    gcode::Interpreter reader_;
+};
+
+/// Reads as much as it takes to know: of most programs the first lines.
+motion::FilterTime filter_time(const Options& options,
+                               const kinematics::MachineModel& machine,
+                               const kinematics::AxisPositions& start,
+                               const std::optional<std::string>& text) {
+    motion::FilterTime filter(machine, start);
+    BlockStream stream(options, machine, text);
+    std::vector<gcode::Block> blocks;
+    for (bool more = true; more && !filter.settled();) {
+        more = stream.next(blocks);
+        for (const gcode::Block& block : blocks) {
+            filter.add(block);
+        }
+    }
+    if (!filter.settled()) {
+        for (const gcode::Block& block : stream.rest().program.blocks) {
+            filter.add(block);
+        }
+    }
+    return filter;
+}
+
+struct EstimatedTime {
+    double seconds = 0.0;
+    double length = 0.0; ///< mm
+    int blocks = 0;
+};
+
+/// How long the machine takes: the duration of the motion that is planned for it. Throws Error with the first
+/// thing that is wrong.
+EstimatedTime estimated_time(const Options& options) {
+    const auto machine = kinematics::read_machine(
+        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
+    const auto start = gcode::MachineProgramBuilder(machine, options.file).take().program.start;
+    std::error_code none;
+    const std::optional<std::string> text =
+        std::filesystem::is_fifo(options.file, none) ? std::optional(read_file(options.file)) : std::nullopt;
+    motion::TimeEstimate estimate(
+        machine, planner_settings(options), start, filter_time(options, machine, start, text));
+    BlockStream stream(options, machine, text);
+    std::vector<gcode::Block> blocks;
+    for (bool more = true; more;) {
+        more = stream.next(blocks);
+        for (const gcode::Block& block : blocks) {
+            estimate.add(block);
+        }
+    }
+    throw_first(stream.errors());
+    const int count = stream.block_count();
+    const gcode::MachineProgram rest = stream.rest();
+    throw_first(rest.faults);
+    for (const gcode::Block& block : rest.program.blocks) {
+        estimate.add(block);
+    }
+    return {estimate.finish(), rest.length, count};
+}
+
 int time(const Options& options) {
-    const MachineRun run = machine_run(options);
-    const gcode::MachineProgram& found = run.found;
-    const double duration =
-        motion::plan(found.program, run.machine, planner_settings(options), Progress()).duration();
+    const EstimatedTime found = estimated_time(options);
     if (options.json) {
         nlohmann::ordered_json answer;
-        answer["time_s"] = duration;
+        answer["time_s"] = found.seconds;
         answer["length_mm"] = found.length;
-        answer["blocks"] = found.program.block_count();
+        answer["blocks"] = found.blocks;
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
-                   clock_time(duration),
-                   duration,
+                   clock_time(found.seconds),
+                   found.seconds,
                    found.length,
-                   found.program.block_count());
+                   found.blocks);
     }
     return 0;
 }

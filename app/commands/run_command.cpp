@@ -6,19 +6,13 @@
 #include "app/posting.h"
 #include "app/series.h"
 #include "core/base/error.h"
-#include "core/base/numbers.h"
-#include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/run_from_line.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
-#include <charconv>
-#include <cstdio>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 namespace millwright::app {
@@ -27,25 +21,10 @@ namespace {
 
 struct Options {
     SeriesChoice series;
-    PlannedChoice machine;       ///< and the driver of any
-    ControllerChoice controller; ///< for grbl; its port and keys for all
-    PostChoice post{.post = ""}; ///< empty: that of the driver
+    PlannedMachineChoice machine; ///< its controller also for grbl
+    PostChoice post{.post = ""};  ///< empty: that of the driver
     std::optional<double> clearance;
 };
-
-std::string fault_of_speed(const std::string& text) {
-    using machine::VirtualSpeed;
-    double speed = 0.0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), speed);
-    const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
-    const bool inside = speed >= VirtualSpeed::slowest && speed <= VirtualSpeed::fastest;
-    return whole && (inside || exactly_equal(speed, VirtualSpeed::unlimited))
-               ? std::string()
-               : fmt::format("'{}' is neither 0 nor between {} and {}",
-                             text,
-                             VirtualSpeed::slowest,
-                             VirtualSpeed::fastest);
-}
 
 /// In the words of the driver's control, or of the one that was chosen.
 machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const Options& options) {
@@ -79,18 +58,13 @@ machine::Job begun_at(machine::Job job, int line, const Options& options) {
 }
 
 int run(const Options& options) {
+    check(options.machine);
     const Interrupt interrupt;
     std::optional<Controller> controller;
     if (options.machine.driver == "grbl") {
-        if (options.controller.port.empty()) { // before the work is done
-            throw Error("the grbl driver needs a port", {}, "give --port");
-        }
-        controller.emplace(options.controller);
+        controller.emplace(options.machine.controller);
     }
-    PlannedChoice machine_choice = options.machine;
-    machine_choice.port = options.controller.port;
-    machine_choice.keys = options.controller.keys;
-    PlannedMachine planned_machine(machine_choice);
+    PlannedMachine planned_machine(options.machine);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         const OpenedProject opened = open_project(file);
@@ -126,23 +100,13 @@ void add_run_command(CLI::App& app, Command& chosen) {
     command.add_option("--driver", options->machine.driver, "Machine to run on")
         ->required()
         ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
-    add_controller_options(command, options->controller);
-    command.add_option("--period", options->machine.period, "Sampling period of a coordinate stream, s")
-        ->type_name("S")
-        ->capture_default_str();
-    command
-        .add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
+    add_controller_options(command, options->machine.controller);
+    add_planned_machine_options(command, options->machine);
+    command.add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
         ->type_name("HZ")
         ->check(CLI::Range(1.0, 1e11))
         ->capture_default_str();
-    add_record_options(command, options->machine.record);
     add_post_options(command, options->post);
-    command
-        .add_option("--speed",
-                    options->machine.speed,
-                    "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
-        ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
-        ->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
 }
 

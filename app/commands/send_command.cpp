@@ -28,28 +28,30 @@ namespace {
 
 struct Options {
     SeriesChoice series;
-    ControllerChoice controller;
+    PlannedMachineChoice machine; ///< its controller also for grbl and linuxcnc
+    std::string model;            ///< of a machine that is moved position by position
+    std::vector<double> at;       ///< where it stands: X, Y, Z; empty: at the program's start
     std::optional<double> clearance;
-    std::string machine = "forming-table"; ///< of tables
-    std::vector<double> at;                ///< where the table stands: X, Y, Z; empty: at the program's start
-    PlannedChoice table;
 };
 
-bool is_table(const Options& options) {
-    return options.controller.driver == "stream" || options.controller.driver == "records";
+bool is_moved_from_here(const Options& options) {
+    const std::string& driver = options.machine.driver;
+    return driver == "virtual" || driver == "stream" || driver == "records";
 }
 
-machine::Job job_of(const Options& options, const std::string& file, int from_line) {
-    machine::Job job = machine::text_job(read_file(file), file);
-    if (from_line > 1) {
-        machine::RunFromSettings settings;
-        settings.dialect =
-            options.controller.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
-        settings.clearance = options.clearance;
-        job = machine::job_from_line(job, from_line, settings);
+void check_model(const Options& options) {
+    const bool moved = is_moved_from_here(options);
+    if (moved && options.model.empty()) {
+        throw Error("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
     }
-    job.started_at = now_for_people();
-    return job;
+    if (!moved && (!options.model.empty() || !options.at.empty())) {
+        throw Error("a machine and where it stands are for the drivers virtual, stream and records");
+    }
+}
+
+std::shared_ptr<const kinematics::MachineModel> model_of(const Options& options) {
+    return std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
+        project::machine_path(options.model, std::filesystem::current_path(), project::assets_folder())));
 }
 
 std::optional<kinematics::AxisPositions> place_of(const kinematics::MachineModel& model,
@@ -83,45 +85,25 @@ void say_what_is_by_hand(const machine::Job& job) {
     }
 }
 
-machine::Job table_job(const Options& options, const std::string& file, int from_line) {
-    const auto model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
-        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
-    machine::Job job = machine::file_job(file, model, {.start = place_of(*model, options.at)});
+/// `job` from the line that was asked for, with the time.
+machine::Job ready(machine::Job job, const Options& options, int from_line) {
     if (from_line > 1) {
         machine::RunFromSettings settings;
+        settings.dialect = options.machine.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
         settings.clearance = options.clearance;
         job = machine::job_from_line(job, from_line, settings);
     }
     job.started_at = now_for_people();
-    if (const auto faults = machine::preflight(job); !faults.empty()) {
-        throw Error(faults.front());
-    }
-    say_what_is_by_hand(job);
     return job;
 }
 
-int send_to_table(const Options& options) {
-    PlannedChoice choice = options.table;
-    choice.driver = options.controller.driver;
-    choice.port = options.controller.port;
-    choice.keys = options.controller.keys;
+/// To a controller that plans for itself.
+int send_text(const Options& options) {
     const Interrupt interrupt;
-    PlannedMachine table(choice);
-    SeriesSteps steps;
-    steps.make = [&](const std::string& file, int from_line) { return table_job(options, file, from_line); };
-    steps.ready = [] {};
-    steps.run = [&](const machine::Job& job) {
-        return table.run(job, options.series.log, interrupt.token());
-    };
-    return run_series(options.series, steps, interrupt.token());
-}
-
-int send(const Options& options) {
-    const Interrupt interrupt;
-    Controller controller(options.controller);
+    Controller controller(options.machine.controller);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job = job_of(options, file, from_line);
+        machine::Job job = ready(machine::text_job(read_file(file), file), options, from_line);
         controller.check(job);
         return job;
     };
@@ -132,29 +114,57 @@ int send(const Options& options) {
     return run_series(options.series, steps, interrupt.token());
 }
 
+int send_motion(const Options& options) {
+    const Interrupt interrupt;
+    const auto model = model_of(options);
+    PlannedMachine machine(options.machine);
+    SeriesSteps steps;
+    steps.make = [&](const std::string& file, int from_line) {
+        machine::Job job =
+            ready(machine::file_job(file, model, {.start = place_of(*model, options.at)}), options, from_line);
+        if (const auto faults = machine::preflight(job); !faults.empty()) {
+            throw Error(faults.front());
+        }
+        if (options.machine.driver != "virtual") {
+            say_what_is_by_hand(job);
+        }
+        return job;
+    };
+    steps.ready = [] {};
+    steps.run = [&](const machine::Job& job) {
+        return machine.run(job, options.series.log, interrupt.token());
+    };
+    return run_series(options.series, steps, interrupt.token());
+}
+
+int send(const Options& options) {
+    check(options.machine);
+    check_model(options);
+    return is_moved_from_here(options) ? send_motion(options) : send_text(options);
+}
+
 } // namespace
 
 void add_send_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand("send", "Send files to a machine");
-    add_series_options(command, options->series, "G-code files; of tables also path files");
-    command.add_option("--driver", options->controller.driver, "Kind of controller, or of table")
+    add_series_options(command, options->series, "G-code files; where a machine is named also path files");
+    command.add_option("--driver", options->machine.driver, "Kind of controller, or machine to run on")
         ->required()
-        ->check(CLI::IsMember({"grbl", "linuxcnc", "stream", "records"}));
-    add_controller_options(command, options->controller).required();
-    command.add_option("--axes", options->controller.axes, "Axes of the machine, for linuxcnc")
+        ->check(CLI::IsMember({"grbl", "linuxcnc", "stream", "records", "virtual"}));
+    command
+        .add_option("--machine", options->model, "Shipped machine or machine file, for virtual, stream and records")
+        ->type_name("NAME");
+    command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")->delimiter(',')->expected(3);
+    add_controller_options(command, options->machine.controller);
+    add_planned_machine_options(command, options->machine);
+    command.add_option("--axes", options->machine.controller.axes, "Axes of the machine, for linuxcnc")
         ->type_name("LETTERS")
         ->capture_default_str();
     add_clearance_option(command, options->clearance);
-    command.add_option("--machine", options->machine, "Of tables: shipped machine or machine file")
-        ->capture_default_str();
-    command.add_option("--at", options->at, "Where the table stands: X,Y,Z, mm")->delimiter(',')->expected(3);
-    command.add_option("--period", options->table.period, "Sampling period of a coordinate stream, s")
-        ->type_name("S")
-        ->capture_default_str();
-    add_record_options(command, options->table.record);
     command.callback([&chosen, options] {
-        chosen = [options] { return is_table(*options) ? send_to_table(*options) : send(*options); };
+        options->machine.controller.driver = options->machine.driver;
+        chosen = [options] { return send(*options); };
     });
 }
 

@@ -16,6 +16,20 @@ AxisSet AxisSet::only(int axis) {
     return set;
 }
 
+std::string_view code_of(PauseKind pause) {
+    switch (pause) {
+    case PauseKind::program_stop:
+        return "M0";
+    case PauseKind::pallet_change:
+        return "M60";
+    case PauseKind::optional_stop:
+        return "M1";
+    case PauseKind::tool_change:
+        return "M6";
+    }
+    return {};
+}
+
 const kinematics::AxisPositions& position_before(const Program& program, int n) {
     expects(n >= 0 && n <= program.block_count(), "a block belongs to its program");
     return n == 0 ? program.start : program.blocks[static_cast<std::size_t>(n) - 1].target;

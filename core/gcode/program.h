@@ -5,8 +5,10 @@
 #include "core/gcode/path_mode.h"
 #include "core/kinematics/machine_model.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::gcode {
@@ -18,11 +20,22 @@ enum class BlockKind {
     coolant_on,
     coolant_off,
     dwell, ///< stands for `Block::duration`
-    pause, ///< stands until a person goes on: program stop, tool change; `Block::text` says which
+    pause, ///< stands until a person goes on; `Block::pause` and `text` say what for
     rapid, ///< straight in axis space, as fast as the axes can
     feed,  ///< straight in axis space, in `Block::duration`
     end
 };
+
+/// What a pause waits for.
+enum class PauseKind : std::uint8_t {
+    program_stop,  ///< M0
+    pallet_change, ///< M60
+    optional_stop, ///< M1: only while the machine's switch for these is on
+    tool_change    ///< M6
+};
+
+/// "M0", "M60", "M1", "M6".
+[[nodiscard]] std::string_view code_of(PauseKind pause);
 
 /// What a move is for.
 enum class MoveRole { none, approach, plunge, cut, link, retract };
@@ -45,10 +58,11 @@ private:
 struct Block {
     BlockKind kind = BlockKind::comment;
     MoveRole role = MoveRole::none;
-    kinematics::AxisPositions target; ///< after the block, exactly as written; every block has one
-    AxisSet named;                    ///< axes that a move positions, the others are where they were
-    double duration = 0.0;            ///< feed: of the move, s; dwell: s
-    double feed = 0.0;                ///< feed: mean speed of the tool tip on the part, mm/s
+    kinematics::AxisPositions target;          ///< after the block, exactly as written; every block has one
+    AxisSet named;                             ///< axes that a move positions, the others are where they were
+    PauseKind pause = PauseKind::program_stop; ///< of a pause
+    double duration = 0.0;                     ///< feed: of the move, s; dwell: s
+    double feed = 0.0;                         ///< feed: mean speed of the tool tip on the part, mm/s
     double spindle_rpm = 0.0;
     int path_point = -1;             ///< the point of the tool path where the block ends, or -1
     int source_line = 0;             ///< of the G-code file that it was read from, from 1; 0: none

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/internal/shared_log.h"
 #include "core/machine/survey.h"
 
 #include <fmt/format.h>
@@ -86,17 +87,23 @@ public:
           JobLog& log,
           std::shared_ptr<const motion::Trajectory> trajectory,
           DriverStatus before)
-        : dispatcher_(dispatcher), job_(job), log_(log), trajectory_(std::move(trajectory)),
+        : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
           plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
           last_(std::move(before)) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
+        log_ = std::make_shared<internal::SharedLog>(
+            log, dispatcher.clock_, start_, blocks(), record(LogEvent::executed, 0.0, last_));
     }
 
-    /// Written before the driver is started or told; what a log does not allow has not been sent.
-    [[nodiscard]] int allow_first() {
-        write_ahead(std::min(allowance, blocks()));
-        return allowed_;
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+    ~Watch() { log_->close(); }
+
+    /// For a piecewise driver, which may keep it longer than this lives: what a log does not allow has not
+    /// been sent.
+    [[nodiscard]] std::function<int(int)> ahead() const {
+        return [log = log_](int wanted) { return log->allow(wanted); };
     }
 
     JobOutcome to_the_end(const Progress& progress, const Listener& listener) {
@@ -108,7 +115,8 @@ public:
             remember(status);
             write_requests();
             write_executed();
-            look_ahead();
+            write_waiting();
+            log_->rethrow_failure();
             tell(progress, listener);
             if (ended(status.state)) {
                 return outcome(status);
@@ -124,7 +132,7 @@ public:
             LogRecord end = record(LogEvent::end, elapsed(), last_);
             end.end = JobEnd::fault;
             end.text = "The job was broken off by a failure of this program.";
-            log_.write(end);
+            log_->write(end);
         } catch (const std::exception&) {
             // The failure itself is on its way to the user, and a log without an end promises nothing.
         }
@@ -133,32 +141,15 @@ public:
 private:
     Dispatcher& dispatcher_;
     const Job& job_;
-    JobLog& log_;
+    std::filesystem::path file_; ///< of the log
     std::shared_ptr<const motion::Trajectory> trajectory_;
     bool plans_itself_ = false;
     double start_ = 0.0;
     DriverStatus last_; ///< with the last known position where the link is gone
+    std::shared_ptr<internal::SharedLog> log_;
     int logged_blocks_ = 0;
-    int allowed_ = -1; ///< negative: the driver takes a program whole
     bool cancelled_ = false;
-
-    static constexpr int allowance = 200; ///< blocks beyond those that were sent: half a second at high speed
-
-    void write_ahead(int allowed) {
-        LogRecord line = record(LogEvent::ahead, elapsed(), last_);
-        line.executed_blocks = logged_blocks_;
-        line.allowed_blocks = allowed;
-        log_.write(line);
-        allowed_ = allowed;
-    }
-
-    void look_ahead() {
-        const bool due = allowed_ >= 0 && allowed_ < blocks() && last_.sent_blocks + allowance / 2 > allowed_;
-        if (due) {
-            write_ahead(std::min(last_.sent_blocks + allowance, blocks()));
-            dispatcher_.driver_.allow(allowed_);
-        }
-    }
+    std::string waits_for_; ///< a person, and why; empty: for nobody
 
     [[nodiscard]] double elapsed() const { return dispatcher_.clock_.now() - start_; }
     [[nodiscard]] int blocks() const { return job_.block_count(); }
@@ -201,7 +192,7 @@ private:
             if (request.status.state != DriverState::disconnected) {
                 LogRecord line = record(request.event, time, request.status);
                 line.text = request.text;
-                log_.write(line);
+                log_->write(line);
                 logged_blocks_ = std::max(logged_blocks_, request.status.executed_blocks);
             }
         }
@@ -210,8 +201,19 @@ private:
     void write_executed() {
         if (last_.executed_blocks > logged_blocks_) {
             logged_blocks_ = last_.executed_blocks;
-            log_.write(record(LogEvent::executed, elapsed(), last_));
+            log_->write(record(LogEvent::executed, elapsed(), last_));
         }
+    }
+
+    /// Once for each time that the machine begins to wait by itself.
+    void write_waiting() {
+        const std::string why = last_.state == DriverState::holding ? last_.message : std::string();
+        if (why != waits_for_ && !why.empty()) {
+            LogRecord line = record(LogEvent::waiting, elapsed(), last_);
+            line.text = why;
+            log_->write(line);
+        }
+        waits_for_ = why;
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
@@ -243,16 +245,16 @@ private:
         result.elapsed = elapsed();
         result.position = last_.position;
         result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed);
-        result.log_file = log_.file();
+        result.log_file = file_;
         if (result.end == JobEnd::fault) {
             LogRecord fault = record(LogEvent::fault, result.elapsed, last_);
             fault.text = last_.message;
-            log_.write(fault);
+            log_->write(fault);
         }
         LogRecord end = record(LogEvent::end, result.elapsed, last_);
         end.end = result.end;
         end.text = result.sentence;
-        log_.write(end);
+        log_->write(end);
         return result;
     }
 };
@@ -300,7 +302,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     try {
         Work work{job.program, trajectory, job.listing, {}};
         if (able.piecewise) {
-            work.allowed_blocks = watch.allow_first();
+            work.ahead = watch.ahead();
         }
         driver_.start(std::move(work));
         return watch.to_the_end(progress.part(planning, 1.0), listener);
@@ -344,6 +346,10 @@ void Dispatcher::set_overrides(const Overrides& wanted) {
 
 void Dispatcher::set_single_block(bool on) {
     request(LogEvent::single_block, on ? "on" : "off", [&] { driver_.set_single_block(on); });
+}
+
+void Dispatcher::set_optional_stop(bool on) {
+    request(LogEvent::optional_stop, on ? "on" : "off", [&] { driver_.set_optional_stop(on); });
 }
 
 /// What a controller would have to find out by moving: read by its own rules, from where it stands.

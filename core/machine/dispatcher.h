@@ -44,6 +44,7 @@ public:
     /// Throw Error if the driver cannot do it.
     void set_overrides(const Overrides& wanted);
     void set_single_block(bool on);
+    void set_optional_stop(bool on);
 
 private:
     struct Request {

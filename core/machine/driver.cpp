@@ -32,11 +32,15 @@ int Driver::command(const std::string&) {
     refuse(*this, "execute single lines");
 }
 
-void Driver::allow(int) {}
-
 void Driver::set_single_block(bool on) {
     if (on) {
         refuse(*this, "go block by block");
+    }
+}
+
+void Driver::set_optional_stop(bool on) {
+    if (on) {
+        refuse(*this, "stop at M1 by a switch of ours");
     }
 }
 

@@ -2,8 +2,9 @@
 // mm, angles rad, times s.
 //
 // Threads: every member may be called from any thread and returns soon; hold, stop and emergency_stop act at
-// once. A driver runs what it needs in threads of its own and never calls back. Nothing moves before start();
-// nothing moves after stop() came to rest, after emergency_stop(), close() or the destructor.
+// once. A driver runs what it needs in threads of its own and never calls back, but for Work::ahead. Nothing
+// moves before start(); nothing moves after stop() came to rest, after emergency_stop(), close() or the
+// destructor.
 #pragma once
 
 #include "core/gcode/program.h"
@@ -13,6 +14,7 @@
 #include "core/motion/trajectory.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,11 +32,12 @@ struct Capabilities {
     bool jog = false;
     std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
     bool home = false;
-    bool command = false;      ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
-    bool probe = false;        ///< G38.2 as a command
-    bool settings = false;     ///< has a table of its own that can be changed
-    bool single_block = false; ///< can stand still after each block
-    bool piecewise = false; ///< gives a program to the controller bit by bit, and obeys Work::allowed_blocks
+    bool command = false;       ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
+    bool probe = false;         ///< G38.2 as a command
+    bool settings = false;      ///< has a table of its own that can be changed
+    bool single_block = false;  ///< can stand still after each block
+    bool optional_stop = false; ///< has a switch for M1 here
+    bool piecewise = false;     ///< gives a program to the controller bit by bit, and asks Work::ahead
     std::optional<gcode::Dialect> dialect{}; ///< in which it reads text
 };
 
@@ -77,8 +80,11 @@ struct Work {
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const motion::Trajectory> trajectory; ///< planned from the machine's position
     std::shared_ptr<const gcode::Listing> listing;
-    /// A piecewise driver gives no block from this one on to the controller before allow() says so.
-    std::optional<int> allowed_blocks{};
+    /// A piecewise driver gives no block to the controller before it has asked here, from whatever thread and
+    /// with its locks held: whoever answers does not call the driver. Asked for the number of blocks that are
+    /// wanted, counted from the program's first, it returns how many may be sent; less than wanted: nothing
+    /// more is sent. Empty: all may.
+    std::function<int(int wanted)> ahead{};
 };
 
 class Console;
@@ -95,8 +101,9 @@ public:
     /// Makes the link; nothing moves. Does nothing if there is one. Throws Error if there is nothing to link
     /// to.
     virtual void connect() = 0;
-    /// Begins to execute. Throws Error with the reason unless idle or stopped, or if the machine does not
-    /// stand where the trajectory begins.
+    /// Begins to execute. At M0, M60, M6 and, if they are switched on, optional stops the machine rests,
+    /// DriverState::holding with the reason as message, until resume(). Throws Error with the reason unless
+    /// idle or stopped, or if the machine does not stand where the trajectory begins.
     virtual void start(Work work) = 0;
     /// Brakes along the path; the program can be resumed. Does nothing unless running.
     virtual void hold() = 0;
@@ -128,8 +135,8 @@ public:
     /// After each block with anything to do the machine rests, DriverState::holding, until resume(). Also
     /// while a program runs: it rests as soon as it can.
     virtual void set_single_block(bool on);
-    /// More blocks of a running program may be sent; see Work::allowed_blocks. Does nothing otherwise.
-    virtual void allow(int blocks);
+    /// Whether M1 stops the program as M0 does; at first it does not.
+    virtual void set_optional_stop(bool on);
 
     /// Nothing where the controller does not tell, or while disconnected.
     [[nodiscard]] virtual MachineLimits limits() const { return {}; }

@@ -2,7 +2,6 @@
 
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
-#include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/machine_program.h"
 #include "core/plot/path_file.h"
 
@@ -13,29 +12,6 @@
 namespace millwright::machine {
 
 namespace {
-
-void throw_first(const std::vector<Diagnostic>& faults) {
-    if (!faults.empty()) {
-        throw Error(faults.front());
-    }
-}
-
-gcode::Program program_of_gcode(const std::string& text,
-                                const std::filesystem::path& file,
-                                const kinematics::MachineModel& machine,
-                                const FileJobSettings& settings) {
-    gcode::ReaderSettings reading;
-    reading.dialect = settings.dialect;
-    reading.any_tool = true;
-    reading.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
-    gcode::MachineProgramBuilder builder(machine, file, {.start = settings.start});
-    gcode::Interpreter program(text, file, std::move(reading), builder);
-    program.run();
-    throw_first(program.errors());
-    gcode::MachineProgram made = builder.take();
-    throw_first(made.faults);
-    return std::move(made.program);
-}
 
 /// The records stand below the title, blank lines between them or not.
 gcode::Program program_of_path(const std::string& text,
@@ -55,40 +31,24 @@ gcode::Program program_of_path(const std::string& text,
 
 } // namespace
 
-gcode::Listing listing_of(std::string_view text, const gcode::Program& program) {
-    gcode::Listing listing;
-    listing.text = text;
-    if (listing.text.empty() || listing.text.back() != '\n') {
-        listing.text += '\n';
-    }
-    listing.line_starts.push_back(0);
-    for (std::size_t n = 0; n < listing.text.size(); ++n) {
-        if (listing.text[n] == '\n') {
-            listing.line_starts.push_back(n + 1);
-        }
-    }
-    for (const gcode::Block& block : program.blocks) {
-        listing.line_of_block.push_back(std::max(block.source_line, 1));
-    }
-    return listing;
-}
-
 Job file_job(const std::filesystem::path& file,
              std::shared_ptr<const kinematics::MachineModel> machine,
              const FileJobSettings& settings) {
     const std::string text = read_file(file);
-    gcode::Program program = plot::is_path_file(text) ? program_of_path(text, file, *machine, settings)
-                                                      : program_of_gcode(text, file, *machine, settings);
-    const bool moves = std::ranges::any_of(program.blocks, &gcode::Block::moves);
-    if (!moves) {
+    Job job;
+    if (plot::is_path_file(text)) {
+        gcode::Program program = program_of_path(text, file, *machine, settings);
+        job.name = file.stem().string();
+        job.project = file.string();
+        job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, program));
+        job.program = std::make_shared<const gcode::Program>(std::move(program));
+        job.machine = std::move(machine);
+    } else {
+        job = planned_job(text, file, std::move(machine), settings.start);
+    }
+    if (std::ranges::none_of(job.program->blocks, &gcode::Block::moves)) {
         throw Error("the program moves nothing", file);
     }
-    Job job;
-    job.name = file.stem().string();
-    job.project = file.string();
-    job.listing = std::make_shared<const gcode::Listing>(listing_of(text, program));
-    job.program = std::make_shared<const gcode::Program>(std::move(program));
-    job.machine = std::move(machine);
     return job;
 }
 

@@ -1,20 +1,15 @@
 // Files as jobs of a machine that is moved position by position: G-code, and path files.
 #pragma once
 
-#include "core/gcode/reader/dialect.h"
 #include "core/machine/job.h"
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
+#include <optional>
 
 namespace millwright::machine {
 
-/// The lines of `text` with the blocks that were made of them, by Block::source_line.
-[[nodiscard]] gcode::Listing listing_of(std::string_view text, const gcode::Program& program);
-
 struct FileJobSettings {
-    gcode::Dialect dialect = gcode::Dialect::linuxcnc; ///< of G-code
     /// Where the machine stands; not given: at zero, or at its nearest limits.
     std::optional<kinematics::AxisPositions> start = {};
 };

@@ -1,12 +1,16 @@
 #include "core/machine/job.h"
 
 #include "core/base/units.h"
+#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/line_ends.h"
+#include "core/gcode/reader/machine_program.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <utility>
 
 namespace millwright::machine {
 
@@ -100,6 +104,7 @@ int Job::block_count() const {
 
 Job text_job(std::string text, const std::filesystem::path& file) {
     gcode::Listing listing;
+    text = gcode::with_newlines(std::move(text));
     if (!text.empty() && text.back() != '\n') {
         text += '\n';
     }
@@ -123,6 +128,34 @@ Job text_job(std::string text, const std::filesystem::path& file) {
     job.name = file.stem().string();
     job.project = file.string();
     job.listing = std::make_shared<const gcode::Listing>(std::move(listing));
+    return job;
+}
+
+Job planned_job(std::string_view text,
+                const std::filesystem::path& file,
+                std::shared_ptr<const MachineModel> machine,
+                std::optional<kinematics::AxisPositions> start) {
+    gcode::ReaderSettings settings;
+    settings.any_tool = true;
+    settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
+    gcode::MachineProgramBuilder builder(*machine, file, {.start = std::move(start)});
+    gcode::Interpreter reader(text, file, std::move(settings), builder);
+    reader.run();
+    gcode::MachineProgram made = builder.take();
+    for (const auto* faults : {&reader.errors(), &std::as_const(made.faults)}) {
+        if (!faults->empty()) {
+            throw Error(faults->front());
+        }
+    }
+    if (made.program.blocks.empty()) {
+        throw Error("nothing in it is to be executed", file);
+    }
+    Job job;
+    job.name = file.stem().string();
+    job.project = file.string();
+    job.machine = std::move(machine);
+    job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, made.program));
+    job.program = std::make_shared<const gcode::Program>(std::move(made.program));
     return job;
 }
 

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,14 @@ struct Job {
 
 /// A job of the lines of a G-code file, each that is not empty being a block. Throws Error if there is none.
 [[nodiscard]] Job text_job(std::string text, const std::filesystem::path& file);
+
+/// A job of a G-code file, by LinuxCNC's rules, whose motion is planned here for `machine`, which stands at
+/// `start` (not given: at zero, or at its nearest limits). Throws Error with the first thing that is wrong
+/// with it, or that this machine cannot do.
+[[nodiscard]] Job planned_job(std::string_view text,
+                              const std::filesystem::path& file,
+                              std::shared_ptr<const kinematics::MachineModel> machine,
+                              std::optional<kinematics::AxisPositions> start = {});
 
 enum class JobEnd {
     done,      ///< the driver executed every block

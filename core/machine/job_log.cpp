@@ -58,11 +58,13 @@ std::string one_line(const Json& value) {
 
 constexpr std::array all_events{LogEvent::ahead,
                                 LogEvent::executed,
+                                LogEvent::waiting,
                                 LogEvent::hold,
                                 LogEvent::resume,
                                 LogEvent::stop,
                                 LogEvent::overrides,
                                 LogEvent::single_block,
+                                LogEvent::optional_stop,
                                 LogEvent::fault,
                                 LogEvent::end};
 constexpr std::array all_ends{JobEnd::done, JobEnd::stopped, JobEnd::cancelled, JobEnd::fault};
@@ -159,6 +161,10 @@ std::string_view to_text(LogEvent event) {
         return "ahead";
     case LogEvent::overrides:
         return "overrides";
+    case LogEvent::optional_stop:
+        return "optional-stop";
+    case LogEvent::waiting:
+        return "waiting";
     case LogEvent::single_block:
         return "single-block";
     case LogEvent::executed:

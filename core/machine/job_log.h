@@ -27,11 +27,13 @@ struct LogStart {
 enum class LogEvent {
     ahead,    ///< the driver may give the controller more blocks from now on, up to LogRecord::allowed_blocks
     executed, ///<
+    waiting,  ///< the machine rests until a person goes on: LogRecord::text says why
     hold,
     resume,
     stop,
     overrides,
     single_block,
+    optional_stop,
     fault,
     end
 };

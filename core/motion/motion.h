@@ -5,4 +5,5 @@
 #include "core/motion/hold.h"
 #include "core/motion/planner.h"
 #include "core/motion/step_pulses.h"
+#include "core/motion/time_estimate.h"
 #include "core/motion/trajectory.h"

@@ -4,7 +4,6 @@
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/preview.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/file_job.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/internal/background.h"
@@ -206,7 +205,7 @@ private:
         motion->trajectory = std::make_shared<const motion::Trajectory>(
             motion::plan(made.program, *now.machine, {}, progress));
         motion->listing =
-            std::make_shared<const gcode::Listing>(machine::listing_of(now.text->bytes.text(), made.program));
+            std::make_shared<const gcode::Listing>(gcode::listing_of(now.text->bytes.text(), made.program));
         motion->program = std::make_shared<const gcode::Program>(std::move(made.program));
         machine::Job job;
         job.machine = now.machine;

@@ -9,6 +9,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string loops = "assets/samples/gcode/loops.ngc";
 
@@ -28,6 +29,26 @@ TEST(Gcode, CheckTellsEveryErrorWithItsPlace) {
                 HasSubstr("millwright: " + file.string() + ":2:1: G1 with a feed of zero (give F)"));
     EXPECT_THAT(ended.err, HasSubstr(file.string() + ":3:7: a line has one X word at most"));
     EXPECT_EQ(ended.out, "4 lines, 1 moves, 2 errors\n");
+}
+
+TEST(Gcode, CheckReadsOnBehindTheErrorsThatItLists) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "bad.ngc";
+    std::string text;
+    for (int n = 0; n < 250; ++n) {
+        text += "G0 X1 X2\n";
+    }
+    write_content(file, text + "G0 X1\nM2\n");
+    const Ended ended = run({"gcode", "check", file.string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(file.string() + ":100:"));
+    EXPECT_THAT(ended.err, Not(HasSubstr(file.string() + ":101:")));
+    EXPECT_THAT(ended.err, HasSubstr("bad.ngc: 150 more errors are not listed\n"));
+    EXPECT_EQ(ended.out, "252 lines, 1 moves, 250 errors\n");
+    const auto answer = nlohmann::json::parse(run({"gcode", "check", file.string(), "--json"}).out);
+    EXPECT_EQ(answer.at("lines"), 252);
+    EXPECT_EQ(answer.at("errors").size(), 100U);
+    EXPECT_EQ(answer.at("further_errors"), 150);
 }
 
 TEST(Gcode, CheckAnswersInJson) {

@@ -185,6 +185,62 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     EXPECT_EQ(after[0].at("end"), "done");
 }
 
+/// The records of the only log in `folder`, by name.
+std::vector<nlohmann::json> records_of(const fs::path& folder, const std::string& name) {
+    std::vector<nlohmann::json> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        std::istringstream text(content_of(entry.path()));
+        for (std::string line; std::getline(text, line);) {
+            const auto record = nlohmann::json::parse(line);
+            if (record.at("record") == name) {
+                found.push_back(record);
+            }
+        }
+    }
+    return found;
+}
+
+TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
+    write_content(file, "G21 G90\nG1 X10 F6000\nM0\nX20\nM1\nX10\nT4 M6\nX30\nM30\n");
+    const auto stream = (scratch / "stream.txt").string();
+    for (const bool to_file : {false, true}) {
+        std::vector<std::string> words{
+            "send", file, "--machine", "router-xyz", "--log", logs + (to_file ? "2" : ""), "--keys"};
+        for (const auto* word : {"--optional-stop", "--driver"}) {
+            words.emplace_back(word);
+        }
+        words.emplace_back(to_file ? "stream" : "virtual");
+        if (to_file) {
+            words.insert(words.end(), {"--port", "file:" + stream});
+        }
+        Program sender(words);
+        for (const auto* why : {"program stop at line 3: M0",
+                                "optional stop at line 5: M1",
+                                "change to tool 4 at line 7: M6"}) {
+            sender.wait_for_error_text(std::string("holding: ") + why + " (r goes on)");
+            sender.type("r");
+        }
+        const Ended ended = sender.end();
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr("All 8 blocks were executed"));
+        EXPECT_EQ(records_of(words[5], "waiting").size(), 3U);
+        EXPECT_EQ(records_of(words[5], "waiting")[0].at("line"), 3);
+        EXPECT_EQ(records_of(words[5], "resume").size(), 3U);
+        EXPECT_EQ(last_record(words[5]).at("end"), "done");
+    }
+    EXPECT_THAT(content_of(stream), testing::EndsWith("30.0000 0.0000 0.0000\n"));
+}
+
+TEST_F(Send, AsksForAMachineWhereItPlans) {
+    write_content(file, "G1 X1 F100\n");
+    EXPECT_THAT(run({"send", file, "--driver", "virtual"}).err,
+                HasSubstr("needs a machine (give --machine)"));
+    EXPECT_THAT(run({"send", file, "--driver", "stream", "--machine", "router-xyz"}).err,
+                HasSubstr("the stream driver needs a port"));
+    EXPECT_THAT(run({"send", file, "--driver", "grbl", "--port", port, "--machine", "router-xyz"}).err,
+                HasSubstr("a machine and where it stands are for the drivers virtual, stream and records"));
+}
+
 TEST_F(Send, ListsJobsAndPorts) {
     EXPECT_THAT(run({"jobs", logs}).out, HasSubstr("No job logs"));
     write_content(logs + ".jsonl", "nonsense\n");

@@ -79,6 +79,12 @@ private:
         return block;
     }
 
+    void pause(PauseKind kind, std::string text, int line) {
+        Block& block = add(BlockKind::pause, line);
+        block.pause = kind;
+        block.text = std::move(text);
+    }
+
     void move(const cordic::Published& record, std::size_t n) {
         const auto set = processor_.set_point(record);
         const auto height = processor_.height_point(record);
@@ -114,10 +120,10 @@ private:
             add(BlockKind::dwell, line).duration = parameter * seconds_a_microsecond;
             return;
         case Opcode::m00:
-            add(BlockKind::pause, line).text = "program stop";
+            pause(PauseKind::program_stop, "program stop", line);
             return;
         case Opcode::m01:
-            add(BlockKind::pause, line).text = "optional stop";
+            pause(PauseKind::optional_stop, "optional stop", line);
             return;
         case Opcode::m03:
         case Opcode::m04:
@@ -128,7 +134,7 @@ private:
             add(BlockKind::spindle_off, line);
             return;
         case Opcode::m06:
-            add(BlockKind::pause, line).text = fmt::format("tool change to {}", command.parameter);
+            pause(PauseKind::tool_change, fmt::format("change to tool {}", command.parameter), line);
             return;
         case Opcode::m07:
         case Opcode::m08:

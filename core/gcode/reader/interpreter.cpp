@@ -73,6 +73,7 @@ struct Interpreter::Parts {
     ControlFlow flow;
     ParsedLine line;
     std::vector<Diagnostic> errors;
+    std::int64_t further_errors = 0;
     bool started = false;
     bool stopped = false;
     bool seen_text = false;   ///< a line that is not blank
@@ -128,7 +129,8 @@ bool Interpreter::Parts::step() {
     if (run.ended && in_percents) {
         look_for_percent();
     }
-    stopped = stopped || run.ended || static_cast<int>(errors.size()) >= settings.most_errors;
+    const bool enough = !settings.read_on && std::ssize(errors) >= settings.most_errors;
+    stopped = stopped || run.ended || enough;
     if (stopped) {
         reset();
     }
@@ -265,6 +267,10 @@ void Interpreter::Parts::repeat_from_the_top() {
 }
 
 void Interpreter::Parts::report(const Refusal& refusal) {
+    if (std::ssize(errors) >= settings.most_errors) {
+        ++further_errors;
+        return;
+    }
     Diagnostic found;
     found.place = {files.name(), files.place().line, refusal.column, -1};
     found.message = refusal.rule;
@@ -317,6 +323,10 @@ int Interpreter::line_count() const {
 
 const std::vector<Diagnostic>& Interpreter::errors() const {
     return parts_->errors;
+}
+
+std::int64_t Interpreter::further_errors() const {
+    return parts_->further_errors;
 }
 
 } // namespace millwright::gcode

@@ -7,6 +7,7 @@
 #include "core/gcode/reader/modal_state.h"
 #include "core/gcode/reader/settings.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -43,6 +44,8 @@ public:
     /// How many lines of the program were come to.
     [[nodiscard]] int line_count() const;
     [[nodiscard]] const std::vector<Diagnostic>& errors() const;
+    /// How many errors came behind those, see ReaderSettings::read_on.
+    [[nodiscard]] std::int64_t further_errors() const;
 
 private:
     struct Parts;

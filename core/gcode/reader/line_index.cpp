@@ -1,9 +1,9 @@
 #include "core/gcode/reader/line_index.h"
 
 #include "core/base/error.h"
+#include "core/gcode/reader/line_ends.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace millwright::gcode {
 
@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::ptrdiff_t lines_a_mark = 64;
 constexpr std::ptrdiff_t lines_a_check = 65'536;
-
-/// Behind the next end of line, or behind the text.
-std::size_t next_line(std::string_view text, std::size_t begin) {
-    const void* end = std::memchr(text.data() + begin, '\n', text.size() - begin);
-    return end == nullptr ? text.size()
-                          : static_cast<std::size_t>(static_cast<const char*>(end) - text.data()) + 1;
-}
 
 } // namespace
 
@@ -47,11 +40,8 @@ std::size_t LineIndex::begin_of(std::ptrdiff_t n) const {
 
 std::string_view LineIndex::line(std::ptrdiff_t n) const {
     const std::size_t begin = begin_of(n);
-    std::string_view found = text_.substr(begin, next_line(text_, begin) - begin);
-    while (!found.empty() && (found.back() == '\n' || found.back() == '\r')) {
-        found.remove_suffix(1);
-    }
-    return found;
+    const std::string_view rest = text_.substr(begin);
+    return rest.substr(0, end_of_line(rest));
 }
 
 std::ptrdiff_t LineIndex::line_at(std::size_t byte) const {

@@ -4,12 +4,14 @@
 #include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
+#include "core/gcode/reader/line_ends.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,6 +39,11 @@ AxisSet axes_with_words(std::string_view line, const kinematics::MachineModel& m
         }
     }
     return set;
+}
+
+/// What the end of a program does by itself.
+bool switches_off(const Block& block) {
+    return block.kind == BlockKind::spindle_off || block.kind == BlockKind::coolant_off;
 }
 
 } // namespace
@@ -119,15 +126,27 @@ public:
         case CommandKind::flood_off:
             switch_coolant_off(command.source);
             break;
+        case CommandKind::select_tool:
+            selected_tool_ = command.index;
+            break;
         case CommandKind::change_tool:
-        case CommandKind::change_tool_number:
-            add(BlockKind::pause, command.source).text = "tool change";
+            pause(PauseKind::tool_change,
+                  selected_tool_ > 0 ? fmt::format("change to tool {}", selected_tool_)
+                                     : "the tool out of the spindle",
+                  command.source);
+            break;
+        case CommandKind::pallet_shuttle:
+            pallet_moves_ = true;
             break;
         case CommandKind::program_stop:
-            add(BlockKind::pause, command.source).text = "program stop";
+            if (std::exchange(pallet_moves_, false)) {
+                pause(PauseKind::pallet_change, "pallet change", command.source);
+            } else {
+                pause(PauseKind::program_stop, "program stop", command.source);
+            }
             break;
         case CommandKind::optional_program_stop:
-            add(BlockKind::pause, command.source).text = "optional stop";
+            pause(PauseKind::optional_stop, "optional stop", command.source);
             break;
         case CommandKind::program_end:
         case CommandKind::finish:
@@ -138,21 +157,45 @@ public:
         }
     }
 
-    [[nodiscard]] int block_count() const { return result_.program.block_count(); }
+    [[nodiscard]] int block_count() const { return static_cast<int>(taken_) + result_.program.block_count(); }
     [[nodiscard]] MachineProgram take() { return std::move(result_); }
+
+    /// All but the last, and what the end of the program would switch off anew in its line.
+    void take_blocks(std::vector<Block>& out) {
+        auto& blocks = result_.program.blocks;
+        if (blocks.size() < 2) {
+            return;
+        }
+        auto kept = blocks.end() - 1;
+        while (kept != blocks.begin() && switches_off(*kept) && switches_off(*(kept - 1)) &&
+               (kept - 1)->source_line == kept->source_line) {
+            --kept;
+        }
+        if (kept == blocks.begin()) {
+            return;
+        }
+        last_taken_ = (kept - 1)->target;
+        taken_ += static_cast<std::size_t>(kept - blocks.begin());
+        out.insert(out.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(kept));
+        blocks.erase(blocks.begin(), kept);
+    }
 
 private:
     const kinematics::MachineModel& machine_;
     std::filesystem::path file_;
     MachineProgramSettings settings_;
     MachineProgram result_;
+    std::size_t taken_ = 0; ///< blocks that are not in it any more
+    kinematics::AxisPositions last_taken_;
     CanonFrame frame_;
     internal::ProgrammedFeed feed_;
     std::optional<PathControl> path_; ///< none: not said yet
     double rpm_ = 0.0;
-    AxisValues at_;          ///< on the machine, mm and degrees
-    AxisSet worded_;         ///< axes that the move's line names
-    std::set<char> missing_; ///< axes that were complained about
+    int selected_tool_ = 0;
+    bool pallet_moves_ = false; ///< and then the program stops
+    AxisValues at_;             ///< on the machine, mm and degrees
+    AxisSet worded_;            ///< axes that the move's line names
+    std::set<char> missing_;    ///< axes that were complained about
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -167,19 +210,26 @@ private:
 
     Block& add(BlockKind kind, SourcePlace source) {
         Program& program = result_.program;
-        if (program.blocks.size() >= settings_.most_blocks) {
+        if (taken_ + program.blocks.size() >= settings_.most_blocks) {
             throw Error(Diagnostic{
                 .place = {.file = file_, .line = source.line},
                 .message = fmt::format("the program has more than {} moves", settings_.most_blocks),
                 .hint = "split it"});
         }
-        kinematics::AxisPositions here =
-            program.blocks.empty() ? program.start : program.blocks.back().target;
+        kinematics::AxisPositions here = !program.blocks.empty() ? program.blocks.back().target
+                                         : taken_ > 0            ? last_taken_
+                                                                 : program.start;
         Block& block = program.blocks.emplace_back();
         block.kind = kind;
         block.target = std::move(here);
         block.source_line = source.file == 0 ? source.line : 0;
         return block;
+    }
+
+    void pause(PauseKind kind, std::string text, SourcePlace source) {
+        Block& block = add(BlockKind::pause, source);
+        block.pause = kind;
+        block.text = std::move(text);
     }
 
     /// Once a line: M9 ends mist and flood.
@@ -196,8 +246,7 @@ private:
     void end(SourcePlace source) {
         auto& blocks = result_.program.blocks;
         const auto switched_off = [&](const Block& block) {
-            const bool off = block.kind == BlockKind::spindle_off || block.kind == BlockKind::coolant_off;
-            return off && source.line > 0 && block.source_line == source.line;
+            return switches_off(block) && source.line > 0 && block.source_line == source.line;
         };
         while (!blocks.empty() && switched_off(blocks.back())) {
             blocks.pop_back();
@@ -271,6 +320,24 @@ private:
     }
 };
 
+Listing listing_of(std::string_view text, const Program& program) {
+    Listing listing;
+    listing.text = with_newlines(std::string(text));
+    if (listing.text.empty() || listing.text.back() != '\n') {
+        listing.text += '\n';
+    }
+    listing.line_starts.push_back(0);
+    for (std::size_t n = 0; n < listing.text.size(); ++n) {
+        if (listing.text[n] == '\n') {
+            listing.line_starts.push_back(n + 1);
+        }
+    }
+    for (const Block& block : program.blocks) {
+        listing.line_of_block.push_back(std::max(block.source_line, 1));
+    }
+    return listing;
+}
+
 MachineProgramBuilder::MachineProgramBuilder(const kinematics::MachineModel& machine,
                                              std::filesystem::path file,
                                              const MachineProgramSettings& settings)
@@ -292,6 +359,10 @@ void MachineProgramBuilder::command(const Command& command, const SourceLine&) {
 
 int MachineProgramBuilder::block_count() const {
     return parts_->block_count();
+}
+
+void MachineProgramBuilder::take_blocks(std::vector<Block>& blocks) {
+    parts_->take_blocks(blocks);
 }
 
 MachineProgram MachineProgramBuilder::take() {

@@ -8,10 +8,12 @@
 #include "core/base/error.h"
 #include "core/gcode/program.h"
 #include "core/gcode/reader/canon.h"
+#include "core/gcode/writer.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace millwright::gcode {
@@ -30,6 +32,9 @@ struct MachineProgram {
     double length = 0.0;            ///< of the ways of X Y Z, rapids too, mm
 };
 
+/// The lines of a G-code file with the blocks that were read from them.
+[[nodiscard]] Listing listing_of(std::string_view text, const Program& program);
+
 class MachineProgramBuilder final : public CanonSink {
 public:
     /// For diagnostics the program is called `file`. Throws Defect for a start that is not the machine's.
@@ -46,6 +51,9 @@ public:
 
     /// How many blocks have come so far.
     [[nodiscard]] int block_count() const;
+    /// Takes away the blocks that nothing which comes later can change, and appends them to `blocks`: for who
+    /// needs them once, in little memory. take() then has the rest.
+    void take_blocks(std::vector<Block>& blocks);
     /// What has come so far; nothing comes after it.
     [[nodiscard]] MachineProgram take();
 

@@ -67,7 +67,9 @@ void TcpLink::wait(double seconds) {
 }
 
 std::optional<std::string> TcpLink::lost() const {
-    return port_->lost();
+    const std::optional<std::string> why = port_->lost();
+    const std::string first = port_->first_line();
+    return why && first.starts_with("busy: ") ? first : why; // a TcpServer that has a client already
 }
 
 void TcpLink::close() noexcept {

@@ -20,6 +20,7 @@ public:
     void write(std::string_view bytes) override;
     [[nodiscard]] std::string read() override;
     void wait(double seconds) override;
+    /// If the other end said that it is busy, this is what it said.
     [[nodiscard]] std::optional<std::string> lost() const override;
     void close() noexcept override;
 

@@ -5,12 +5,14 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 
 #include <array>
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -75,8 +77,8 @@ private:
         if (client_.is_open()) {
             const std::string sorry = fmt::format("busy: {} holds this port\r\n", holder());
             boost::asio::write(visitor_, boost::asio::buffer(sorry), ignored);
-            visitor_.shutdown(tcp::socket::shutdown_both, ignored);
-            visitor_.close(ignored);
+            visitor_.shutdown(tcp::socket::shutdown_send, ignored);
+            let_go(std::make_shared<Refused>(context_, std::move(visitor_)));
             return;
         }
         client_ = std::move(visitor_);
@@ -88,6 +90,35 @@ private:
             holder_ = fmt::format("{}:{}", far_end.address().to_string(), far_end.port());
         }
         read_more();
+    }
+
+    /// A visitor that was told why it has to leave. What it says is read until it does: a socket closed over
+    /// unread bytes would take that line away from it.
+    struct Refused {
+        Refused(boost::asio::io_context& context, tcp::socket visitor)
+            : socket(std::move(visitor)), patience(context, std::chrono::seconds(2)) {}
+        tcp::socket socket;
+        boost::asio::steady_timer patience;
+        std::array<char, 256> chunk{};
+    };
+
+    static void let_go(const std::shared_ptr<Refused>& refused) {
+        refused->patience.async_wait([refused](const Failure&) {
+            Failure ignored;
+            refused->socket.close(ignored);
+        });
+        read_on(refused);
+    }
+
+    static void read_on(const std::shared_ptr<Refused>& refused) {
+        refused->socket.async_read_some(boost::asio::buffer(refused->chunk),
+                                        [refused](const Failure& failure, std::size_t) {
+                                            if (failure) {
+                                                refused->patience.cancel();
+                                            } else {
+                                                read_on(refused);
+                                            }
+                                        });
     }
 
     void read_more() {

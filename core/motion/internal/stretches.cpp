@@ -136,6 +136,32 @@ std::vector<double> allowed_speeds(const Path& path, const std::vector<Stretch>&
     return speeds;
 }
 
+std::size_t settled(const Path& path, const std::vector<Stretch>& stretches, double until) {
+    if (stretches.empty()) {
+        return 0;
+    }
+    if (path.look_ahead > 0) {
+        const std::vector<std::size_t> last = last_stretches(path, stretches);
+        const auto known = std::ranges::count_if(path.segments, [&](const Segment& segment) {
+            return segment.length > 0.0 && segment.end() > stretches.front().begin &&
+                   !(segment.end() > until);
+        });
+        return known > path.look_ahead ? last[static_cast<std::size_t>(known - path.look_ahead - 1)] + 1 : 0;
+    }
+    // Braking for rest behind the last stretch, and not braking at all: all that follows is between the two.
+    double least = 0.0;
+    double most = square(stretches.back().speed);
+    for (std::size_t n = stretches.size(); n-- > 1;) {
+        const double limit = square(std::min(stretches[n - 1].speed, stretches[n].speed));
+        least = std::min(limit, squared_after(least, stretches[n]));
+        most = std::min(limit, squared_after(most, stretches[n]));
+        if (!(most > least) && !(stretches[n].begin > until)) {
+            return n;
+        }
+    }
+    return 0;
+}
+
 std::vector<double>
 reached_speeds(const std::vector<Stretch>& stretches, const std::vector<double>& allowed, double speed) {
     std::vector<double> speeds(stretches.size() + 1, 0.0);

@@ -5,6 +5,8 @@
 #include "core/motion/override.h"
 #include "core/motion/path.h"
 
+#include <cstddef>
+
 namespace millwright::motion::internal {
 
 struct Stretch {
@@ -25,6 +27,10 @@ struct Reach {
 /// can still be braked. With a look-ahead only so many moves are known at a time, and the last of them is
 /// taken to end at rest.
 [[nodiscard]] std::vector<double> allowed_speeds(const Path& path, const std::vector<Stretch>& stretches);
+
+/// How many of the stretches, from the first, have speeds at their ends that no block behind the last stretch
+/// can change; none of them ends beyond `until`.
+[[nodiscard]] std::size_t settled(const Path& path, const std::vector<Stretch>& stretches, double until);
 
 /// The greatest speeds there for a motion that begins with `speed`, which may be above what the program wants
 /// (then it brakes) but not above what the axes can do.

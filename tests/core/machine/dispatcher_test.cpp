@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace millwright::machine {
 namespace {
@@ -72,6 +73,53 @@ TEST(Dispatcher, TellsHowFarTheJobIs) {
     EXPECT_EQ(reports.back().driver.executed_blocks, reports.back().blocks);
     EXPECT_DOUBLE_EQ(fractions.back(), 1.0);
     EXPECT_NEAR(reports[reports.size() / 2].driver.planned_time, reports[reports.size() / 2].elapsed, 1e-6);
+}
+
+TEST(Dispatcher, LogsWhatTheMachineWaitsFor) {
+    Bench bench;
+    const auto router = std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
+    const Job job = planned_job("G21 G90\nG1 X10 F6000\nM0\nX20\nT4 M6\nX30\nM30\n", "part.ngc", router);
+    VirtualMachine machine(job.program->start, {}, bench.clock, router);
+    Dispatcher dispatcher(machine, bench.clock, bench.folder.path() / "logs");
+    std::vector<std::string> reasons;
+    const JobOutcome outcome = dispatcher.run(job, {}, [&](const JobReport& report) {
+        if (report.driver.state == DriverState::holding) {
+            reasons.push_back(report.driver.message);
+            dispatcher.resume();
+        }
+    });
+    EXPECT_EQ(outcome.end, JobEnd::done);
+    EXPECT_THAT(reasons,
+                ::testing::ElementsAre("program stop at line 3: M0", "change to tool 4 at line 5: M6"));
+    const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_THAT(events(log),
+                ::testing::ElementsAre(
+                    LogEvent::waiting, LogEvent::resume, LogEvent::waiting, LogEvent::resume, LogEvent::end));
+    const auto waiting = std::ranges::find(log.records, LogEvent::waiting, &LogRecord::event);
+    EXPECT_EQ(waiting->text, "program stop at line 3: M0");
+    EXPECT_EQ(waiting->line, 3);
+    EXPECT_EQ(waiting->executed_blocks, 1);
+    EXPECT_EQ(waiting->position, job.program->blocks[0].target);
+}
+
+TEST(Dispatcher, LogsTheSwitchForOptionalStops) {
+    Bench bench;
+    const auto router = std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
+    const Job job = planned_job("G21 G90\nG1 X10 F6000\nM1\nX20\nM30\n", "part.ngc", router);
+    VirtualMachine machine(job.program->start, {}, bench.clock, router);
+    Dispatcher dispatcher(machine, bench.clock, bench.folder.path() / "logs");
+    bool on = false;
+    const JobOutcome outcome = dispatcher.run(job, {}, [&](const JobReport& report) {
+        if (!std::exchange(on, true)) {
+            dispatcher.set_optional_stop(true);
+        }
+        if (report.driver.state == DriverState::holding) {
+            dispatcher.resume();
+        }
+    });
+    EXPECT_THAT(
+        events(read_job_log(outcome.log_file)),
+        ::testing::ElementsAre(LogEvent::optional_stop, LogEvent::waiting, LogEvent::resume, LogEvent::end));
 }
 
 /// A program of the router, in the words of Grbl.

@@ -2,12 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/kinematics/forward.h"
+#include "core/motion/hold.h"
 #include "tests/support/motions.h"
 #include "tests/support/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -180,6 +182,38 @@ TEST(Planner, SaysThatTheJerkKeepsAMoveFromBeingFaster) {
     EXPECT_EQ(trajectory.limit_at(0.5 * trajectory.duration()).limit, Limit::axis_velocity);
 }
 
+/// The axes rest in a pause, exactly where the block before it ends.
+void expect_rest_in_pauses(const Program& program, const Trajectory& trajectory, unsigned seed) {
+    for (int n = trajectory.first_block() + 1; n <= trajectory.last_block(); ++n) {
+        const gcode::Block& block = program.blocks[static_cast<std::size_t>(n)];
+        if (block.kind == BlockKind::pause) {
+            const Sample rest = trajectory.at(trajectory.end_of(n));
+            EXPECT_EQ(rest.velocity.cwiseAbs().maxCoeff(), 0.0) << "seed " << seed << " block " << n;
+            EXPECT_EQ(rest.position, block.target) << "seed " << seed << " block " << n;
+        }
+    }
+}
+
+TEST(Planner, RestsInEveryPauseWhateverComesAfterIt) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const MachineModel model = test::with_jerk(machine(), seed % 2 == 0 ? 30.0 : 1e9);
+        Program program = test::random_program(model, 200, seed);
+        for (std::size_t n = 10; n < program.blocks.size(); n += 7) { // instead of nothing that stops
+            gcode::Block& block = program.blocks[n];
+            block.target = program.blocks[n - 1].target;
+            block.kind = BlockKind::pause;
+        }
+        PlannerSettings settings;
+        settings.path = {seed % 3 == 0 ? gcode::PathMode::exact_path : gcode::PathMode::continuous, 0.1};
+        settings.look_ahead = seed % 4 == 0 ? 16 : 0;
+        const Trajectory whole = plan(program, model, settings, {});
+        expect_rest_in_pauses(program, whole, seed);
+        const Trajectory slower = go_on(whole, 0.3 * whole.duration(), {.feed = 0.6, .rapid = 0.5});
+        expect_rest_in_pauses(program, slower, seed);
+        expect_rest_in_pauses(program, go_on(slower, 0.2 * slower.duration(), {.feed = 2.0}), seed);
+    }
+}
+
 TEST(Planner, IsNeverSlowerThanWithALookAheadOf16Blocks) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const MachineModel model = test::with_jerk(machine(), seed % 2 == 0 ? 30.0 : 1e9);
@@ -206,6 +240,17 @@ TEST(Planner, IsNeverSlowerThanWithALookAheadOf16BlocksOnAnySample) {
                   plan(program, model, sixteen, {}).duration() * (1.0 + 1e-12))
             << name;
     }
+}
+
+TEST(Planner, IsMuchFasterThanWithALookAheadOf16BlocksWhereBlocksAreShort) {
+    const MachineModel model = test::machine("router-xyz");
+    const auto samples = test::sample_programs(model);
+    const auto found = std::ranges::find(samples, "short-blocks.ngc", &test::SampleProgram::name);
+    ASSERT_NE(found, samples.end());
+    PlannerSettings sixteen;
+    sixteen.look_ahead = 16;
+    EXPECT_LT(plan(found->program, model, {}, {}).duration(),
+              0.6 * plan(found->program, model, sixteen, {}).duration());
 }
 
 TEST(Planner, StopsAfterEachMoveWithALookAheadOfOneBlock) {

@@ -1,6 +1,7 @@
 #include "core/gcode/reader/internal/line_source.h"
 
 #include "core/base/error.h"
+#include "core/gcode/reader/line_ends.h"
 
 #include <cerrno>
 #include <cstring>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::size_t buffer_size = 128 * 1024;
 /// A longer line is cut; every dialect refuses far shorter ones.
-constexpr std::ptrdiff_t longest_line = 64 * 1024;
+constexpr std::size_t longest_line = 64 * 1024;
 
 } // namespace
 
@@ -46,46 +47,50 @@ bool LineSource::fill() {
     return read > 0;
 }
 
-bool LineSource::next(std::string_view& line) {
-    const auto find_end = [this] {
-        return at_ == end_
-                   ? nullptr
-                   : static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
-    };
-    cut_ = false;
-    const char* newline = find_end();
-    while (newline == nullptr && end_ - at_ < longest_line && fill()) {
-        newline = find_end();
+/// Reads on until the line's end is at hand, with what follows a \r: where it is, from at_.
+std::size_t LineSource::find_end() {
+    while (true) {
+        const auto left = static_cast<std::size_t>(end_ - at_);
+        const std::size_t end = end_of_line({at_, left});
+        const bool whole = end < left && (at_[end] == '\n' || end + 1 < left);
+        if (whole || end >= longest_line || !fill()) {
+            return end;
+        }
     }
-    if (newline == nullptr && at_ == end_) {
+}
+
+bool LineSource::next(std::string_view& line) {
+    cut_ = false;
+    const std::size_t end = find_end();
+    const std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
+    if (rest.empty()) {
         return false;
     }
     if (line_number_ == std::numeric_limits<int>::max()) {
         throw Error("has too many lines", name_);
     }
     ++line_number_;
-    const char* const stop = newline == nullptr ? end_ : newline;
-    line = {at_, static_cast<std::size_t>(stop - at_)};
-    at_ = stop;
-    if (newline != nullptr) {
-        ++at_;
-    } else if (stop - line.data() >= longest_line) {
+    if (end == rest.size() && end >= longest_line) {
         cut_ = true;
         line = {};
         skip_rest_of_line();
+        return true;
     }
+    line = rest.substr(0, end);
+    at_ += end + length_of_line_end(rest, end);
     return true;
 }
 
 void LineSource::skip_rest_of_line() {
     for (;;) {
-        const auto left = static_cast<std::size_t>(end_ - at_);
-        const void* newline = left == 0 ? nullptr : std::memchr(at_, '\n', left);
-        if (newline != nullptr) {
-            at_ = static_cast<const char*>(newline) + 1;
+        const std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
+        const std::size_t end = end_of_line(rest);
+        at_ += end;
+        if (end < rest.size()) {
+            const std::size_t found = find_end(); // 0, with what follows it
+            at_ += length_of_line_end({at_, static_cast<std::size_t>(end_ - at_)}, found);
             return;
         }
-        at_ = end_;
         if (!fill()) {
             return;
         }

@@ -43,6 +43,7 @@ private:
 
     /// More bytes behind those that are left; false if there are none.
     bool fill();
+    [[nodiscard]] std::size_t find_end();
     void skip_rest_of_line();
 
     std::filesystem::path name_;

@@ -174,7 +174,7 @@ void CordicDriver::start(Work work) {
     const auto trajectory = std::make_shared<const motion::Trajectory>(
         motion::plan(*records, *model_, {}, Progress(), before.position));
     const std::scoped_lock lock(mutex_);
-    machine_.start({records, trajectory, work.listing, {}});
+    machine_.start({records, trajectory, nullptr, {}}); // whose blocks know their lines
     report_ = report;
     blocks_ = map_of(*records, *work.listing);
 }

@@ -53,6 +53,7 @@ public:
     void reset() override { machine_.reset(); }
     void close() noexcept override { machine_.close(); }
     void set_overrides(const Overrides& wanted) override { machine_.set_overrides(wanted); }
+    void set_optional_stop(bool on) override { machine_.set_optional_stop(on); }
     void jog(const Jog& jog) override { machine_.jog(jog); }
     void stop_jog() override { machine_.stop_jog(); }
     void home() override { machine_.home(); }

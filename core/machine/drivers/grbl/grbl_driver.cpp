@@ -55,7 +55,7 @@ void GrblDriver::start(Work work) {
     expects(work.listing != nullptr, "Grbl is given a program's text");
     grbl::ProgramLines lines = grbl::program_lines(*work.listing, {});
     const Turn turn(*this);
-    talk().start(std::move(lines), turn.now(), work.allowed_blocks);
+    talk().start(std::move(lines), turn.now(), std::move(work.ahead));
 }
 
 int GrblDriver::command(const std::string& lines) {
@@ -67,11 +67,6 @@ int GrblDriver::command(const std::string& lines) {
 void GrblDriver::set_single_block(bool on) {
     const Turn turn(*this);
     talk().set_single_block(on);
-}
-
-void GrblDriver::allow(int blocks) {
-    const Turn turn(*this);
-    talk().allow(blocks);
 }
 
 MachineLimits GrblDriver::limits() const {

@@ -49,7 +49,6 @@ public:
     int command(const std::string& lines) override;
     /// Lines that the controller has already, up to 20, are executed first.
     void set_single_block(bool on) override;
-    void allow(int blocks) override;
     /// Travel is known of a machine that homes: machine coordinates go from -travel to 0.
     [[nodiscard]] MachineLimits limits() const override;
     [[nodiscard]] std::vector<ControllerSetting> settings() const override;

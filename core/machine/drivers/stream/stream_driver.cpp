@@ -111,7 +111,8 @@ void StreamDriver::begin() {
     {
         const std::scoped_lock lock(mutex_);
         lost_.clear();
-        last_line_ = record_text_ ? line(position) : std::string();
+        last_line_ = line(position);
+        told_place_ = record_text_.has_value();
         in_flight_ = false;
     }
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -136,7 +137,7 @@ void StreamDriver::run(const std::stop_token& stop) {
         next += options_.period;
         const double left = next - clock_.now();
         constexpr double rest = 0.002; // s, where nothing moves and nobody waits
-        const bool stands = machine_.status().activity == Activity::none;
+        const bool stands = !moves(machine_.status());
         if (options_.paced && left > 0.0) {
             link_->wait(left);
         } else if (stands) {
@@ -151,6 +152,12 @@ void StreamDriver::run(const std::stop_token& stop) {
     }
 }
 
+/// A machine that is braking for a hold moves, too.
+bool StreamDriver::moves(const DriverStatus& status) {
+    return status.state == DriverState::running || status.state == DriverState::stopping ||
+           (status.velocity.size() > 0 && status.velocity.cwiseAbs().maxCoeff() > 0.0);
+}
+
 /// The record that was sent is answered, or needs no answer, or there was none.
 void StreamDriver::land() {
     {
@@ -160,8 +167,10 @@ void StreamDriver::land() {
     landed_.notify_all();
 }
 
-/// What is the same as the last is sent only while something moves: a standing machine needs no samples.
-/// While an answer is awaited the stream's time stands, and with it the machine. False when the link is gone.
+/// What is the same as the last is sent only while something moves: a standing machine needs no samples. The
+/// first motion over a link begins with the sample of where it begins, so that nothing is sent before a
+/// person wants a motion. While an answer is awaited the stream's time stands, and with it the machine. False
+/// when the link is gone.
 bool StreamDriver::send_sample(const std::stop_token& stop) {
     {
         const std::scoped_lock lock(mutex_);
@@ -175,12 +184,14 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
         return true;
     }
     std::string here = line(now.position);
-    const bool moves = now.state == DriverState::running || now.state == DriverState::stopping;
-    if (!moves && here == last_line_) {
+    const bool in_motion = now.state == DriverState::running || now.state == DriverState::stopping;
+    if (!in_motion && here == last_line_) {
         land();
         return true;
     }
-    if (const auto why = exchange(text_for(now.position), stop)) {
+    const bool first = !std::exchange(told_place_, true);
+    samples_ += first ? 1 : 0;
+    if (const auto why = exchange((first ? last_line_ : std::string()) + text_for(now.position), stop)) {
         lose(*why);
         return false;
     }

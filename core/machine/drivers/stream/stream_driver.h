@@ -52,7 +52,8 @@ public:
     /// Samples that were sent so far.
     [[nodiscard]] std::int64_t samples() const { return samples_; }
 
-    /// Sends the heading.
+    /// Sends the heading, and nothing more: whoever follows samples does not move before a job, a jog or a
+    /// command.
     void connect() override;
     void start(Work work) override;
     void hold() override { machine_.hold(); }
@@ -65,6 +66,7 @@ public:
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override { machine_.set_overrides(wanted); }
     void set_single_block(bool on) override { machine_.set_single_block(on); }
+    void set_optional_stop(bool on) override { machine_.set_optional_stop(on); }
     void jog(const Jog& jog) override;
     void stop_jog() override { machine_.stop_jog(); }
     void home() override;
@@ -89,6 +91,7 @@ private:
     void run(const std::stop_token& stop);
     [[nodiscard]] bool send_sample(const std::stop_token& stop);
     void land();
+    [[nodiscard]] static bool moves(const DriverStatus& status);
     [[nodiscard]] std::string line(const kinematics::AxisPositions& position) const;
     [[nodiscard]] std::string heading() const;
     [[nodiscard]] std::string lost() const;
@@ -110,6 +113,7 @@ private:
     RecordPath record_path_;
     std::vector<bool> linear_; ///< of each axis
     AnswerLines inbox_;
+    bool told_place_ = false;  ///< where the first motion begins was sent
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;

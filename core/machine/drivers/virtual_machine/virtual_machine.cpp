@@ -113,7 +113,7 @@ void VirtualMachine::close() noexcept {
 
 Capabilities VirtualMachine::capabilities() const {
     Capabilities able;
-    able.single_block = able.overrides = able.other_overrides = true;
+    able.single_block = able.optional_stop = able.overrides = able.other_overrides = true;
     if (const kinematics::MachineModel* model = axes_->model()) {
         for (const kinematics::MachineAxis& axis : model->axes()) {
             able.axes.push_back({axis.letter, axis.kind});
@@ -135,6 +135,12 @@ void VirtualMachine::set_single_block(bool on) {
     catch_up();
     axes_->set_single_block(on);
     changed_.notify_all();
+}
+
+void VirtualMachine::set_optional_stop(bool on) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->set_optional_stop(on);
 }
 
 void VirtualMachine::jog(const Jog& jog) {

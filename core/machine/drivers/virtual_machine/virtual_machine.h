@@ -63,6 +63,7 @@ public:
     /// Rests after each move, and what follows it without one: on the path, so within its rounding of where
     /// the block ends.
     void set_single_block(bool on) override;
+    void set_optional_stop(bool on) override;
     void jog(const Jog& jog) override;
     void stop_jog() override;
     void home() override;

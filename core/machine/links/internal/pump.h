@@ -62,6 +62,12 @@ public:
         return lost_;
     }
 
+    /// The first line that came, without its end; as much of it as came so far.
+    [[nodiscard]] std::string first_line() const {
+        const std::scoped_lock lock(mutex_);
+        return first_line_.substr(0, first_line_.find_first_of("\r\n"));
+    }
+
     void close() noexcept {
         {
             const std::scoped_lock lock(mutex_);
@@ -77,6 +83,7 @@ public:
 
 private:
     static constexpr std::size_t most_waiting = std::size_t{1} << 20U;
+    static constexpr std::size_t most_of_a_line = 200;
 
     void give_up(std::string why) { // with mutex_ held
         if (!lost_) {
@@ -94,6 +101,9 @@ private:
                                         return;
                                     }
                                     received_.append(chunk_.data(), count);
+                                    if (first_line_.size() < most_of_a_line) {
+                                        first_line_.append(chunk_.data(), count);
+                                    }
                                     changed_.notify_all();
                                     read_more();
                                 });
@@ -123,7 +133,7 @@ private:
     Stream stream_;
     mutable std::mutex mutex_; ///< guards what follows
     std::condition_variable changed_;
-    std::string received_, waiting_, sending_;
+    std::string received_, waiting_, sending_, first_line_;
     std::optional<std::string> lost_;
     std::array<char, 4096> chunk_{}; ///< of the thread alone
     std::jthread thread_;

@@ -37,6 +37,10 @@ public:
         const auto pump = now();
         return pump ? pump->lost() : std::optional<std::string>("it is not open");
     }
+    [[nodiscard]] std::string first_line() const {
+        const auto pump = now();
+        return pump ? pump->first_line() : std::string();
+    }
     void close() noexcept {
         if (const auto pump = now()) {
             pump->close();

@@ -34,8 +34,23 @@ TEST(TcpServer, KeepsASecondClientOutAndSaysWhoHoldsIt) {
     const std::string expected = "busy: " + holder + " holds this port\r\n";
     EXPECT_EQ(test::read_bytes(second, expected.size()), expected);
     test::wait_until([&] { return second.lost().has_value(); });
-    EXPECT_TRUE(second.lost());
+    EXPECT_EQ(second.lost(), "busy: " + holder + " holds this port");
     EXPECT_FALSE(first.lost());
+}
+
+TEST(TcpServer, TellsWhoHoldsItAlsoToWhoTalksFirst) {
+    TcpServer server(0);
+    server.open();
+    TcpLink first("127.0.0.1", server.port());
+    first.open();
+    test::wait_until([&] { return !server.holder().empty(); });
+    for (int visit = 0; visit < 20; ++visit) {
+        TcpLink second("127.0.0.1", server.port());
+        second.open();
+        second.write("hello EMC x 1.1\r\nset echo off\r\n");
+        test::wait_until([&] { return second.lost().has_value(); });
+        EXPECT_EQ(second.lost(), "busy: " + server.holder() + " holds this port");
+    }
 }
 
 TEST(TcpServer, IsFreeAgainWhenItsClientLeaves) {

@@ -229,14 +229,11 @@ void Session::pump() {
     }
     while (next_line_ < std::ssize(program_.lines) && !block_wait_) {
         const ProgramLine& line = program_.lines[static_cast<std::size_t>(next_line_)];
-        if (line.block >= allowed_blocks_) {
-            return;
-        }
         std::string text = line.text + "\n";
         if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
             text.insert(0, fmt::format("N{}", line.block + 1));
         }
-        if (!window_.has_room_for(text.size())) {
+        if (!window_.has_room_for(text.size()) || !may_send(line.block)) {
             return;
         }
         output_ += text;
@@ -244,6 +241,13 @@ void Session::pump() {
         ++next_line_;
         block_wait_ = single_block_ && at_ == Activity::program;
     }
+}
+
+bool Session::may_send(int block) {
+    if (block >= allowed_blocks_ && ahead_) {
+        allowed_blocks_ = std::max(allowed_blocks_, ahead_(block + 1));
+    }
+    return block < allowed_blocks_;
 }
 
 } // namespace millwright::machine::grbl

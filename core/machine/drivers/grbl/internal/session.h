@@ -10,6 +10,7 @@
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/jog_feed.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,8 +59,8 @@ public:
     [[nodiscard]] bool link_lost() const override { return link_lost_; }
     [[nodiscard]] std::optional<Diagnostic> stranger() const override;
 
-    void start(ProgramLines program, double now, std::optional<int> allowed_blocks = std::nullopt);
-    void allow(int blocks);
+    /// `ahead` as in Work.
+    void start(ProgramLines program, double now, std::function<int(int)> ahead = {});
     void hold(double now) override;
     void resume(double now) override;
     void stop(double now) override;
@@ -102,6 +103,7 @@ private:
     void begin(ProgramLines program, Activity activity, double now);
     void finish(double now);
     void pump();
+    [[nodiscard]] bool may_send(int block);
     void pump_jog();
     void cancel_jog(double now);
     void poll(double now);
@@ -154,7 +156,8 @@ private:
     bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
     Window window_;
     int next_line_ = 0;
-    int allowed_blocks_ = 0;             ///< no line of a block from this one on is sent
+    std::function<int(int)> ahead_;      ///< asked before more blocks are sent than
+    int allowed_blocks_ = 0;             ///< these
     std::vector<std::string> questions_; ///< to be asked, the next comes last
     std::string message_;
 

@@ -18,21 +18,18 @@ void Session::require_rest(std::string_view what) const {
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }
 
-void Session::start(ProgramLines program, double now, std::optional<int> allowed_blocks) {
+void Session::start(ProgramLines program, double now, std::function<int(int)> ahead) {
     require_rest("program");
-    allowed_blocks_ = allowed_blocks.value_or(program.blocks);
+    allowed_blocks_ = ahead ? 0 : program.blocks;
+    ahead_ = std::move(ahead);
     begin(std::move(program), Activity::program, now);
-}
-
-void Session::allow(int blocks) {
-    allowed_blocks_ = std::max(allowed_blocks_, blocks);
-    pump();
 }
 
 int Session::command(ProgramLines lines, double now) {
     require_rest("command");
     answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
     allowed_blocks_ = lines.blocks;
+    ahead_ = nullptr;
     begin(std::move(lines), Activity::command, now);
     return answer_.number;
 }

@@ -80,8 +80,9 @@ void VirtualAxes::show_program(DriverStatus& status, const motion::Sample& sampl
         status.planned_time = work_.trajectory->duration();
         return;
     }
-    status.block = between_blocks_ ? now_->last_block() + 1 : sample.block;
-    status.fraction = between_blocks_ ? 0.0 : sample.fraction;
+    const bool begins = waiting_ || between_blocks_;
+    status.block = waiting_ ? pause_ : between_blocks_ ? now_->last_block() + 1 : sample.block;
+    status.fraction = begins ? 0.0 : sample.fraction;
     status.executed_blocks = status.block;
     status.planned_time = work_.trajectory->time_at(status.block, status.fraction);
 }
@@ -98,7 +99,7 @@ bool VirtualAxes::moving() const {
 void VirtualAxes::advance(double seconds) {
     expects(seconds >= 0.0, "time does not run backwards");
     while (!at_rest_) { // more than once only where a jog follows another
-        const double left = std::min(now_->duration(), look_at_) - time_;
+        const double left = std::min({now_->duration(), look_at_, pause_at_}) - time_;
         if (seconds < left) {
             time_ += seconds;
             take_accessories(now_->block_at(time_));
@@ -106,7 +107,9 @@ void VirtualAxes::advance(double seconds) {
         }
         seconds -= left;
         time_ += left;
-        if (look_at_ < now_->duration()) {
+        if (pause_at_ <= std::min(now_->duration(), look_at_)) {
+            wait_for_person();
+        } else if (look_at_ < now_->duration()) {
             go_on();
         } else {
             time_ = now_->duration();
@@ -163,6 +166,7 @@ void VirtualAxes::follow(Trajectory next, DriverState state) {
     look_at_ = never;
     at_rest_ = between_blocks_ = false;
     state_ = state;
+    pause_at_ = time_of_pause();
     advance(0.0);
 }
 
@@ -214,6 +218,9 @@ void VirtualAxes::execute(Work work, Activity activity) {
     message_.clear();
     overrides_ = {};
     switched_blocks_ = 0;
+    waiting_ = false;
+    look_for_pause(0);
+    pause_at_ = time_of_pause();
     if (single_block_ && activity == Activity::program) {
         go_on();
     }
@@ -267,6 +274,7 @@ void VirtualAxes::go_on() {
     look_at_ = look;
     at_rest_ = between_blocks_ = false;
     state_ = DriverState::running;
+    pause_at_ = time_of_pause();
 }
 
 motion::Override VirtualAxes::rates() const {
@@ -283,6 +291,10 @@ void VirtualAxes::hold() {
 
 void VirtualAxes::resume() {
     if (state_ == DriverState::holding) {
+        if (std::exchange(waiting_, false)) {
+            message_.clear();
+            look_for_pause(pause_ + 1);
+        }
         go_on();
         advance(0.0);
     }
@@ -294,6 +306,7 @@ void VirtualAxes::stop() {
         follow(motion::brake(*now_, time_), DriverState::stopping);
     } else if (state_ == DriverState::holding) {
         state_ = at_rest_ ? DriverState::stopped : DriverState::stopping;
+        message_.clear();
     }
 }
 

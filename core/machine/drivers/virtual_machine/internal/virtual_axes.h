@@ -40,6 +40,7 @@ public:
     void stop_jog();
     void set_overrides(const Overrides& wanted);
     void set_single_block(bool on);
+    void set_optional_stop(bool on);
     void home();
     int command(const std::string& lines);
     /// Brakes to rest within this call, whatever time that would take, and disconnects.
@@ -63,6 +64,10 @@ private:
     [[nodiscard]] bool begin_leg(const Leg& leg);
     [[nodiscard]] bool extend_jog(const Jog& jog);
     void take_accessories(int executed_blocks);
+    void look_for_pause(int block);
+    [[nodiscard]] double time_of_pause() const;
+    void wait_for_person();
+    [[nodiscard]] std::string reason_of_pause() const;
     void show_program(DriverStatus& status, const motion::Sample& sample) const;
 
     std::shared_ptr<const kinematics::MachineModel> model_;
@@ -78,7 +83,11 @@ private:
     std::string message_;
     Overrides overrides_;
     bool single_block_ = false;
+    bool optional_stop_ = false;
     bool between_blocks_ = false; ///< at rest at the end of `now_`, and more of the program follows
+    int pause_ = 0;               ///< the program's next block that waits for a person; behind all: none
+    bool waiting_ = false;        ///< at rest in it
+    double pause_at_ = 0.0;       ///< the time at which `now_` comes to its end; after its own: it does not
     std::deque<Leg> legs_;
     std::optional<Leg> leg_; ///< the present jog, from the start of `work_`
     bool jog_ends_ = false;  ///< it brakes

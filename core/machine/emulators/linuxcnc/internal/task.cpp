@@ -84,6 +84,7 @@ void Task::follow(const DriverStatus& now) {
         line_ = blocks[static_cast<std::size_t>(now.block)].source_line;
         tell_messages(line_);
     }
+    paused_ = paused_ || now.state == DriverState::holding;
     if (now.state == DriverState::idle) {
         end_program();
     } else if (now.state == DriverState::stopped) {
@@ -197,6 +198,11 @@ Task::Program Task::read(const std::string& text) const {
                       [&](const Block& block) { return block.source_line >= first->place.line; });
     }
     cut_at_limits(result, made.program);
+    for (Block& block : made.program.blocks) {
+        if (block.kind == gcode::BlockKind::pause && block.pause == gcode::PauseKind::tool_change) {
+            block.kind = gcode::BlockKind::spindle_off; // its tool changer waits for nobody
+        }
+    }
     if (made.program.blocks.empty()) { // nothing moves, and that takes no time
         made.program.blocks.emplace_back().kind = gcode::BlockKind::end;
         made.program.blocks.back().target = position;

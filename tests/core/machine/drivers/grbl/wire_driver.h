@@ -21,9 +21,8 @@ public:
     void connect() override {}
     void start(machine::Work work) override {
         wire_.session.start(
-            machine::grbl::program_lines(*work.listing, "test.ngc"), wire_.now, work.allowed_blocks);
+            machine::grbl::program_lines(*work.listing, "test.ngc"), wire_.now, std::move(work.ahead));
     }
-    void allow(int blocks) override { wire_.session.allow(blocks); }
     void hold() override { wire_.session.hold(wire_.now); }
     void resume() override { wire_.session.resume(wire_.now); }
     void stop() override { wire_.session.stop(wire_.now); }

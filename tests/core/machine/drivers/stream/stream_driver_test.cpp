@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/machine/dispatcher.h"
+#include "core/machine/job.h"
 #include "core/machine/links/file_link.h"
 #include "core/machine/links/tcp_link.h"
 #include "core/machine/links/tcp_server.h"
@@ -103,7 +104,6 @@ TEST(StreamDriver, SendsTheTrajectorySampleBySample) {
     program.blocks[1].kind = gcode::BlockKind::end;
     const auto trajectory =
         std::make_shared<const motion::Trajectory>(motion::plan(program, *bench.model, {}, {}));
-    test::wait_until([&] { return driver->samples() == 1; }); // where it stands
     driver->start({std::make_shared<const gcode::Program>(program), trajectory, nullptr, {}});
     wait_for_end(*driver);
     driver->close();
@@ -115,6 +115,57 @@ TEST(StreamDriver, SendsTheTrajectorySampleBySample) {
         EXPECT_LT((got.samples[k] - trajectory->at(time).position).cwiseAbs().maxCoeff(), 1e-6) << k;
     }
     EXPECT_LT((got.samples.back() - move.target).norm(), 1e-6);
+}
+
+TEST(StreamDriver, SendsNothingWhileAProgramStopWaits) {
+    Bench bench;
+    const Job job = planned_job("G21 G90\nG1 X10 F6000\nM0\nX20\nT4 M6\nX30\nM30\n", "part.ngc", bench.model);
+    const auto driver = bench.driver({.period = 0.002, .decimals = 7, .paced = false});
+    driver->connect();
+    driver->start(test::work_of(job));
+    const auto waits = [&](const std::string& why) {
+        test::wait_until([&] { return driver->status().message == why; });
+        const DriverStatus status = driver->status();
+        EXPECT_EQ(status.message, why);
+        EXPECT_EQ(status.state, DriverState::holding);
+        return status;
+    };
+    const DriverStatus at_stop = waits("program stop at line 3: M0");
+    EXPECT_EQ(at_stop.position, job.program->blocks[0].target);
+    const std::int64_t sent = driver->samples();
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    EXPECT_LE(driver->samples(), sent + 1); // that of the place, if it was on its way
+    driver->resume();
+    (void)waits("change to tool 4 at line 5: M6");
+    driver->resume();
+    wait_for_end(*driver);
+    EXPECT_EQ(driver->status().executed_blocks, job.program->block_count());
+    driver->close();
+    const Received got = received(read_file(bench.file), 3);
+    expect_within_limits(got, *bench.model, 0.002);
+    EXPECT_NEAR(got.samples.back()[0], 30.0, 1e-6);
+}
+
+TEST(StreamDriver, SendsNothingBeforeAPersonWantsAMotion) {
+    Bench bench;
+    const auto driver = bench.driver({.period = 0.002, .decimals = 7, .paced = false});
+    driver->connect();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50)); // many periods
+    driver->close();
+    EXPECT_EQ(driver->samples(), 0);
+    EXPECT_EQ(read_file(bench.file), "# millwright-stream 1 period_s 0.002 X mm Y mm Z mm\n");
+    driver->connect();
+    Jog jog;
+    jog.way = AxisPositions::Unit(3, 0) * 2.0;
+    jog.speed = 10.0;
+    driver->jog(jog);
+    wait_for_end(*driver);
+    driver->close();
+    const Received got = received(read_file(bench.file), 3);
+    EXPECT_EQ(got.samples.front(), AxisPositions::Zero(3).eval());
+    EXPECT_EQ(std::ssize(got.samples), driver->samples());
+    expect_within_limits(got, *bench.model, 0.002);
+    EXPECT_NEAR(got.samples.back()[0], 2.0, 1e-3);
 }
 
 TEST(StreamDriver, HoldsAndResumesWithoutAJump) {

@@ -1,0 +1,59 @@
+// The virtual machine's pauses: where a program waits for a person.
+#include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace millwright::machine::internal {
+
+/// The first from `block` on that waits, as the switch for optional stops is now.
+void VirtualAxes::look_for_pause(int block) {
+    const auto waits = [&](const gcode::Block& candidate) {
+        return candidate.kind == gcode::BlockKind::pause &&
+               (candidate.pause != gcode::PauseKind::optional_stop || optional_stop_);
+    };
+    const auto& blocks = work_.program->blocks;
+    const auto found = std::find_if(blocks.begin() + block, blocks.end(), waits);
+    pause_ = static_cast<int>(found - blocks.begin());
+}
+
+/// In `now_`, which is planned to rest there. A motion that begins behind it was planned from its very place.
+double VirtualAxes::time_of_pause() const {
+    const bool pauses = activity_ == Activity::program && state_ == DriverState::running;
+    if (!pauses || pause_ > now_->last_block()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return pause_ < now_->first_block() ? 0.0 : now_->end_of(pause_);
+}
+
+void VirtualAxes::wait_for_person() {
+    at_rest_ = waiting_ = true;
+    rest_position_ = now_->at(time_).position;
+    take_accessories(pause_);
+    state_ = DriverState::holding;
+    message_ = reason_of_pause();
+}
+
+std::string VirtualAxes::reason_of_pause() const {
+    const auto n = static_cast<std::size_t>(pause_);
+    const gcode::Block& block = work_.program->blocks[n];
+    const int line = work_.listing ? work_.listing->line_of_block[n] : block.source_line;
+    const std::string what = block.text.empty() ? "pause" : block.text;
+    return line > 0 ? fmt::format("{} at line {}: {}", what, line, code_of(block.pause))
+                    : fmt::format("{}: {}", what, code_of(block.pause));
+}
+
+/// One that is passed already is passed.
+void VirtualAxes::set_optional_stop(bool on) {
+    optional_stop_ = on;
+    if (waiting_ || activity_ != Activity::program || now_ == nullptr) {
+        return; // it is looked at again before the axes go on
+    }
+    look_for_pause(now_->block_at(time_));
+    pause_at_ = time_of_pause();
+}
+
+} // namespace millwright::machine::internal

@@ -1,0 +1,284 @@
+#include "core/motion/internal/road_builder.h"
+
+#include "core/base/error.h"
+#include "core/kinematics/forward.h"
+#include "core/motion/internal/corner_speed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace millwright::motion::internal {
+
+using gcode::Block;
+using gcode::BlockKind;
+using kinematics::AxisPositions;
+using kinematics::MachineModel;
+
+namespace {
+
+bool keeps_moving(BlockKind kind) {
+    return kind == BlockKind::comment || kind == BlockKind::rapid || kind == BlockKind::feed;
+}
+
+/// No motion is faster along the way: its direction is of length 1 in scaled axes.
+double greatest_speed(const std::vector<AxisLimits>& limits) {
+    double squares = 0.0;
+    for (const AxisLimits& axis : limits) {
+        squares += axis.velocity / axis.acceleration * (axis.velocity / axis.acceleration);
+    }
+    return std::sqrt(squares);
+}
+
+/// Of the parts of both moves that are rounded.
+double slowest_feed(const Leg& last, const Leg& next, double d) {
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const FeedStep& step : last.feed) {
+        slowest = step.end > last.length - d ? std::min(slowest, step.speed) : slowest;
+    }
+    double begin = 0.0;
+    for (const FeedStep& step : next.feed) {
+        slowest = begin < d ? std::min(slowest, step.speed) : slowest;
+        begin = step.end;
+    }
+    return slowest;
+}
+
+template <class Places> void drop_up_to(Places& places, double way) {
+    const auto kept = std::ranges::upper_bound(places, way, {}, [](const auto& place) { return place.end; });
+    places.erase(places.begin(), kept);
+}
+
+} // namespace
+
+void check_axes(const std::vector<gcode::ProgramAxis>& axes,
+                const std::string& machine_of_program,
+                const MachineModel& machine) {
+    std::string wanted;
+    std::string there;
+    bool same = static_cast<int>(axes.size()) == machine.axis_count();
+    for (const gcode::ProgramAxis& axis : axes) {
+        wanted += axis.letter;
+        const int n = machine.axis_index(axis.letter);
+        same = same && n == static_cast<int>(wanted.size()) - 1 && machine.axis(n).kind == axis.kind;
+    }
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        there += axis.letter;
+    }
+    if (!same) {
+        throw Error(fmt::format("the program is for axes {} of '{}', the machine '{}' has {}",
+                                wanted,
+                                machine_of_program,
+                                machine.name(),
+                                there));
+    }
+}
+
+void check_settings(const PlannerSettings& settings,
+                    const MachineModel& machine,
+                    const AxisPositions& start) {
+    expects(start.size() == machine.axis_count() && start.allFinite(),
+            "a start has a finite position an axis");
+    expects(settings.corner_time >= 0.0 && settings.junction_deviation >= 0.0,
+            "a corner time and a junction deviation are not negative");
+    expects(settings.rounding_tolerance > 0.0 && settings.rounding_angle > 0.0,
+            "the tolerances of roundings are positive");
+    expects(settings.look_ahead >= 0, "a look-ahead is a number of blocks");
+}
+
+AxisPositions position_after(const Block& block, const AxisPositions& before) {
+    if (!block.moves()) {
+        return before;
+    }
+    AxisPositions after = before;
+    for (int n = 0; n < static_cast<int>(after.size()); ++n) {
+        if (block.named.contains(n)) {
+            after[n] = block.target[n];
+        }
+    }
+    expects(after.allFinite(), "the target of a block is finite");
+    return after;
+}
+
+RoadBuilder::RoadBuilder(const MachineModel& machine,
+                         const PlannerSettings& settings,
+                         double filter_time,
+                         const AxisPositions& start,
+                         bool part)
+    : machine_(machine), settings_(settings), part_(part),
+      last_tip_(kinematics::forward(machine, start).tip) {
+    path_.limits = limits_of(machine);
+    path_.filter_time = filter_time;
+    path_.look_ahead = settings.look_ahead;
+    path_.positions.push_back(start);
+    path_.part_length.push_back(0.0);
+    reach_ = 0.5 * filter_time * greatest_speed(path_.limits);
+}
+
+void RoadBuilder::reserve(std::size_t blocks) {
+    path_.positions.reserve(blocks + 1);
+    path_.part_length.reserve(blocks + 1);
+    path_.segments.reserve(blocks);
+    speeds_.reserve(blocks);
+    accelerations_.reserve(blocks);
+    path_.programmed.reserve(blocks);
+}
+
+void RoadBuilder::add(const Block& block) {
+    const AxisPositions before = path_.positions.back();
+    const AxisPositions after = position_after(block, before);
+    Segment segment;
+    segment.start = way_;
+    segment.before = last_ ? last_->block : -1;
+    if (block.kind == BlockKind::dwell) {
+        segment.standing_time = block.duration;
+    }
+    path_.segments.push_back(segment);
+    path_.positions.push_back(after);
+    const bool moves = (after - before).cwiseAbs().maxCoeff() > 0.0;
+    if (moves) {
+        add_move(block, before, after);
+    } else if (!keeps_moving(block.kind)) {
+        stop();
+    }
+    if (part_) {
+        add_part_length(after, moves);
+    }
+}
+
+const Path& RoadBuilder::with_limits() {
+    path_.speed = profile_of(speeds_, kept_from_);
+    path_.acceleration = profile_of(accelerations_, kept_from_);
+    return path_;
+}
+
+void RoadBuilder::forget_before(double way) {
+    kept_from_ = std::max(kept_from_, way - reach_);
+    drop_up_to(speeds_, kept_from_);
+    drop_up_to(accelerations_, kept_from_);
+    drop_up_to(path_.programmed, kept_from_);
+    const int needed = open_ ? last_->block - forgotten_ : path_.block_count();
+    const auto kept =
+        std::ranges::find_if(path_.segments, [&](const Segment& segment) { return segment.end() > way; });
+    const auto count = std::min<std::ptrdiff_t>(kept - path_.segments.begin(), needed);
+    path_.segments.erase(path_.segments.begin(), path_.segments.begin() + count);
+    path_.positions.erase(path_.positions.begin(), path_.positions.begin() + count);
+    forgotten_ += static_cast<int>(count);
+}
+
+Path RoadBuilder::take(const Progress& progress) {
+    stop();
+    progress.check();
+    path_.speed = profile_of(speeds_, 0.0);
+    progress.check();
+    path_.acceleration = profile_of(accelerations_, 0.0);
+    return std::move(path_);
+}
+
+void RoadBuilder::add_move(const Block& block, const AxisPositions& before, const AxisPositions& after) {
+    Leg leg = leg_of(machine_, path_.limits, settings_, block, before, after);
+    leg.block = forgotten_ + path_.block_count() - 1;
+    segment_of(leg).length = leg.length;
+    if (open_) {
+        meet(leg, before);
+    }
+    way_ += leg.length;
+    last_ = std::move(leg);
+    open_ = true;
+}
+
+/// The last move ends at rest.
+void RoadBuilder::stop() {
+    if (open_) {
+        limit_last_up_to(way_);
+        limit_corner(0.0);
+        open_ = false;
+    }
+}
+
+void RoadBuilder::limit_last_up_to(double end) {
+    if (end > limited_to_) {
+        limit_up_to(end, last_->speed, last_->speed_cause, last_->acceleration, last_->acceleration_cause);
+    }
+    add_feed(*last_, way_ - last_->length, end);
+}
+
+void RoadBuilder::limit_up_to(
+    double end, double speed, Cause by, double acceleration, Cause acceleration_by) {
+    const double reach = 0.5 * path_.filter_time * speed;
+    speeds_.push_back({end, speed, reach, by});
+    accelerations_.push_back({end, acceleration, reach, acceleration_by});
+    limited_to_ = end;
+}
+
+void RoadBuilder::limit_corner(double speed) {
+    const double reach = 0.5 * path_.filter_time * speed;
+    speeds_.push_back({limited_to_, speed, reach, {Limit::corner, -1}});
+}
+
+/// The programmed speeds of a move that starts at `start`, on what of it is not done yet and before
+/// `end`.
+void RoadBuilder::add_feed(const Leg& leg, double start, double end) {
+    for (const FeedStep& step : leg.feed) {
+        const bool last = &step == &leg.feed.back();
+        const double until = last ? end : std::min(end, start + step.end);
+        if (until > programmed_to()) {
+            path_.programmed.push_back({until, step.speed, leg.rapid});
+        }
+    }
+}
+
+double RoadBuilder::programmed_to() const {
+    return path_.programmed.empty() ? kept_from_ : path_.programmed.back().end;
+}
+
+/// The corner between the last move and the next one, which starts where it ends.
+void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
+    constexpr double straight = 1e-15; // rounding of a unit vector
+    const Leg& last = *last_;
+    const double turn = (next.unit - last.unit).cwiseAbs().maxCoeff();
+    const bool rounded = last.path.mode == gcode::PathMode::continuous && turn > straight;
+    if (last.path.mode == gcode::PathMode::exact_stop || (rounded && last.rapid != next.rapid)) {
+        return stop();
+    }
+    if (rounded) {
+        return round({position, last.direction, next.direction}, next);
+    }
+    limit_last_up_to(way_);
+    const double speed = corner_speed(machine_, settings_, last, next);
+    if (speed < std::min(last.speed, next.speed)) {
+        limit_corner(speed);
+    }
+}
+
+void RoadBuilder::round(const Corner& corner, const Leg& next) {
+    const Leg& last = *last_;
+    const RoundingTolerance tolerance{last.path.tolerance > 0.0 ? last.path.tolerance
+                                                                : settings_.rounding_tolerance,
+                                      settings_.rounding_angle};
+    const double longest = 0.5 * std::min(last.length, next.length);
+    const double d = rounding_length(machine_, corner, tolerance, longest);
+    const RoundingLimits limits =
+        rounding_limits(path_.limits, corner, d, std::min(last.speed, next.speed), path_.filter_time);
+    segment_of(last).rounding_end = segment_of(next).rounding_start = d;
+    segment_of(last).after = next.block;
+    segment_of(next).before = last.block;
+    limit_last_up_to(std::max(limited_to_, way_ - d));
+    limit_up_to(way_ + d, limits.speed, limits.speed_cause, limits.acceleration, limits.acceleration_cause);
+    path_.programmed.push_back({way_ + d, slowest_feed(last, next, d), last.rapid});
+}
+
+void RoadBuilder::add_part_length(const AxisPositions& position, bool moved) {
+    double length = path_.part_length.back();
+    if (moved) {
+        const Vec3 tip = kinematics::forward(machine_, position).tip;
+        length += (tip - last_tip_).norm();
+        last_tip_ = tip;
+    }
+    path_.part_length.push_back(length);
+}
+
+} // namespace millwright::motion::internal
