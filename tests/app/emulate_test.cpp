@@ -6,7 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdint>
 
 namespace millwright::test {
 namespace {
@@ -56,6 +62,62 @@ TEST_F(Emulate, ALinuxCncWhoseEmergencyStopIsPressedEndsTheJob) {
     const Ended ended = send_square();
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.out, HasSubstr("Fault: emergency stop"));
+}
+
+/// A socket of this computer.
+class Socket {
+public:
+    Socket() : handle_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {}
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+    ~Socket() { ::close(handle_); }
+
+    /// A port that is free now.
+    [[nodiscard]] int free_port() const {
+        sockaddr_in place = at(0);
+        socklen_t size = sizeof place;
+        EXPECT_EQ(::bind(handle_, reinterpret_cast<const sockaddr*>(&place), size), 0);
+        EXPECT_EQ(::getsockname(handle_, reinterpret_cast<sockaddr*>(&place), &size), 0);
+        return ntohs(place.sin_port);
+    }
+    [[nodiscard]] bool connect(int port) const {
+        const sockaddr_in place = at(port);
+        return ::connect(handle_, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+    }
+
+private:
+    int handle_;
+
+    static sockaddr_in at(int port) {
+        sockaddr_in place{};
+        place.sin_family = AF_INET;
+        place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        place.sin_port = htons(static_cast<std::uint16_t>(port));
+        return place;
+    }
+};
+
+TEST_F(Emulate, WhoComesSecondIsToldWhoHoldsThePort) {
+    const int number = Socket().free_port();
+    write_content(scratch / "square.ngc", square);
+    for (const std::string kind : {"grbl", "linuxcnc", "stream"}) {
+        Emulator emulator(port, {"--tcp", std::to_string(number)}, kind);
+        const Socket holder;
+        ASSERT_TRUE(holder.connect(number)) << kind;
+        std::vector<std::string> words{"send", (scratch / "square.ngc").string(), "--driver", kind};
+        for (const std::string& word :
+             {std::string("--port"), "tcp:127.0.0.1:" + std::to_string(number), std::string("--log"), logs}) {
+            words.push_back(word);
+        }
+        if (kind == "stream") {
+            words.insert(words.end(), {"--machine", "router-xyz"});
+        }
+        const Ended second = run(words);
+        EXPECT_EQ(second.exit_code, 1) << kind;
+        EXPECT_THAT(second.out + second.err, HasSubstr("busy: 127.0.0.1:")) << kind;
+        EXPECT_THAT(second.out + second.err, HasSubstr(" holds this port")) << kind;
+        (void)emulator.stop();
+    }
 }
 
 TEST_F(Emulate, AMachineGoesWhereACoordinateStreamSaysAndTellsAtItsEnd) {
