@@ -3,10 +3,9 @@
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>

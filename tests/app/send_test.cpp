@@ -222,7 +222,7 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
         }
         const Ended ended = sender.end();
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        EXPECT_THAT(ended.out, HasSubstr("All 8 blocks were executed"));
+        EXPECT_THAT(ended.out, HasSubstr("All 9 blocks were executed"));
         EXPECT_EQ(records_of(words[5], "waiting").size(), 3U);
         EXPECT_EQ(records_of(words[5], "waiting")[0].at("line"), 3);
         EXPECT_EQ(records_of(words[5], "resume").size(), 3U);

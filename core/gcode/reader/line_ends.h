@@ -41,9 +41,9 @@ namespace millwright::gcode {
 
 /// With a \n in place of each \r that stands alone: byte for byte as long, for who knows \n and \r\n.
 [[nodiscard]] inline std::string with_newlines(std::string text) {
-    for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1)) {
-        if (at + 1 == text.size() || text[at + 1] != '\n') {
-            text[at] = '\n';
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        if (text[n] == '\r' && (n + 1 == text.size() || text[n + 1] != '\n')) {
+            text[n] = '\n';
         }
     }
     return text;
