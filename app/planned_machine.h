@@ -25,13 +25,8 @@ struct PlannedMachineChoice {
     double speed = 1.0;             ///< times real time; 0: as fast as it goes
     double period = 0.01;           ///< of a coordinate stream, s
     double processor_hz = machine::CordicDriverOptions().clock_hz;
-<<<<<<< HEAD
-    RecordChoice record;            ///< of a coordinate stream, and of records
-    ControllerChoice controller;    ///< port of these, keys, optional stops
-=======
-    RecordChoice record;         ///< of a coordinate stream
-    ControllerChoice controller; ///< port of a stream, keys, optional stops
->>>>>>> 4ec2d24 (Format)
+    RecordChoice record;         ///< of a coordinate stream, and of records
+    ControllerChoice controller; ///< port of these, keys, optional stops
 };
 
 /// Adds --speed, --period and those of records to `command`.

@@ -102,7 +102,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
         ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
-    command.add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
+    command
+        .add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
         ->type_name("HZ")
         ->check(CLI::Range(1.0, 1e11))
         ->capture_default_str();

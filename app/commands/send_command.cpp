@@ -120,8 +120,8 @@ int send_motion(const Options& options) {
     PlannedMachine machine(options.machine);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job =
-            ready(machine::file_job(file, model, {.start = place_of(*model, options.at)}), options, from_line);
+        machine::Job job = ready(
+            machine::file_job(file, model, {.start = place_of(*model, options.at)}), options, from_line);
         if (const auto faults = machine::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }
@@ -153,9 +153,12 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->required()
         ->check(CLI::IsMember({"grbl", "linuxcnc", "stream", "records", "virtual"}));
     command
-        .add_option("--machine", options->model, "Shipped machine or machine file, for virtual, stream and records")
+        .add_option(
+            "--machine", options->model, "Shipped machine or machine file, for virtual, stream and records")
         ->type_name("NAME");
-    command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")->delimiter(',')->expected(3);
+    command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")
+        ->delimiter(',')
+        ->expected(3);
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
     command.add_option("--axes", options->machine.controller.axes, "Axes of the machine, for linuxcnc")

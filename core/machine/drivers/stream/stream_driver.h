@@ -113,7 +113,7 @@ private:
     RecordPath record_path_;
     std::vector<bool> linear_; ///< of each axis
     AnswerLines inbox_;
-    bool told_place_ = false;  ///< where the first motion begins was sent
+    bool told_place_ = false; ///< where the first motion begins was sent
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;
