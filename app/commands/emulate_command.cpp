@@ -86,7 +86,7 @@ int emulate_pmac(const Options& options) {
     const machine::PmacEmulatorOptions wanted{.plants = options.arm ? machine::arm_plants()
                                                                     : std::vector<machine::PmacPlant>{},
                                               .channels = options.channels};
-    return serve(options, "PMAC-Lite", [&] { return std::make_unique<machine::PmacEmulator>(wanted); });
+    return serve(options.wire, "PMAC-Lite", [&] { return std::make_unique<machine::PmacEmulator>(wanted); });
 }
 
 CLI::App& add_emulated(CLI::App& group,

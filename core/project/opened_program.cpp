@@ -4,6 +4,7 @@
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/preview.h"
 #include "core/kinematics/machine_file.h"
+#include "core/machine/job.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/internal/background.h"

@@ -40,7 +40,7 @@ RecordSession& RecordsDriver::talk() const {
 
 Capabilities RecordsDriver::capabilities() const {
     Capabilities able;
-    able.plans = able.overrides = able.single_block = able.piecewise = true;
+    able.plans = able.overrides = able.single_block = able.optional_stop = able.piecewise = true;
     return able;
 }
 
@@ -49,9 +49,9 @@ void RecordsDriver::start(Work work) {
     talk().start(work, turn.now());
 }
 
-void RecordsDriver::allow(int blocks) {
+void RecordsDriver::set_optional_stop(bool on) {
     const Turn turn(*this);
-    talk().allow(blocks);
+    talk().set_optional_stop(on);
 }
 
 void RecordsDriver::set_single_block(bool on) {

@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Capabilities capabilities() const override;
     /// Throws Error for a text without the program that was made of it, too.
     void start(Work work) override;
-    void allow(int blocks) override;
+    void set_optional_stop(bool on) override;
     void set_single_block(bool on) override;
 
 private:

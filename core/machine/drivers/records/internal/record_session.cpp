@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/drivers/internal/pause.h"
 
 #include <fmt/format.h>
 
@@ -124,7 +125,9 @@ void RecordSession::start(const Work& work, double now) {
         expects(block.target.size() == model_->axis_count(), "the program is for this table");
     }
     program_ = work.program;
-    allowed_ = work.allowed_blocks.value_or(program_->block_count());
+    listing_ = work.listing;
+    ahead_ = work.ahead;
+    allowed_ = ahead_ ? 0 : program_->block_count();
     status_.block = 0;
     status_.executed_blocks = status_.sent_blocks = 0;
     status_.fraction = 0.0;
@@ -132,10 +135,6 @@ void RecordSession::start(const Work& work, double now) {
     status_.state = DriverState::running;
     status_.activity = Activity::program;
     tick(now);
-}
-
-void RecordSession::allow(int blocks) {
-    allowed_ = std::max(allowed_, blocks);
 }
 
 void RecordSession::receive(std::string_view bytes, double now) {
@@ -185,13 +184,20 @@ void RecordSession::look_at_clock(double now) {
     }
 }
 
-bool RecordSession::may_begin_block() const {
-    return status_.state == DriverState::running && !under_way_ && status_.executed_blocks < allowed_;
+bool RecordSession::may_begin_block() {
+    if (status_.state != DriverState::running || under_way_ ||
+        status_.executed_blocks >= program_->block_count()) {
+        return false;
+    }
+    if (status_.executed_blocks >= allowed_ && ahead_) {
+        allowed_ = std::max(allowed_, ahead_(status_.executed_blocks + 1));
+    }
+    return status_.executed_blocks < allowed_;
 }
 
 void RecordSession::tick(double now) {
     look_at_clock(now);
-    while (may_begin_block() && status_.executed_blocks < program_->block_count()) {
+    while (may_begin_block()) {
         begin_block(now);
     }
     if (under_way_ || !program_) {
@@ -217,9 +223,12 @@ void RecordSession::begin_block(double now) {
         send(block, now);
         return;
     }
-    if (block.kind == BlockKind::pause) {
+    const bool waits =
+        block.kind == BlockKind::pause && (block.pause != gcode::PauseKind::optional_stop || optional_stop_);
+    if (waits) {
+        std::string why = internal::reason_of_pause(*program_, listing_.get(), status_.executed_blocks);
         executed();
-        rest(DriverState::holding, block.text.empty() ? "the program waits" : block.text);
+        rest(DriverState::holding, std::move(why));
         return;
     }
     executed();

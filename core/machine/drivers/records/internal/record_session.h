@@ -6,6 +6,7 @@
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/records/records_driver.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ public:
 
     /// Throws Error unless idle or stopped, or if the program is not for this machine.
     void start(const Work& work, double now);
-    void allow(int blocks);
+    void set_optional_stop(bool on) { optional_stop_ = on; }
     void set_single_block(bool on) { single_block_ = on; }
     /// Records that were sent so far.
     [[nodiscard]] int records() const { return records_; }
@@ -61,7 +62,7 @@ private:
     void land(double now);
     void begin_block(double now);
     void send(const gcode::Block& block, double now);
-    [[nodiscard]] bool may_begin_block() const;
+    [[nodiscard]] bool may_begin_block();
     void executed();
     void rest(DriverState state, std::string why = {});
     void alarm(std::string why);
@@ -72,7 +73,10 @@ private:
     RecordText text_;
     RecordPath path_;
     std::shared_ptr<const gcode::Program> program_;
-    int allowed_ = 0;
+    std::shared_ptr<const gcode::Listing> listing_;
+    std::function<int(int)> ahead_; ///< as in Work
+    int allowed_ = 0;               ///< blocks that may be begun
+    bool optional_stop_ = false;
     std::optional<UnderWay> under_way_;
     bool rests_ = false; ///< held, and what was under way is over
     bool single_block_ = false;

@@ -67,7 +67,6 @@ private:
     void look_for_pause(int block);
     [[nodiscard]] double time_of_pause() const;
     void wait_for_person();
-    [[nodiscard]] std::string reason_of_pause() const;
     void show_program(DriverStatus& status, const motion::Sample& sample) const;
 
     std::shared_ptr<const kinematics::MachineModel> model_;

@@ -1,11 +1,9 @@
 // The virtual machine's pauses: where a program waits for a person.
+#include "core/machine/drivers/internal/pause.h"
 #include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 namespace millwright::machine::internal {
 
@@ -34,16 +32,7 @@ void VirtualAxes::wait_for_person() {
     rest_position_ = now_->at(time_).position;
     take_accessories(pause_);
     state_ = DriverState::holding;
-    message_ = reason_of_pause();
-}
-
-std::string VirtualAxes::reason_of_pause() const {
-    const auto n = static_cast<std::size_t>(pause_);
-    const gcode::Block& block = work_.program->blocks[n];
-    const int line = work_.listing ? work_.listing->line_of_block[n] : block.source_line;
-    const std::string what = block.text.empty() ? "pause" : block.text;
-    return line > 0 ? fmt::format("{} at line {}: {}", what, line, code_of(block.pause))
-                    : fmt::format("{}: {}", what, code_of(block.pause));
+    message_ = reason_of_pause(*work_.program, work_.listing.get(), pause_);
 }
 
 /// One that is passed already is passed.

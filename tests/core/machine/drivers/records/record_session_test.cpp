@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -202,13 +203,31 @@ TEST(RecordSession, WaitsForAPersonWhereTheProgramDoes) {
     EXPECT_EQ(table.records(), 2);
 }
 
+TEST(RecordSession, WaitsAtM1OnlyWhileItsSwitchIsOn) {
+    for (const bool on : {false, true}) {
+        TableEmulator table = table_of(answered());
+        Wire wire(table, answered());
+        wire.session.set_optional_stop(on);
+        wire.start(job_of("G21 G90\nG1 X20 F600\nM1\nG1 X10\nM2\n"));
+        EXPECT_EQ(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0), on);
+        if (on) {
+            EXPECT_EQ(wire.session.status().message, "optional stop at line 3: M1");
+            wire.session.resume(wire.now);
+        }
+        ASSERT_TRUE(wire.run_to_end());
+        EXPECT_EQ(table.records(), 2);
+    }
+}
+
 TEST(RecordSession, GivesNoBlockThatIsNotAllowed) {
     const Job job = job_of(zigzag(20));
     TableEmulator table = table_of(answered());
     Wire wire(table, answered());
-    wire.session.start({job.program, nullptr, job.listing, 5}, wire.now);
+    int allowed = 5;
+    wire.session.start(
+        {job.program, nullptr, job.listing, [&](int wanted) { return std::min(wanted, allowed); }}, wire.now);
     EXPECT_FALSE(wire.run_until([&] { return wire.session.status().sent_blocks > 5; }, 60.0));
-    wire.session.allow(job.block_count());
+    allowed = job.block_count();
     ASSERT_TRUE(wire.run_to_end());
     expect_same_way(table, moves_of(job));
 }
