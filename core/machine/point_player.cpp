@@ -211,8 +211,21 @@ PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listen
             listener(status());
         }
     }
+    hear_out(begin + static_cast<double>(points_->size()) * interval, stop);
     end(PlayState::done, {});
     return status();
+}
+
+/// The last point has its period too, in which it leaves and the table may complain.
+void PointPlayer::hear_out(double due, const std::stop_token& stop) {
+    if (!link_) {
+        return;
+    }
+    constexpr double patience = 0.05; // s: longer than a wire takes
+    wait_until(std::max(due, clock_.now() + patience), stop);
+    if (const std::string why = complaint(); !why.empty()) {
+        end(PlayState::emergency_stop, why);
+    }
 }
 
 } // namespace millwright::machine

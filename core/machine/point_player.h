@@ -80,6 +80,7 @@ public:
 
 private:
     void wait_until(double time, const std::stop_token& stop);
+    void hear_out(double due, const std::stop_token& stop);
     [[nodiscard]] bool send(std::size_t n, double due);
     void end(PlayState state, std::string sentence);
     [[nodiscard]] std::string complaint();
