@@ -297,7 +297,9 @@ private:
         if (kind == BlockKind::feed) {
             const std::optional<double> found = feed_.duration(at_, end);
             if (!found && !std::exchange(no_feed_said_, true)) {
-                fault(source, "a feed move without a feed, or with a spindle that stands");
+                fault(source,
+                      "a feed move without a feed, or a revolution of a spindle that stands or whose speed "
+                      "follows the diameter");
             }
             if (!found) {
                 return;

@@ -31,6 +31,12 @@ void ProgrammedFeed::command(const Command& command, double unit) {
         rate_ = command.value * unit;
         angular_rate_ = command.value;
         break;
+    case CommandKind::set_feed_mode:
+        per_revolution_ = command.index == 1;
+        break;
+    case CommandKind::set_spindle_mode:
+        surface_speed_ = command.value > 0.0;
+        break;
     case CommandKind::start_speed_feed_synch:
         a_revolution_ = command.value * unit;
         break;
@@ -45,6 +51,13 @@ void ProgrammedFeed::command(const Command& command, double unit) {
     }
 }
 
+std::optional<double> ProgrammedFeed::times_a_minute() const {
+    if (!per_revolution_) {
+        return 1.0;
+    }
+    return surface_speed_ ? std::nullopt : std::optional(rpm_);
+}
+
 std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const AxisValues& to) const {
     double way = linear_distance(from, to);
     if (way <= same_place) {
@@ -57,11 +70,12 @@ std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const Axi
     if (way <= same_place) {
         return 0.0;
     }
-    return angular_rate_ > 0.0 ? std::optional(way / angular_rate_ * seconds_a_minute) : std::nullopt;
+    const double rate = angular_rate_ * times_a_minute().value_or(0.0);
+    return rate > 0.0 ? std::optional(way / rate * seconds_a_minute) : std::nullopt;
 }
 
 std::optional<double> ProgrammedFeed::duration(double length) const {
-    const double rate = a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_;
+    const double rate = a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_ * times_a_minute().value_or(0.0);
     return rate > 0.0 ? std::optional(length / rate * seconds_a_minute) : std::nullopt;
 }
 

@@ -27,9 +27,14 @@ public:
     [[nodiscard]] std::optional<double> duration(double length) const;
 
 private:
-    double rate_ = 0.0;         ///< mm a minute
-    double angular_rate_ = 0.0; ///< degrees a minute
-    double a_revolution_ = 0.0; ///< mm; > 0: the spindle leads
+    /// What a rate has to be multiplied by, for it to be a minute; nothing where nobody knows.
+    [[nodiscard]] std::optional<double> times_a_minute() const;
+
+    double rate_ = 0.0;           ///< mm a minute, or a revolution
+    double angular_rate_ = 0.0;   ///< degrees, the same
+    bool per_revolution_ = false; ///< G95
+    bool surface_speed_ = false;  ///< G96: the spindle turns as the diameter wants it
+    double a_revolution_ = 0.0;   ///< mm; > 0: the spindle leads
     double rpm_ = 0.0;
 };
 

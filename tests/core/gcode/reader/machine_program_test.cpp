@@ -143,6 +143,22 @@ TEST(MachineProgram, FeedsRotaryAxesInDegreesWhereNothingElseMoves) {
     EXPECT_NEAR(moves[1].target[test::machine("ac-table").axis_index('A')], pi / 3.0, 1e-12);
 }
 
+TEST(MachineProgram, TakesFeedsARevolution) {
+    const auto moves = moves_of(read("G21 G90\nS1000 M3\nG95 F0.5\nG1 X10\nS2000\nG1 X20\nG20\nF0.1\nG1 "
+                                     "X2\nG21\nG94 F600\nG1 X40.8\nM2\n"));
+    ASSERT_EQ(moves.size(), 4U);
+    EXPECT_NEAR(moves[0].duration, 1.2, 1e-9);
+    EXPECT_NEAR(moves[1].duration, 0.6, 1e-9);
+    EXPECT_NEAR(moves[2].duration, 30.8 / (2.54 * 2000.0) * 60.0, 1e-9);
+    EXPECT_NEAR(moves[3].duration, 1.0, 1e-9);
+}
+
+TEST(MachineProgram, RefusesFeedsARevolutionWhereTheSpindleFollowsTheDiameter) {
+    const MachineProgram made = read("G21 G90\nG96 D3000 S100 M3\nG95 F0.5\nG1 X10\nM2\n");
+    ASSERT_EQ(made.faults.size(), 1U);
+    EXPECT_EQ(made.faults[0].place.line, 4);
+}
+
 TEST(MachineProgram, TakesInverseTime) {
     const auto moves = moves_of(read("G21 G93\nG1 X10 Y5 F30\nM2\n"));
     EXPECT_NEAR(moves[0].duration, 2.0, 1e-9);
