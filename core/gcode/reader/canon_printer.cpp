@@ -307,7 +307,7 @@ void CanonPrinter::command(const Command& c, const SourceLine& now) {
         fmt::format_to(out, "{}\n", c.text);
         return;
     }
-    begin_line(now);
+    begin_line(c.kind == CommandKind::on_reset ? SourceLine{} : now); // the program is over: no line's number
     if (c.kind > CommandKind::optional_program_stop) {
         text_ += own_text(c);
         text_ += '\n';

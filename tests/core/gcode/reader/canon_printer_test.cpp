@@ -44,5 +44,19 @@ TEST(CanonPrinter, WritesFourDecimalsRoundedAsTheExactValueIs) {
     }
 }
 
+TEST(CanonPrinter, NumbersNoLineOnceTheProgramIsOver) { // as rs274 prints it
+    std::string text;
+    CanonPrinter printer([&](std::string_view piece) { text += piece; });
+    SourceLine last;
+    last.text = "N20 M2";
+    for (const CommandKind kind : {CommandKind::program_end, CommandKind::on_reset}) {
+        Command command;
+        command.kind = kind;
+        printer.command(command, last);
+    }
+    printer.flush();
+    EXPECT_EQ(text, "    1 N20    PROGRAM_END()\n    2 N..... ON_RESET()\n");
+}
+
 } // namespace
 } // namespace millwright::gcode
