@@ -53,7 +53,8 @@ TEST_F(MachineControls, HomeTheMachine) {
     grbl.install_switches();
     press("inspector/finding/machine_home");
     ASSERT_TRUE(person.live_until([this] { return status().activity == machine::Activity::homing; }));
-    EXPECT_NE(person.refusal("inspector/job/machine_run"), "");
+    EXPECT_TRUE(
+        person.live_until([this] { return !person.refusal("inspector/job/machine_run").empty(); }, 2.0));
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle) && !grbl.moving(); }, 120.0));
     const auto at = grbl.position();
     EXPECT_TRUE(person.live_until([&] { return std::abs(status().position[0] - at[0]) < 0.01; }));

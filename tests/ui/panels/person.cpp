@@ -71,6 +71,7 @@ bool Person::live_until(const std::function<bool()>& done, double seconds) {
     while (std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
         frame();
         if (done()) {
+            frame(); // a controller's state may be younger than the frame: now the panels show it too
             return true;
         }
     }

@@ -36,7 +36,7 @@ public:
     /// Waits until nothing runs in the background, then looks twice.
     void wait_idle();
 
-    /// Frames as they come, until `done` or the time is over; the last word is done()'s.
+    /// Frames as they come, until `done` has become true and been drawn, or the time is over.
     bool live_until(const std::function<bool()>& done, double seconds = 20.0);
 
     /// Where a widget was in the last frame. Throws Error if it was not drawn.
