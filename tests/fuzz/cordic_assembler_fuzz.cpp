@@ -13,14 +13,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace millwright; // NOLINT(google-build-using-namespace)
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto [image, errors] = cordic::assemble(text, "fuzz.asm");
-    if (!errors.empty()) {
+    const cordic::Assembled program = cordic::assemble(text, "fuzz.asm");
+    if (!program.errors.empty()) {
         return 0;
     }
-    const auto again = cordic::assemble(cordic::disassemble(image), "again.asm");
-    expects(again.errors.empty() && again.image == image,
+    const cordic::Assembled again = cordic::assemble(cordic::disassemble(program.image), "again.asm");
+    expects(again.errors.empty() && again.image == program.image,
             "the disassembler's text assembles to the same image");
-    cordic::Processor processor({}, image);
+    cordic::Processor processor({}, program.image);
     processor.run(20'000);
     return 0;
 }
