@@ -3,6 +3,8 @@
 #include "app/commands/cordic_accuracy.h"
 #include "app/commands/cordic_compare.h"
 #include "app/commands/cordic_programs.h"
+#include "app/commands/cordic_run.h"
+#include "app/commands/cordic_sew.h"
 #include "app/outputs.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -161,8 +163,10 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
     add_cordic_accuracy(group, chosen);
+    add_cordic_run(group, chosen);
     add_cordic_programs(group, chosen);
     add_cordic_compare(group, chosen);
+    add_cordic_sew(group, chosen);
     add_rtl(group, chosen);
 }
 

@@ -1,4 +1,4 @@
-// The cordic commands about the thesis's speed experiment: compare and sew.
+// millwright cordic compare: the thesis's speed experiment.
 #pragma once
 
 #include "app/command.h"

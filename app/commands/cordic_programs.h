@@ -1,4 +1,4 @@
-// millwright cordic run, asm, disasm, microprogram: whole programs on the CORDIC processor.
+// millwright cordic asm, disasm, microprogram: programs of the CORDIC processor as bytes and as text.
 #pragma once
 
 #include "app/command.h"

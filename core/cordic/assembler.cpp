@@ -17,23 +17,6 @@
 namespace millwright::cordic {
 namespace {
 
-std::string upper(std::string_view text) {
-    std::string made(text);
-    std::ranges::transform(made, made.begin(), [](char c) {
-        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    });
-    return made;
-}
-
-bool read_real(std::string_view text, double& value) {
-    if (text.starts_with('+')) {
-        text.remove_prefix(1);
-    }
-    const char* const end = text.data() + text.size();
-    const auto [stop, fault] = std::from_chars(text.data(), end, value);
-    return fault == std::errc{} && stop == end && std::isfinite(value);
-}
-
 class Assembler {
 public:
     Assembler(std::filesystem::path name, const NumberFormat& format) : name_(std::move(name)) {
@@ -82,7 +65,7 @@ private:
             return;
         }
         const LineWord word = words_[at_++];
-        const std::string name = upper(word.text);
+        const std::string name = capital(word.text);
         const auto known = std::ranges::find(named_opcodes(), name, &NamedOpcode::name);
         if (known != named_opcodes().end()) {
             add({.opcode = known->opcode}, word.column);

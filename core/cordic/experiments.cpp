@@ -37,32 +37,45 @@ std::vector<double> steps(double from, double to, double by) {
     return made;
 }
 
+/// One series of dots for each pair of flags.
+std::vector<Series> by_flags() {
+    std::vector<Series> made;
+    for (const int flags : {0, 1, 2, 3}) {
+        made.push_back({.label = "f1 = " + std::to_string(flags % 2) + ", f2 = " + std::to_string(flags / 2),
+                        .mark = Mark::dots});
+    }
+    return made;
+}
+
 void fold_everything(Experiments& all) {
     bool overflow = false;
-    std::array<Series, 4> folded;
-    for (const int flags : {0, 1, 2, 3}) {
-        folded[static_cast<std::size_t>(flags)] = {.label = "f1 = " + std::to_string(flags % 2) +
-                                                            ", f2 = " + std::to_string(flags / 2),
-                                                   .mark = Mark::dots};
-    }
+    std::vector<Series> folded = by_flags();
+    std::vector<Series> unfolded = by_flags();
     double outside = 0.0;
     double worst = 0.0;
     for (const double deg : steps(-180.0, 180.0, 0.1)) {
         const Point in = on_circle(deg);
         const auto out = pre(Binary64(), in.x, in.y, overflow);
-        auto& series = folded[(out.f1 ? 1U : 0U) + (out.f2 ? 2U : 0U)];
+        const std::size_t flags = (out.f1 ? 1U : 0U) + (out.f2 ? 2U : 0U);
         const double angle = to_degrees(std::atan2(out.y, out.x));
-        series.x.push_back(deg);
-        series.y.push_back(angle);
+        folded[flags].x.push_back(deg);
+        folded[flags].y.push_back(angle);
         outside = std::max(outside, std::abs(angle) - 90.0);
         const auto back = post(Binary64(), out, overflow);
+        unfolded[flags].x.push_back(angle);
+        unfolded[flags].y.push_back(to_degrees(std::atan2(back.y, back.x)));
         worst = std::max({worst, std::abs(back.x - in.x), std::abs(back.y - in.y)});
     }
-    Chart chart{.title = "E1: PreCORDIC folds every direction into ±90°",
-                .x_label = "direction before, degrees",
-                .y_label = "direction after, degrees",
-                .series = {folded.begin(), folded.end()}};
-    all.pictures.push_back({"e1-pre.svg", to_svg(chart)});
+    all.pictures.push_back({"e1-pre.svg",
+                            to_svg(Chart{.title = "E1: PreCORDIC folds every direction into ±90°",
+                                         .x_label = "direction before, degrees",
+                                         .y_label = "direction after, degrees",
+                                         .series = folded})});
+    all.pictures.push_back({"e2-post.svg",
+                            to_svg(Chart{.title = "E2: PostCORDIC takes each direction back",
+                                         .x_label = "direction after PreCORDIC, degrees",
+                                         .y_label = "direction after PostCORDIC, degrees",
+                                         .series = unfolded})});
     all.findings.push_back(
         {"E1", "direction beyond 90 degrees after PreCORDIC, degrees", std::max(outside, 0.0)});
     all.findings.push_back({"E2", "PostCORDIC after PreCORDIC against the vector before", worst});
@@ -197,18 +210,36 @@ std::vector<Point> points_of(const Arc& arc) {
     return points;
 }
 
-/// Largest distance from where the points belong.
-double arc_error(const Arc& arc, const std::vector<Point>& points) {
-    double worst = 0.0;
+/// How far each point is from where it belongs.
+struct ArcErrors {
+    std::vector<double> chord, x, y, radius, distance; ///< signed but the last; of the n-th chord, from 1
+
+    [[nodiscard]] static double largest(const std::vector<double>& errors) {
+        double worst = 0.0;
+        for (const double error : errors) {
+            worst = std::max(worst, std::abs(error));
+        }
+        return worst;
+    }
+};
+
+ArcErrors errors_of(const Arc& arc, const std::vector<Point>& points) {
+    ArcErrors errors;
     const double dx = arc.start.x - arc.centre.x;
     const double dy = arc.start.y - arc.centre.y;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const double theta = arc.sweep * static_cast<double>(k + 1) / arc.chords;
-        const double x = arc.centre.x + dx * std::cos(theta) - dy * std::sin(theta);
-        const double y = arc.centre.y + dx * std::sin(theta) + dy * std::cos(theta);
-        worst = std::max(worst, std::hypot(points[k].x - x, points[k].y - y));
+        const auto chord = static_cast<double>(k + 1);
+        const double theta = arc.sweep * chord / arc.chords;
+        const double x = points[k].x - (arc.centre.x + dx * std::cos(theta) - dy * std::sin(theta));
+        const double y = points[k].y - (arc.centre.y + dx * std::sin(theta) + dy * std::cos(theta));
+        errors.chord.push_back(chord);
+        errors.x.push_back(x);
+        errors.y.push_back(y);
+        errors.radius.push_back(std::hypot(points[k].x - arc.centre.x, points[k].y - arc.centre.y) -
+                                std::hypot(dx, dy));
+        errors.distance.push_back(std::hypot(x, y));
     }
-    return worst;
+    return errors;
 }
 
 void add_points(Series& series, const std::vector<Point>& points) {
@@ -225,15 +256,32 @@ void one_arc(Experiments& all) {
                 .series = {{.label = "counter-clockwise", .mark = Mark::dots},
                            {.label = "clockwise", .mark = Mark::dots}},
                 .same_scale = true};
-    double worst = 0.0;
+    double worst_x = 0.0;
+    double worst_y = 0.0;
+    double worst_radius = 0.0;
     for (const int sense : {1, -1}) {
         const Arc arc{.centre = {5.0, 10.0}, .start = {10.0, 10.0}, .sweep = sense * 1.5 * pi, .chords = 50};
         const auto points = points_of(arc);
+        const ArcErrors errors = errors_of(arc, points);
         add_points(chart.series[sense > 0 ? 0 : 1], points);
-        worst = std::max(worst, arc_error(arc, points));
+        worst_x = std::max(worst_x, ArcErrors::largest(errors.x));
+        worst_y = std::max(worst_y, ArcErrors::largest(errors.y));
+        worst_radius = std::max(worst_radius, ArcErrors::largest(errors.radius));
+        if (sense > 0) {
+            all.pictures.push_back(
+                {"e6-errors.svg",
+                 to_svg(Chart{.title = "E6: error of each point, counter-clockwise",
+                              .x_label = "chord",
+                              .y_label = "error",
+                              .series = {{.label = "X", .x = errors.chord, .y = errors.x},
+                                         {.label = "Y", .x = errors.chord, .y = errors.y},
+                                         {.label = "radius", .x = errors.chord, .y = errors.radius}}})});
+        }
     }
     all.pictures.push_back({"e6-arc.svg", to_svg(chart)});
-    all.findings.push_back({"E6", "distance of the arc's points from the exact ones", worst});
+    all.findings.push_back({"E6", "X of the arc's points", worst_x});
+    all.findings.push_back({"E6", "Y of the arc's points", worst_y});
+    all.findings.push_back({"E6", "radius of the arc's points", worst_radius});
 }
 
 void whole_program(Experiments& all) {
@@ -254,9 +302,19 @@ void whole_program(Experiments& all) {
                                          .y_label = "Y",
                                          .series = {path},
                                          .same_scale = true})});
-    all.findings.push_back({"E7",
-                            "distance of the arcs' points from the exact ones",
-                            std::max(arc_error(first, first_points), arc_error(second, second_points))});
+    const ArcErrors first_errors = errors_of(first, first_points);
+    const ArcErrors second_errors = errors_of(second, second_points);
+    all.pictures.push_back(
+        {"e7-errors.svg",
+         to_svg(Chart{.title = "E7: how far the arcs' points are from the exact ones",
+                      .x_label = "chord",
+                      .y_label = "distance",
+                      .series = {{.label = "G02", .x = first_errors.chord, .y = first_errors.distance},
+                                 {.label = "G03", .x = second_errors.chord, .y = second_errors.distance}}})});
+    all.findings.push_back(
+        {"E7",
+         "distance of the arcs' points from the exact ones",
+         std::max(ArcErrors::largest(first_errors.distance), ArcErrors::largest(second_errors.distance))});
 }
 
 } // namespace

@@ -1,14 +1,13 @@
 // A programmable logic controller beside the processor: switches, lamps, timers and interlocks of the
 // machine, in the instruction list of IEC 61131-3. A scan executes all instructions in their order; what it
-// reads and writes are bits that the machine sets before and looks at behind it. Text:
-// docs/reference/cordic.md#logic.
+// reads and writes are bits that the machine sets before and looks at behind it. Times us.
+// Source: IEC 61131-3, docs/reference/cordic.md#logic.
 #pragma once
 
 #include "core/base/error.h"
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +41,8 @@ inline constexpr PlcBit plc_first_user_command = 160; ///< U100
 [[nodiscard]] bool plc_writes(PlcBit bit);
 /// Whether the machine may: inputs.
 [[nodiscard]] bool plc_is_input(PlcBit bit);
+[[nodiscard]] bool plc_is_timer(PlcBit bit);
+[[nodiscard]] bool plc_is_counter(PlcBit bit);
 
 enum class PlcOp : std::uint8_t {
     load,
@@ -78,8 +79,6 @@ struct PlcProgram {
     std::vector<PlcInstruction> instructions;
     std::vector<Diagnostic> errors; ///< with line and column; the program is of use only if there are none
 };
-
-[[nodiscard]] PlcProgram assemble_plc(std::string_view text, const std::filesystem::path& name);
 
 class Plc {
 public:

@@ -62,7 +62,9 @@ void find_late(RunReport& report, const Processor& processor, double clock_hz, P
         const Found set = found(processor, published[n]);
         const double way = length(set.at - from);
         const double computing = static_cast<double>(published[n + 1].clock - published[n].clock) / clock_hz;
-        report.late += way < length(set.velocity) * computing ? 1 : 0;
+        if (way < length(set.velocity) * computing) {
+            report.late.push_back(n + 1);
+        }
         fastest = std::min(fastest, way / computing);
         from = set.at;
     }

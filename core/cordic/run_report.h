@@ -5,6 +5,7 @@
 #include "core/cordic/processor.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,8 +39,9 @@ struct RunReport {
     double seconds = 0.0;
     double position_error = 0.0; ///< largest distance from the exact point
     double speed_error = 0.0;    ///< largest, in parts of the programmed speed
-    std::int64_t late = 0;       ///< set-points that took longer to compute than the motion before them
-    double fastest = 0.0;        ///< speed up to which none would be late; 0 with fewer than two set-points
+    /// Set-points, from 0 and ascending, that took longer to compute than the motion before them.
+    std::vector<std::size_t> late;
+    double fastest = 0.0; ///< speed up to which none would be late; 0 with fewer than two set-points
 };
 
 /// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0; `start`: where the axes were.

@@ -4,31 +4,16 @@
 // keep step. Times s.
 #pragma once
 
+#include "core/cordic/input_changes.h"
 #include "core/cordic/plc.h"
 #include "core/cordic/processor.h"
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
 namespace millwright::cordic {
-
-/// What happens to an input from outside.
-struct InputChange {
-    double seconds = 0.0;
-    PlcBit bit = 0;
-    bool value = false;
-};
-
-struct ReadInputs {
-    std::vector<InputChange> changes; ///< by ascending time
-    std::vector<Diagnostic> errors;   ///< with line and column
-};
-
-/// Lines of "SECONDS BIT 0|1"; a semicolon begins a comment.
-[[nodiscard]] ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name);
 
 struct SupervisedSettings {
     double clock_hz = 8e6;

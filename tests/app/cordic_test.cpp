@@ -57,12 +57,15 @@ TEST(Cordic, AccuracyWritesItsTableAndPictures) {
     EXPECT_THAT(content_of(folder.path() / "accuracy.csv"), HasSubstr("q2.14,truncate,thesis 29,65536,"));
     for (const char* name : {"bounds.svg",
                              "e1-pre.svg",
+                             "e2-post.svg",
                              "e3-rotation.svg",
                              "e4-angle.svg",
                              "e4-length.svg",
                              "e5-errors.svg",
                              "e5-values.svg",
                              "e6-arc.svg",
+                             "e6-errors.svg",
+                             "e7-errors.svg",
                              "e7-program.svg"}) {
         EXPECT_THAT(content_of(folder.path() / name), HasSubstr("</svg>")) << name;
     }

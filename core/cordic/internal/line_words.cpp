@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace millwright::cordic {
 namespace {
@@ -54,6 +55,23 @@ bool read_number(std::string_view text, long long& number) {
     }
     number = negative ? -number : number;
     return true;
+}
+
+bool read_real(std::string_view text, double& number) {
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+    }
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, number);
+    return fault == std::errc{} && stop == end && std::isfinite(number);
+}
+
+std::string capital(std::string_view text) {
+    std::string made(text);
+    std::ranges::transform(made, made.begin(), [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    });
+    return made;
 }
 
 bool is_name(std::string_view text) {

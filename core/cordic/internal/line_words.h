@@ -1,6 +1,7 @@
 // The words of one line of an assembler's text, each with the column it begins at.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct LineWord {
 
 /// A whole number, decimal or 0x hexadecimal, with sign. False unless all of `text` is one.
 [[nodiscard]] bool read_number(std::string_view text, long long& number);
+
+/// A finite decimal number, with sign. False unless all of `text` is one.
+[[nodiscard]] bool read_real(std::string_view text, double& number);
+
+/// With capital letters only.
+[[nodiscard]] std::string capital(std::string_view text);
 
 /// A letter or underscore, then also digits.
 [[nodiscard]] bool is_name(std::string_view text);

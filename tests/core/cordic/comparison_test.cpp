@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace millwright::cordic {
 namespace {
 
@@ -16,32 +14,6 @@ TEST(Comparison, HasTheNumbersOfTheThesis) {
     EXPECT_EQ(static_cast<int>(processor.most_rpm), 6'486'486);
     EXPECT_NEAR(100.0 * processor.reduction, 99.308, 5e-4);
     EXPECT_NEAR(processor.times_fewer, 144.5, 0.05);
-}
-
-TEST(Sewing, HasTheNumbersOfTheThesis) {
-    const StitchTimes times = stitch_times({}, 1.337e-3);
-    EXPECT_NEAR(times.period, 0.020, 1e-15);
-    EXPECT_NEAR(times.window, 0.01333, 1e-5);
-    EXPECT_NEAR(times.screw_rpm, 675.0, 1e-9);
-    EXPECT_NEAR(100.0 * times.share, 6.68, 0.006);
-    EXPECT_NEAR(100.0 * stitch_times({}, 9.25e-6).share, 0.046, 5e-4);
-    EXPECT_TRUE(times.computed_in_time);
-    EXPECT_TRUE(times.moved_in_time);
-}
-
-TEST(Sewing, SeesWhatComesTooLate) {
-    Sewing fast;
-    fast.needle_rpm = 50'000.0; // 1.2 ms a stitch: the MCS-51 is too slow, the processor is not
-    fast.most_screw_rpm = 100'000.0;
-    EXPECT_FALSE(stitch_times(fast, 1.337e-3).computed_in_time);
-    EXPECT_TRUE(stitch_times(fast, 9.25e-6).computed_in_time);
-    const std::vector<double> compute = {1e-3, 30e-3, 1e-3, 25e-3};
-    const std::vector<double> lengths = {3.0, 3.0, 15.0, 3.0};
-    const SewingRun run = sew({}, compute, lengths);
-    EXPECT_EQ(run.stitches, 4);
-    EXPECT_EQ(run.late_computations, 2);
-    EXPECT_EQ(run.late_moves, 1); // 15 mm in 13.3 ms need 3375 turns a minute
-    EXPECT_EQ(run.first_late, 1);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "core/cordic/supervised_run.h"
 
 #include "core/cordic/assembler.h"
+#include "core/cordic/plc_assembler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -139,28 +140,6 @@ TEST(SupervisedRun, EndsInADefinedStateWhereTheProcessorStands) {
     EXPECT_EQ(done.executed, 0);
     EXPECT_EQ(run("again: MOV PC, again\n", "").end, SupervisedEnd::out_of_time);
     EXPECT_THROW((void)run("MOV P, 7\nMUSER\nHLT\n", ""), Error);
-}
-
-TEST(SupervisedRun, ReadsInputsWithLineAndColumnOfWhatIsWrong) {
-    const ReadInputs good = read_inputs("; a door\n0.5 I3 1\n\n1.25 i3 0 ; closed\n", "inputs");
-    ASSERT_EQ(good.changes.size(), 2U);
-    EXPECT_EQ(good.changes[1].seconds, 1.25);
-    EXPECT_FALSE(good.changes[1].value);
-    struct Wrong {
-        const char* text;
-        int line, column;
-    };
-    for (const Wrong& wrong : {Wrong{"x I3 1", 1, 1},
-                               Wrong{"1 I3 1\n 0.5 I3 0", 2, 2},
-                               Wrong{"1 Q3 1", 1, 3},
-                               Wrong{"1 I3 2", 1, 6},
-                               Wrong{"1 I3", 1, 3},
-                               Wrong{"nan I3 1", 1, 1}}) {
-        const ReadInputs read = read_inputs(wrong.text, "inputs");
-        ASSERT_EQ(read.errors.size(), 1U) << wrong.text;
-        EXPECT_EQ(read.errors[0].place.line, wrong.line) << wrong.text;
-        EXPECT_EQ(read.errors[0].place.column, wrong.column) << wrong.text;
-    }
 }
 
 } // namespace

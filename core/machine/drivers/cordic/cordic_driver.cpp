@@ -69,13 +69,13 @@ cordic::RunReport CordicDriver::report() const {
 
 std::string CordicDriver::remark() const {
     const cordic::RunReport done = report();
-    if (done.late == 0) {
+    if (done.late.empty()) {
         return {};
     }
     return fmt::format(
         "{} of {} set-points took longer to compute at {:.6g} MHz than the motion before them; "
         "none would up to {:.6g} mm/min",
-        done.late,
+        done.late.size(),
         done.published,
         1e-6 * options_.clock_hz,
         to_mm_per_min(done.fastest));

@@ -5,8 +5,10 @@
 #include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
 #include "core/cordic/pipeline.h"
+#include "core/cordic/plc_assembler.h"
 #include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
+#include "core/cordic/sewing.h"
 #include "core/cordic/supervised_run.h"
 #include "core/cordic/vcd.h"
 #include "core/gcode/reader/cordic_program.h"
@@ -222,11 +224,10 @@ TEST(Thesis, ComparisonHasTheNumbersOfItsSpeedExperiment) {
 }
 
 TEST(Thesis, SewingMissesItsDeadlineOnlyWhereTheComputationTakesLongerThanAStitch) {
-    const std::array<double, 3> times{1e-3, 25e-3, 9.25e-6};
-    const std::array<double, 3> lengths{3.0, 3.0, 3.0};
-    const auto run = cordic::sew({}, times, lengths);
+    const std::array<cordic::Stitch, 3> stitches{{{1e-3, 3.0}, {25e-3, 3.0}, {9.25e-6, 3.0}}};
+    const auto run = cordic::sew({}, stitches);
     EXPECT_EQ(run.late_computations, 1);
-    EXPECT_EQ(run.first_late, 1);
+    EXPECT_EQ(run.late, std::vector<std::size_t>{1});
     EXPECT_EQ(run.late_moves, 0);
 }
 

@@ -1,0 +1,211 @@
+#include "app/commands/cordic_run.h"
+
+#include "app/commands/cordic_motion.h"
+#include "app/commands/cordic_plc.h"
+#include "app/commands/cordic_source.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/cordic/run_report.h"
+#include "core/cordic/vcd.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    CordicSource source;
+    CordicChoice choice;
+    CordicMotionOptions motion;
+    CordicPlcOptions plc;
+    std::string trace;
+    double clock_hz = 8e6;
+    std::int64_t most_clocks = 1'000'000'000;
+    bool json = false;
+};
+
+/// That the axes get.
+double path_acceleration(const Options& options) {
+    constexpr double half = 0.5; // eq. 4.2
+    return (options.choice.whole_acceleration ? 1.0 : half) * options.source.acceleration;
+}
+
+void run_traced(cordic::Processor& processor, const Options& options) {
+    cordic::VcdWriter waves(processor.format(), options.clock_hz);
+    for (std::int64_t n = 0; n < options.most_clocks && processor.state().stop == cordic::Stop::none; ++n) {
+        processor.clock();
+        waves.add(processor.state());
+    }
+    write_file(options.trace, waves.take());
+}
+
+nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const cordic::Published& record) {
+    const auto set = processor.set_point(record);
+    nlohmann::ordered_json point{{"clock", record.clock},
+                                 {"x", set.x},
+                                 {"y", set.y},
+                                 {"vx", set.vx},
+                                 {"vy", set.vy},
+                                 {"ax", set.ax},
+                                 {"ay", set.ay}};
+    if (record.opcode == cordic::Opcode::g00z || record.opcode == cordic::Opcode::g01z) {
+        const auto height = processor.height_point(record);
+        point["z"] = height.z;
+        point["vz"] = height.vz;
+        point["az"] = height.az;
+    }
+    return point;
+}
+
+nlohmann::ordered_json json_of(const cordic::Processor& processor,
+                               const gcode::CordicProgram& program,
+                               const cordic::RunReport& report,
+                               bool has_exact) {
+    nlohmann::ordered_json answer;
+    answer["stop"] = cordic::to_text(report.stop);
+    answer["format"] = cordic::to_text(processor.format());
+    answer["clocks"] = {{"total", report.clocks.total},
+                        {"cordic", report.clocks.cordic},
+                        {"fetch", report.clocks.fetch},
+                        {"immediate", report.clocks.immediate},
+                        {"publish", report.clocks.publish},
+                        {"control", report.clocks.control()}};
+    answer["seconds"] = report.seconds;
+    if (has_exact) {
+        answer["errors"] = {{"position_mm", report.position_error}, {"speed", report.speed_error}};
+    }
+    answer["late"] = report.late.size();
+    answer["fastest_mm_per_min"] = to_mm_per_min(report.fastest);
+    answer["points"] = nlohmann::ordered_json::array();
+    for (const cordic::Published& record : processor.published()) {
+        answer["points"].push_back(json_of_point(processor, record));
+    }
+    answer["commands"] = nlohmann::ordered_json::array();
+    for (const cordic::Commanded& command : processor.commanded()) {
+        const std::size_t n = answer["commands"].size();
+        answer["commands"].push_back(
+            {{"clock", command.clock},
+             {"command", cordic::to_text(command.opcode)},
+             {"parameter", command.parameter},
+             {"behind_points", command.behind_set_points},
+             {"line", n < program.command_lines.size() ? program.command_lines[n] : 0}});
+    }
+    return answer;
+}
+
+void print(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
+    fmt::print("{} set-points, {} commands, {}\n",
+               report.published,
+               processor.commanded().size(),
+               cordic::to_text(report.stop));
+    fmt::print("{} clocks, {:.6g} ms: {} CORDIC, {} fetch, {} immediates, {} publishing, {} control\n",
+               report.clocks.total,
+               1e3 * report.seconds,
+               report.clocks.cordic,
+               report.clocks.fetch,
+               report.clocks.immediate,
+               report.clocks.publish,
+               report.clocks.control());
+    if (has_exact) {
+        fmt::print("largest errors: position {:.3g} mm, speed {:.3g} of the feed\n",
+                   report.position_error,
+                   report.speed_error);
+    }
+    if (report.fastest > 0.0) {
+        fmt::print("{} set-points late; none would be up to {:.6g} mm/min\n",
+                   report.late.size(),
+                   to_mm_per_min(report.fastest));
+    }
+}
+
+std::optional<cordic::SupervisedRun> execute(cordic::Processor& processor, const Options& options) {
+    if (!options.plc.logic.empty()) {
+        return run_with_logic(processor, options.plc, options.clock_hz);
+    }
+    if (options.trace.empty()) {
+        processor.run(options.most_clocks);
+    } else {
+        run_traced(processor, options);
+    }
+    return std::nullopt;
+}
+
+/// Stopped by the logic is what the logic is for.
+bool is_at_an_end(const cordic::Processor& processor,
+                  const std::optional<cordic::SupervisedRun>& supervised) {
+    using cordic::SupervisedEnd;
+    if (supervised && supervised->end == SupervisedEnd::out_of_time) {
+        throw Error("the machine is not at the end of the program when its time is over", {}, "--time");
+    }
+    return processor.state().stop == cordic::Stop::halted ||
+           (supervised && supervised->end == SupervisedEnd::stopped);
+}
+
+int run(const Options& options) {
+    const gcode::CordicProgram program = cordic_program(options.source);
+    cordic::Processor processor = cordic_processor(options.choice, program.image);
+    const auto supervised = execute(processor, options);
+    // Turned the other way, or stepped from elsewhere, the points are not those of the G-code.
+    const bool has_exact = !program.points.empty() && !options.choice.thesis_direction;
+    const auto exact = has_exact ? std::span(program.points) : std::span<const cordic::ExactPoint>();
+    const cordic::RunReport report = cordic::report_of(processor, exact, options.clock_hz);
+    const auto motion =
+        report.stop == cordic::Stop::halted
+            ? move_along(processor, program, options.motion, path_acceleration(options), options.source.file)
+            : std::nullopt;
+    if (options.json) {
+        auto answer = json_of(processor, program, report, has_exact);
+        if (motion) {
+            answer["motion"] = json_of(*motion);
+        }
+        if (supervised) {
+            answer["logic"] = app::json_of(*supervised);
+        }
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        print(report, processor, has_exact);
+        if (motion) {
+            print(*motion);
+        }
+        if (supervised) {
+            app::print(*supervised);
+        }
+    }
+    if (!is_at_an_end(processor, supervised)) {
+        throw not_at_its_end(processor, program, options.source, options.choice);
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_cordic_run(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *group.add_subcommand("run", "Run a program on the processor, clock by clock");
+    add_cordic_source(command, options->source);
+    add_cordic_clock(command, options->clock_hz);
+    CLI::Option* const trace =
+        command.add_option("--trace", options->trace, "Write waves for GTKWave (VCD)")->type_name("FILE");
+    add_cordic_choice(command, options->choice);
+    command.add_option("--clocks", options->most_clocks, "Stop after so many")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
+        ->capture_default_str();
+    add_cordic_motion_options(command, options->motion);
+    add_cordic_plc_options(command, options->plc);
+    trace->excludes("--plc");
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace millwright::app

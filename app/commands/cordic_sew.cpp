@@ -1,0 +1,102 @@
+#include "app/commands/cordic_sew.h"
+
+#include "app/commands/cordic_source.h"
+#include "core/cordic/sewing.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    CordicSource source;
+    CordicChoice choice;
+    cordic::Sewing sewing;
+    double clock_hz = 8e6;
+    bool json = false;
+};
+
+/// Of the program, from which the n-th set-point comes; 0: not known.
+int line_of(const cordic::Processor& processor, const gcode::CordicProgram& program, std::size_t n) {
+    return cordic::line_at(program.code_lines, processor.published()[n].instruction_at).line;
+}
+
+int sew(const Options& options) {
+    const gcode::CordicProgram program = cordic_program(options.source);
+    cordic::Processor processor = cordic_processor(options.choice, program.image);
+    constexpr std::int64_t long_enough = 1'000'000'000;
+    processor.run(long_enough);
+    if (processor.state().stop != cordic::Stop::halted) {
+        throw not_at_its_end(processor, program, options.source, options.choice);
+    }
+    const cordic::SewingRun sewn =
+        cordic::sew(options.sewing, cordic::stitches_of(processor, options.clock_hz));
+    const cordic::StitchTimes one = cordic::stitch_times(options.sewing, 0.0);
+    const std::int64_t first_late = sewn.late.empty() ? -1 : static_cast<std::int64_t>(sewn.late.front());
+    const int late_line = first_late < 0 ? 0 : line_of(processor, program, sewn.late.front());
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["stitches"] = sewn.stitches;
+        answer["period_s"] = one.period;
+        answer["window_s"] = one.window;
+        answer["longest_mm"] = sewn.longest;
+        answer["slowest_computation_s"] = sewn.slowest_computation;
+        answer["late_computations"] = sewn.late_computations;
+        answer["late_moves"] = sewn.late_moves;
+        answer["first_late"] = first_late;
+        answer["first_late_line"] = late_line;
+        fmt::print("{}\n", answer.dump(2));
+        return 0;
+    }
+    fmt::print("{} stitches of {:.6g} ms, in {:.6g} ms of which the needle is up and the feed may move\n",
+               sewn.stitches,
+               1e3 * one.period,
+               1e3 * one.window);
+    fmt::print("longest stitch {:.6g} mm, slowest computation {:.6g} ms\n",
+               sewn.longest,
+               1e3 * sewn.slowest_computation);
+    fmt::print("{} computations and {} moves too late\n", sewn.late_computations, sewn.late_moves);
+    if (first_late >= 0) {
+        fmt::print("first: stitch {}, {}:{}\n", first_late + 1, options.source.file, late_line);
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_cordic_sew(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command =
+        *group.add_subcommand("sew", "A program as stitches: what a sewing machine could not keep up with");
+    add_cordic_source(command, options->source);
+    add_cordic_choice(command, options->choice);
+    add_cordic_clock(command, options->clock_hz);
+    const auto positive = CLI::Range(1e-3, 1e7);
+    command
+        .add_option("--needle-rpm", options->sewing.needle_rpm, "Turns a minute of the needle, a stitch each")
+        ->check(positive)
+        ->capture_default_str();
+    command
+        .add_option(
+            "--needle-down", options->sewing.needle_down, "Part of a turn in which the feed must stand")
+        ->check(CLI::Range(0.0, 0.99))
+        ->capture_default_str();
+    command.add_option("--screw-pitch", options->sewing.screw_pitch, "Feed of a turn of the screw, mm")
+        ->check(positive)
+        ->capture_default_str();
+    command.add_option("--screw-rpm", options->sewing.most_screw_rpm, "Greatest speed of the screw")
+        ->check(positive)
+        ->capture_default_str();
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.callback([&chosen, options] { chosen = [options] { return sew(*options); }; });
+}
+
+} // namespace millwright::app
