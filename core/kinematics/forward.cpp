@@ -57,6 +57,27 @@ geometry::ToolPose forward(const MachineModel& machine, const AxisPositions& pos
     return {tip - machine.workpiece_origin(), tool};
 }
 
+LinearMap linear_map(const MachineModel& machine, const AxisPositions& positions) {
+    LinearMap map{machine.description().tool_tip, Mat3::Zero()};
+    const auto& linear = machine.linear_axes();
+    from_tool_to_workpiece(machine, [&](int n, double sense) {
+        const MachineAxis& axis = machine.axis(n);
+        if (axis.kind == AxisKind::linear) {
+            const auto column = std::find(linear.begin(), linear.end(), n) - linear.begin();
+            map.columns.col(column) = sense * axis.direction;
+            map.tip_at_zero += sense * axis.zero_offset * axis.direction;
+            return;
+        }
+        const Turn turn(axis.direction, sense * physical(axis, positions[n]));
+        map.tip_at_zero = axis.point + turn(map.tip_at_zero - axis.point);
+        for (int k = 0; k < 3; ++k) {
+            map.columns.col(k) = turn(map.columns.col(k));
+        }
+    });
+    map.tip_at_zero -= machine.workpiece_origin();
+    return map;
+}
+
 Jacobian jacobian(const MachineModel& machine, const AxisPositions& positions) {
     Vec3 tip = machine.description().tool_tip;
     Vec3 tool = machine.description().tool_axis;

@@ -15,6 +15,14 @@ namespace millwright::kinematics {
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 9>;
 [[nodiscard]] Jacobian jacobian(const MachineModel& machine, const AxisPositions& positions);
 
+/// With the rotary axes fixed the tip is an affine function of the linear ones.
+struct LinearMap {
+    Vec3 tip_at_zero; ///< workpiece coordinates, linear axes programmed to 0
+    Mat3 columns;     ///< d tip / d position of linear_axes(), unit vectors
+};
+/// The linear `positions` do not matter.
+[[nodiscard]] LinearMap linear_map(const MachineModel& machine, const AxisPositions& positions);
+
 /// The motion of what `letter` carries ('\0': the base): maps points of m at the physical zero to m now.
 [[nodiscard]] Frame carrier_motion(const MachineModel& machine, const AxisPositions& positions, char letter);
 

@@ -148,17 +148,8 @@ std::string limit_sentence(const MachineAxis& axis, double position) {
 } // namespace
 
 AxisPositions with_tip_at(const MachineModel& machine, AxisPositions positions, const Vec3& tip) {
-    for (const int n : machine.linear_axes()) {
-        positions[n] = 0.0;
-    }
-    // With the rotary axes fixed the tip is an affine function of the linear ones, so this solve is exact.
-    const Vec3 at_zero = forward(machine, positions).tip;
-    const Jacobian J = jacobian(machine, positions);
-    Mat3 columns;
-    for (int k = 0; k < 3; ++k) {
-        columns.col(k) = J.col(machine.linear_axes()[static_cast<std::size_t>(k)]).head<3>();
-    }
-    const Vec3 solved = columns.partialPivLu().solve(tip - at_zero);
+    const LinearMap map = linear_map(machine, positions);
+    const Vec3 solved = map.columns.partialPivLu().solve(tip - map.tip_at_zero);
     for (int k = 0; k < 3; ++k) {
         positions[machine.linear_axes()[static_cast<std::size_t>(k)]] = solved[k];
     }

@@ -8,6 +8,7 @@
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/fixed_axis.h"
+#include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/zigzag.h"
 
 #include <algorithm>
@@ -27,12 +28,6 @@ using kinematics::MachineModel;
 
 constexpr int finely = grid::fine.tip;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The surface curve between two nodes, as chords with normals.
-struct Curve {
-    std::vector<Vec3> points;
-    std::vector<Vec3> normals;
-};
 
 /// A node with what the inverse kinematics says of it, next to the axes' zero.
 struct Node {
@@ -81,50 +76,14 @@ AxisPositions follow(const MachineModel& machine, const AxisPositions& from, std
     return kinematics::nearest_branch(machine, to, from);
 }
 
-struct Nearest {
-    double squared = infinity;
-    Vec3 point = Vec3::Zero();
-    Vec3 normal = Vec3::UnitZ(); // not scaled
-};
-
-Nearest nearest_on(const Curve& curve, const Vec3& p) {
-    Nearest best;
-    for (std::size_t n = 1; n < curve.points.size(); ++n) {
-        const Vec3& a = curve.points[n - 1];
-        const Vec3 ab = curve.points[n] - a;
-        const double squared_length = ab.squaredNorm();
-        const double s = squared_length > 0.0 ? std::clamp((p - a).dot(ab) / squared_length, 0.0, 1.0) : 0.0;
-        const double squared = (a + s * ab - p).squaredNorm();
-        if (squared < best.squared) {
-            best.squared = squared;
-            best.point = a + s * ab;
-            best.normal = (1.0 - s) * curve.normals[n - 1] + s * curve.normals[n];
-        }
-    }
-    return best;
-}
-
-/// The point at fraction t of the curve's parameters.
-Vec3 point_at(const Curve& curve, double t) {
-    const double chords = static_cast<double>(curve.points.size() - 1);
-    const auto n = std::min(static_cast<std::size_t>(t * chords), curve.points.size() - 2);
-    const double inside = t * chords - static_cast<double>(n);
-    return (1.0 - inside) * curve.points[n] + inside * curve.points[n + 1];
-}
-
-double curve_length(const Curve& curve) {
-    double sum = 0.0;
-    for (std::size_t n = 1; n < curve.points.size(); ++n) {
-        sum += (curve.points[n] - curve.points[n - 1]).norm();
-    }
-    return sum;
-}
-
-grid::MoveError judge(
-    const MachineModel& machine, const Node& first, const Node& second, const Curve& curve, int tip_samples) {
+grid::MoveError judge(const MachineModel& machine,
+                      const Node& first,
+                      const Node& second,
+                      const ChordCurve& curve,
+                      int tip_samples) {
     const Node a = off_the_pole(machine, first, second);
     const Node b = off_the_pole(machine, second, first);
-    grid::MoveError error{infinity, infinity, curve_length(curve), infinity, infinity};
+    grid::MoveError error{infinity, infinity, curve.length(), infinity, infinity};
     if (a.branches.empty() || b.branches.empty()) {
         return error;
     }
@@ -137,11 +96,11 @@ grid::MoveError judge(
     for (int k = 1; k <= tip_samples; ++k) {
         const double t = static_cast<double>(k) / (tip_samples + 1);
         const ToolPose actual = kinematics::forward(machine, from + t * step);
-        const Nearest nearest = nearest_on(curve, actual.tip);
+        const ChordCurve::Nearest nearest = curve.nearest(actual.tip);
         squared = std::max(squared, nearest.squared);
         const double off = std::abs((actual.tip - nearest.point).dot(nearest.normal.normalized()));
         error.off_surface = std::max(error.off_surface, off);
-        error.param = std::max(error.param, (actual.tip - point_at(curve, t)).norm());
+        error.param = std::max(error.param, (actual.tip - curve.at(t)).norm());
         error.axis = std::max(error.axis, angle_between(actual.axis, nearest.normal));
     }
     error.tip = std::sqrt(squared);
@@ -177,12 +136,14 @@ public:
         expects(0 <= k && k < l && l < static_cast<int>(nodes_.size()), "a move goes forward on its lattice");
         const int intervals = raster * (l - k);
         const int chords = std::min(intervals, sampling_.curve);
-        Curve curve;
+        std::vector<Vec3> points;
+        std::vector<Vec3> normals;
         for (int c = 0; c <= chords; ++c) {
             const auto n = static_cast<std::size_t>(raster * k + intervals * c / chords);
-            curve.points.push_back(raster_.points[n]);
-            curve.normals.push_back(raster_.normals[n]);
+            points.push_back(points_[n]);
+            normals.push_back(normals_[n]);
         }
+        const ChordCurve curve(std::move(points), std::move(normals));
         return judge(machine_, node(k), node(l), curve, sampling_.tip);
     }
 
@@ -190,15 +151,16 @@ private:
     static constexpr int raster = 4; // curve points an interval
 
     void add(const ToolPose& pose) {
-        raster_.points.push_back(pose.tip);
-        raster_.normals.push_back(pose.axis);
+        points_.push_back(pose.tip);
+        normals_.push_back(pose.axis);
     }
     [[nodiscard]] const Node& node(int n) const { return nodes_[static_cast<std::size_t>(n)]; }
 
     const MachineModel& machine_;
     grid::Sampling sampling_;
     std::vector<Node> nodes_;
-    Curve raster_;
+    std::vector<Vec3> points_; // of the raster
+    std::vector<Vec3> normals_;
 };
 
 /// A track on the surface as a polyline, `steps` chords a move.
@@ -217,10 +179,10 @@ std::vector<Vec3> track_line(
 }
 
 double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-    const Curve curve{to, std::vector<Vec3>(to.size(), Vec3::UnitZ())};
+    const ChordCurve curve(to, std::vector<Vec3>(to.size(), Vec3::UnitZ()));
     double squared = 0.0;
     for (const Vec3& p : from) {
-        squared = std::max(squared, nearest_on(curve, p).squared);
+        squared = std::max(squared, curve.nearest(p).squared);
     }
     return std::sqrt(squared);
 }
@@ -231,14 +193,16 @@ KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool fli
     : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped) {}
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
-    Curve curve;
+    std::vector<Vec3> points;
+    std::vector<Vec3> normals;
     for (int c = 0; c <= sampling.curve; ++c) {
         const ToolPose pose = pose_at(patch_, blend(a, b, static_cast<double>(c) / sampling.curve), flipped_);
-        curve.points.push_back(pose.tip);
-        curve.normals.push_back(pose.axis);
+        points.push_back(pose.tip);
+        normals.push_back(pose.axis);
     }
-    const Node first = node_at(machine_, {curve.points.front(), curve.normals.front()});
-    const Node second = node_at(machine_, {curve.points.back(), curve.normals.back()});
+    const Node first = node_at(machine_, {points.front(), normals.front()});
+    const Node second = node_at(machine_, {points.back(), normals.back()});
+    const ChordCurve curve(std::move(points), std::move(normals));
     return judge(machine_, first, second, curve, sampling.tip);
 }
 

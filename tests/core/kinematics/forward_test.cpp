@@ -68,6 +68,21 @@ TEST(Forward, EqualsTheProductOfFrames) {
     }
 }
 
+TEST(Forward, OfTheLinearAxesAloneIsTheLinearMap) {
+    std::mt19937 random(5);
+    for (const MachineModel& machine : machines()) {
+        for (int n = 0; n < 50; ++n) {
+            const AxisPositions q = random_positions(machine, random);
+            const LinearMap map = linear_map(machine, q);
+            Vec3 tip = map.tip_at_zero;
+            for (int k = 0; k < 3; ++k) {
+                tip += q[machine.linear_axes()[static_cast<std::size_t>(k)]] * map.columns.col(k);
+            }
+            EXPECT_LT((forward(machine, q).tip - tip).norm(), round_trip_mm) << machine.name();
+        }
+    }
+}
+
 TEST(MachineJacobian, EqualsCentralDifferences) {
     std::mt19937 random(4);
     constexpr double h = 1e-6;
