@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/report.h"
+#include "core/project/settings.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/picture.h"
 
@@ -45,9 +46,11 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                "lmean mm",
                "axis deg",
                "gap mm");
-    print_figures("uniform", *plan.uniform);
-    print_figures("elliptic", *plan.elliptic);
-    print_figures("tracks", *plan.optimised);
+    for (const project::GridMethod method : project::every_grid_method) {
+        if (const auto& evaluation = plan.evaluation(method)) {
+            print_figures(project::row_of(project::grid_methods(), method).id, *evaluation);
+        }
+    }
     const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
     fmt::print("{} points, path {} mm, estimated time {}\n",
                chosen.toolpath.points.size(),

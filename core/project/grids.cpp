@@ -1,6 +1,7 @@
 #include "core/project/grids.h"
 
 #include "core/base/error.h"
+#include "core/grid/chain_optimiser.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/grid/expression_weight.h"
 #include "core/grid/track_optimiser.h"
@@ -28,6 +29,19 @@ grid::TrackSettings track_settings(const GridInput& input, Effort effort) {
     if (settings.lattice > 0) {
         settings.lattice = std::max(settings.lattice, nodes_per_track(input));
     }
+    return settings;
+}
+
+grid::ChainSettings chain_settings(const GridInput& input) {
+    grid::ChainSettings settings;
+    settings.tracks.error_exponent = input.tracks.error_exponent;
+    settings.tracks.axis_weight_mm_per_deg = input.tracks.axis_weight;
+    settings.tracks.polish_sweeps = input.tracks.polish_sweeps;
+    settings.tracks.gap_allowance = input.chain.gap_percent / 100.0;
+    settings.tracks.lattice =
+        input.tracks.lattice > 0 ? std::max(input.tracks.lattice, nodes_per_track(input)) : 0;
+    settings.first_descent = input.chain.first_iterations;
+    settings.later_descents = input.chain.later_iterations;
     return settings;
 }
 
@@ -85,6 +99,10 @@ std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
         return std::make_unique<grid::EllipticAdaptation>(
             error, start, elliptic_settings(input), chosen_weight(input));
     }
+    if (method == GridMethod::chain) {
+        return std::make_unique<grid::ChainOptimiser>(
+            error, std::move(start), input.direction, chain_settings(input));
+    }
     return std::make_unique<grid::TrackOptimiser>(
         error, std::move(start), input.direction, track_settings(input, effort));
 }
@@ -122,6 +140,8 @@ std::string_view title_of_making(GridMethod method) {
         return "Adapting the elliptic grid";
     case GridMethod::tracks:
         return "Optimising the tracks";
+    case GridMethod::chain:
+        return "Moving all nodes at once";
     }
     return {};
 }

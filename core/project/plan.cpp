@@ -44,11 +44,13 @@ void refuse_faults(const Project& project) {
 } // namespace
 
 const std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) const {
-    return method == GridMethod::uniform ? uniform : method == GridMethod::elliptic ? elliptic : optimised;
+    constexpr std::array of{&Plan::uniform, &Plan::elliptic, &Plan::optimised, &Plan::chain};
+    return this->*of.at(static_cast<std::size_t>(method));
 }
 
 std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) {
-    return method == GridMethod::uniform ? uniform : method == GridMethod::elliptic ? elliptic : optimised;
+    constexpr std::array of{&Plan::uniform, &Plan::elliptic, &Plan::optimised, &Plan::chain};
+    return this->*of.at(static_cast<std::size_t>(method));
 }
 
 geometry::Surface surface_of(const SurfaceInput& input) {
@@ -111,7 +113,7 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
 }
 
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress) {
-    for (const GridMethod method : {GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks}) {
+    for (const GridMethod method : every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
         if (!evaluation || plan.estimated_time(method)) {
             continue;
@@ -148,14 +150,16 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
         plan.weight = std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, progress));
     }
     const auto improve = [&](GridMethod method, const Progress& part) {
-        if (scope == Scope::everything || method == project.grid.method) {
+        const bool wanted = scope == Scope::everything && method != GridMethod::chain;
+        if (wanted || method == project.grid.method) {
             part.report(0.0, title_of_making(method));
             plan.evaluation(method) = std::make_shared<const Evaluation>(
                 improved_evaluation(method, project.grid, workpiece, *plan.uniform, Effort::full, part));
         }
     };
-    improve(GridMethod::elliptic, progress.part(0.1, 0.45));
-    improve(GridMethod::tracks, progress.part(0.45, 0.9));
+    improve(GridMethod::elliptic, progress.part(0.1, 0.3));
+    improve(GridMethod::tracks, progress.part(0.3, 0.5));
+    improve(GridMethod::chain, progress.part(0.5, 0.9));
     add_program(plan, project, progress.part(0.9, 0.95));
     add_estimated_times(plan, project, progress.part(0.95, 1.0));
     return plan;

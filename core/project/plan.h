@@ -1,4 +1,4 @@
-// The road as pure functions of a Project: surface and machine, the three grids with their errors, the
+// The road as pure functions of a Project: surface and machine, the grids with their errors, the
 // program of the chosen one, its trajectory. The command line calls make_plan; the workbench's Pipeline calls
 // the parts.
 #pragma once
@@ -28,13 +28,14 @@ struct Plan {
     std::shared_ptr<const Evaluation> uniform;
     std::shared_ptr<const Evaluation> elliptic;  ///< the adapted grid
     std::shared_ptr<const Evaluation> optimised; ///< the track optimiser's grid
-    std::shared_ptr<const WeightMap> weight;     ///< of the elliptic functional
+    std::shared_ptr<const Evaluation> chain; ///< the whole chain's grid, which is made where it was chosen
+    std::shared_ptr<const WeightMap> weight; ///< of the elliptic functional
     std::shared_ptr<const gcode::Program> program;
     gcode::PostNotes program_notes;
     std::shared_ptr<const gcode::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
     /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
-    std::array<std::optional<double>, 3> estimated_times;
+    std::array<std::optional<double>, every_grid_method.size()> estimated_times;
 
     /// The evaluation that `method` stands for; null if not there.
     [[nodiscard]] const std::shared_ptr<const Evaluation>& evaluation(GridMethod method) const;
@@ -72,8 +73,8 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
 
 /// How much of a plan is wanted.
 enum class Scope {
-    everything,
-    program ///< what the program needs: of the improved grids only the chosen one
+    everything, ///< but the whole chain only where it was chosen
+    program     ///< what the program needs: of the improved grids only the chosen one
 };
 
 /// Throws Error, first with faults_of(project) if there are any, or Cancelled.

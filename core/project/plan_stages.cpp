@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array all_methods{GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks};
-constexpr std::array improved_methods{GridMethod::elliptic, GridMethod::tracks};
+/// Made whether they were chosen or not.
+constexpr std::array compared_methods{GridMethod::elliptic, GridMethod::tracks};
 
 bool same_place(const Project& a, const Project& b) {
     return a.surface == b.surface && a.machine == b.machine && a.grid.direction == b.grid.direction;
@@ -25,8 +25,17 @@ bool same_nodes(const GridInput& a, const GridInput& b) {
 }
 
 bool same_settings(GridMethod method, const GridInput& a, const GridInput& b) {
-    return method == GridMethod::uniform ||
-           (method == GridMethod::elliptic ? a.elliptic == b.elliptic : a.tracks == b.tracks);
+    switch (method) {
+    case GridMethod::uniform:
+        return true;
+    case GridMethod::elliptic:
+        return a.elliptic == b.elliptic;
+    case GridMethod::tracks:
+        return a.tracks == b.tracks;
+    case GridMethod::chain:
+        return a.tracks == b.tracks && a.chain == b.chain;
+    }
+    return false;
 }
 
 fs::file_time_type machine_written(const Project& project, const Folders& folders) {
@@ -91,7 +100,7 @@ void PlanStages::begin(const Project& project, const Folders& folders) {
 
 void PlanStages::keep_grids(const State& last) {
     const GridInput& then = last.source->project.grid;
-    for (const GridMethod method : all_methods) {
+    for (const GridMethod method : every_grid_method) {
         const Held& old = last.held[static_cast<std::size_t>(method)];
         if (old.exact && same_nodes(then, input()) && same_settings(method, then, input())) {
             hold(method, old);
@@ -199,7 +208,7 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
     if (quick_enough(input())) {
         add_weight(progress.part(0.3, 0.3));
     }
-    for (const GridMethod method : improved_methods) {
+    for (const GridMethod method : compared_methods) {
         carry_over(method, progress.part(0.3, 0.4));
     }
     publish(now_.plan, std::nullopt, false);
@@ -221,7 +230,7 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
     }
     add_program_of_chosen(progress.part(0.5, 0.6));
     publish(now_.plan, std::nullopt, false);
-    for (const GridMethod method : improved_methods) {
+    for (const GridMethod method : compared_methods) {
         improve(method, Effort::full, progress.part(method == GridMethod::elliptic ? 0.6 : 0.8, 1.0));
     }
     add_estimated_times(now_.plan, project(), progress);

@@ -97,6 +97,7 @@ std::vector<std::string> faults_of(const Project& project) {
     check<GridInput>(faults, "grid", project.grid, grid_numbers());
     check<EllipticInput>(faults, "grid/elliptic", project.grid.elliptic, elliptic_numbers());
     check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
+    check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
     check<ProgramInput>(faults, "program", project.program, program_numbers());
     return faults;
 }

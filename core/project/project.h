@@ -7,6 +7,7 @@
 #include "core/grid/grid.h"
 #include "core/kinematics/rotary_tilt.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,9 @@ struct MachineInput {
 };
 
 /// The grid whose path becomes the program.
-enum class GridMethod { uniform, elliptic, tracks };
+enum class GridMethod { uniform, elliptic, tracks, chain };
+inline constexpr std::array every_grid_method{
+    GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks, GridMethod::chain};
 
 /// Where the weight of the elliptic adaptation comes from.
 enum class WeightSource { error, expression, w1, w2, w3, w4 };
@@ -59,6 +62,15 @@ struct TracksInput {
     friend bool operator==(const TracksInput&, const TracksInput&) = default;
 };
 
+/// Of the whole chain; the cost of its moves is that of the tracks.
+struct ChainInput {
+    int first_iterations = 300; ///< of all nodes at once, at the exponent of the tracks, at most
+    int later_iterations = 150; ///< the same at each of the higher exponents
+    double gap_percent = 15.0;  ///< by which the track gap may grow
+
+    friend bool operator==(const ChainInput&, const ChainInput&) = default;
+};
+
 struct GridInput {
     int nu = 20;
     int nv = 20;
@@ -66,6 +78,7 @@ struct GridInput {
     GridMethod method = GridMethod::tracks;
     EllipticInput elliptic;
     TracksInput tracks;
+    ChainInput chain;
 
     friend bool operator==(const GridInput&, const GridInput&) = default;
 };

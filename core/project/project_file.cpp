@@ -189,8 +189,15 @@ TracksInput tracks(const JsonValue& value) {
     return result;
 }
 
+ChainInput chain(const JsonValue& value) {
+    expect_fields<ChainInput>(value, chain_numbers(), {});
+    ChainInput result;
+    read_numbers<ChainInput>(value, chain_numbers(), result);
+    return result;
+}
+
 GridInput grid_input(const JsonValue& value) {
-    expect_fields<GridInput>(value, grid_numbers(), {"direction", "method", "elliptic", "tracks"});
+    expect_fields<GridInput>(value, grid_numbers(), {"direction", "method", "elliptic", "tracks", "chain"});
     GridInput result;
     read_numbers<GridInput>(value, grid_numbers(), result);
     read_choice(value, "direction", track_directions(), result.direction);
@@ -200,6 +207,9 @@ GridInput grid_input(const JsonValue& value) {
     }
     if (const auto settings = value.find("tracks")) {
         result.tracks = tracks(*settings);
+    }
+    if (const auto settings = value.find("chain")) {
+        result.chain = chain(*settings);
     }
     return result;
 }
@@ -304,6 +314,7 @@ Json json_of(const GridInput& grid) {
     add_numbers<EllipticInput>(elliptic, elliptic_numbers(), grid.elliptic);
     elliptic["sliding_boundary"] = grid.elliptic.sliding_boundary;
     add_numbers<TracksInput>(json["tracks"], tracks_numbers(), grid.tracks);
+    add_numbers<ChainInput>(json["chain"], chain_numbers(), grid.chain);
     return json;
 }
 

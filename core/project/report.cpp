@@ -177,6 +177,9 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["error"]["uniform"] = errors(plan, GridMethod::uniform);
     json["error"]["adapted"] = errors(plan, GridMethod::elliptic);
     json["error"]["optimised"] = errors(plan, GridMethod::tracks);
+    if (plan.chain) {
+        json["error"]["chain"] = errors(plan, GridMethod::chain);
+    }
     json["singular_points"] = singular_points(plan);
     json["points"] = std::ssize(chosen.toolpath.points);
     json["path_length_mm"] = rounded(chosen.path_length);

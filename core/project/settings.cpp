@@ -105,6 +105,33 @@ constexpr std::array<NumberSetting<TracksInput>, 4> of_tracks{{
      field<&TracksInput::polish_sweeps>},
 }};
 
+constexpr std::array<NumberSetting<ChainInput>, 3> of_chain{{
+    {"first_iterations",
+     "First iterations",
+     "",
+     "Of all nodes at once at the error exponent of the tracks, at most",
+     0,
+     10000,
+     0,
+     field<&ChainInput::first_iterations>},
+    {"later_iterations",
+     "Later iterations",
+     "",
+     "The same at each of the exponents 4, 8 and 16, which lower the worst moves; 0 leaves them out",
+     0,
+     10000,
+     0,
+     field<&ChainInput::later_iterations>},
+    {"gap_percent",
+     "Track gap",
+     "%",
+     "By how much the largest distance of neighbouring tracks may grow; the scallop grows with its square",
+     0.0,
+     100.0,
+     1,
+     field<&ChainInput::gap_percent>},
+}};
+
 constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
     {"feed_mm_per_min",
      "Feed",
@@ -159,7 +186,7 @@ constexpr std::array<Choice<TrackDirection>, 2> of_direction{{
      "Tracks follow the lines of constant u, as in the thesis's listing"},
 }};
 
-constexpr std::array<Choice<GridMethod>, 3> of_method{{
+constexpr std::array<Choice<GridMethod>, 4> of_method{{
     {GridMethod::uniform, "uniform", "Uniform", "Equal parameter steps, no adaptation"},
     {GridMethod::elliptic,
      "elliptic",
@@ -169,6 +196,10 @@ constexpr std::array<Choice<GridMethod>, 3> of_method{{
      "tracks",
      "Track optimiser",
      "The nodes of each track placed so that its error is least"},
+    {GridMethod::chain,
+     "chain",
+     "Whole chain",
+     "Tracks chosen, their nodes placed, then all nodes moved at once; takes its time"},
 }};
 
 constexpr std::array<Choice<WeightSource>, 6> of_weight{{
@@ -216,6 +247,9 @@ std::span<const NumberSetting<EllipticInput>> elliptic_numbers() {
 }
 std::span<const NumberSetting<TracksInput>> tracks_numbers() {
     return of_tracks;
+}
+std::span<const NumberSetting<ChainInput>> chain_numbers() {
+    return of_chain;
 }
 std::span<const NumberSetting<ProgramInput>> program_numbers() {
     return of_program;

@@ -53,6 +53,7 @@ template <class Owner> struct NumberSetting {
 [[nodiscard]] std::span<const NumberSetting<GridInput>> grid_numbers();
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();
 [[nodiscard]] std::span<const NumberSetting<TracksInput>> tracks_numbers();
+[[nodiscard]] std::span<const NumberSetting<ChainInput>> chain_numbers();
 [[nodiscard]] std::span<const NumberSetting<ProgramInput>> program_numbers();
 
 /// One of the values that a choice can have.

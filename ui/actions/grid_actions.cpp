@@ -65,6 +65,15 @@ void add_grid_actions(Actions& actions) {
         has_surface,
         start<GridMethod::tracks>);
     add(actions,
+        {"grid.chain",
+         "Grid",
+         "Run the whole chain",
+         "Chooses the tracks, places their nodes and moves all nodes at once, and shows every step.",
+         "",
+         icons::play},
+        has_surface,
+        start<GridMethod::chain>);
+    add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Goes on by itself.", "", icons::play},
         is_watched,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
@@ -115,6 +124,16 @@ void add_grid_actions(Actions& actions) {
         always,
         choose<GridMethod::tracks>,
         is_chosen<GridMethod::tracks>);
+    add(actions,
+        {"grid.use_chain",
+         "Grid",
+         "Program from the whole chain",
+         "The program follows the grid whose tracks and nodes were all moved. Takes some seconds.",
+         "",
+         ""},
+        always,
+        choose<GridMethod::chain>,
+        is_chosen<GridMethod::chain>);
     add(
         actions,
         {"work.cancel",

@@ -27,8 +27,6 @@ constexpr std::array<widgets::Column, 10> columns{{{"Grid", "", 1.9F, false},
                                                    {"points", "", 0.9F, true},
                                                    {"length", "mm", 1.1F, true}}};
 
-constexpr std::array<GridMethod, 3> methods{GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks};
-
 std::string cell_of(const Evaluation* evaluation, GridMethod method, int column) {
     if (column == 0) {
         return std::string(project::row_of(project::grid_methods(), method).label);
@@ -64,20 +62,19 @@ std::string cell_of(const Evaluation* evaluation, GridMethod method, int column)
 void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue& ask) {
     widgets::TableView view;
     view.columns = columns;
-    view.rows = std::ssize(methods);
+    view.rows = std::ssize(project::every_grid_method);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        const GridMethod method = methods[static_cast<std::size_t>(row)];
+        const GridMethod method = project::every_grid_method[static_cast<std::size_t>(row)];
         return cell_of(now.evaluation(method).get(), method, column);
     };
     view.row_id = [](std::ptrdiff_t row) {
-        return std::string(
-            project::row_of(project::grid_methods(), methods[static_cast<std::size_t>(row)]).id);
+        return std::string(project::row_of(project::grid_methods(),
+                                           project::every_grid_method[static_cast<std::size_t>(row)])
+                               .id);
     };
-    for (std::size_t n = 0; n < methods.size(); ++n) {
-        view.chosen = methods[n] == now.session.shown ? static_cast<std::ptrdiff_t>(n) : view.chosen;
-    }
+    view.chosen = static_cast<std::ptrdiff_t>(now.session.shown);
     if (const auto row = widgets::table(ui, id, view)) {
-        const GridMethod method = methods[static_cast<std::size_t>(*row)];
+        const GridMethod method = project::every_grid_method[static_cast<std::size_t>(*row)];
         ask.show([method](actions::Session& session) { session.shown = method; });
     }
 }

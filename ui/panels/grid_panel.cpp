@@ -37,6 +37,7 @@ void GridPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_grid(ui, now, ask);
     draw_watched(ui, now, ask);
     draw_tracks(ui, now, ask);
+    draw_chain(ui, now, ask);
     draw_elliptic(ui, now, ask);
 }
 
@@ -73,9 +74,10 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         return;
     }
     {
-        const auto row = ui.row(2);
+        const auto row = ui.row(3);
         action_button(ui, now, ask, catalogue_, "grid.adapt", widgets::Rank::normal, "Elliptic");
         action_button(ui, now, ask, catalogue_, "grid.optimise", widgets::Rank::primary, "Tracks");
+        action_button(ui, now, ask, catalogue_, "grid.chain", widgets::Rank::normal, "Chain");
     }
     if (!now.watched) {
         ui.note("Starts from the uniform grid and shows every step in the view.");
@@ -114,6 +116,17 @@ void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     number_fields<project::TracksInput>(
         ui, ask, project::tracks_numbers(), now.project.grid.tracks, [](Project& p) -> project::TracksInput& {
             return p.grid.tracks;
+        });
+}
+
+void GridPanel::draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("chain", "Whole chain");
+    if (!section) {
+        return;
+    }
+    number_fields<project::ChainInput>(
+        ui, ask, project::chain_numbers(), now.project.grid.chain, [](Project& p) -> project::ChainInput& {
+            return p.grid.chain;
         });
 }
 

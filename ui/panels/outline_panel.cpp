@@ -40,6 +40,9 @@ std::vector<Row> rows_of(const Workbench& now) {
         {"uniform", "  Uniform", error_of(now, GridMethod::uniform), Workspace::toolpath},
         {"elliptic", "  Elliptic", error_of(now, GridMethod::elliptic), Workspace::toolpath},
         {"tracks", "  Tracks", error_of(now, GridMethod::tracks), Workspace::toolpath}};
+    if (now.evaluation(GridMethod::chain) || now.project.grid.method == GridMethod::chain) {
+        rows.push_back({"chain", "  Chain", error_of(now, GridMethod::chain), Workspace::toolpath});
+    }
     const auto shown = now.shown();
     rows.push_back({"toolpath",
                     "Toolpath",

@@ -131,8 +131,7 @@ private:
 } // namespace
 
 Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
-    const auto chosen = std::array{
-        plan.uniform, plan.elliptic, plan.optimised}[static_cast<std::size_t>(project.grid.method)];
+    const auto& chosen = plan.evaluation(project.grid.method);
     return {.layers = layers_of(kind),
             .surface = plan.surface,
             .workpiece = plan.workpiece,

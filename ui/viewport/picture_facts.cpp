@@ -25,10 +25,6 @@ std::string length_text(double length, int decimals) {
     return std::isfinite(length) ? fixed(length, std::abs(length) < 1000.0 ? decimals : 1) : "out of reach";
 }
 
-std::shared_ptr<const project::Evaluation> evaluation_of(const project::Plan& plan, GridMethod method) {
-    return std::array{plan.uniform, plan.elliptic, plan.optimised}[static_cast<std::size_t>(method)];
-}
-
 std::vector<std::string> error_row(std::string_view name, const project::Evaluation& evaluation) {
     const grid::ErrorSummary& errors = evaluation.closest;
     return {std::string(name),
@@ -45,7 +41,7 @@ void add_errors(PictureFacts& facts, const project::Project& project, const proj
     if (plan.uniform) {
         facts.rows.push_back(error_row(title(GridMethod::uniform), *plan.uniform));
     }
-    const auto chosen = evaluation_of(plan, project.grid.method);
+    const auto& chosen = plan.evaluation(project.grid.method);
     if (chosen && project.grid.method != GridMethod::uniform) {
         facts.rows.push_back(error_row(title(project.grid.method), *chosen));
     }
@@ -81,7 +77,8 @@ std::string subtitle(const project::Project& project, const project::Plan& plan,
 } // namespace
 
 std::string_view title(GridMethod method) {
-    constexpr std::array<std::string_view, 3> titles = {"uniform", "adapted", "optimised"};
+    constexpr std::array<std::string_view, project::every_grid_method.size()> titles = {
+        "uniform", "adapted", "optimised", "whole chain"};
     return titles[static_cast<std::size_t>(method)];
 }
 

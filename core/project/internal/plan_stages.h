@@ -29,7 +29,7 @@ private:
         std::shared_ptr<const Evaluation> evaluation;
         bool exact = false;
     };
-    using HeldGrids = std::array<Held, 3>; ///< by GridMethod
+    using HeldGrids = std::array<Held, every_grid_method.size()>; ///< by GridMethod
     /// What a plan was made from.
     struct Source {
         Project project;

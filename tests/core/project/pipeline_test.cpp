@@ -73,6 +73,25 @@ TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
     EXPECT_TRUE(pipeline.latest()->exact);
 }
 
+TEST_F(PipelineTest, KeepsTheWholeChainOfTheSameSettingsOnly) {
+    Project project = sample("dome", 6);
+    project.grid.method = GridMethod::chain;
+    project.grid.chain.later_iterations = 10;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto before = pipeline.latest();
+    ASSERT_NE(before->plan.chain, nullptr);
+    project.grid.method = GridMethod::tracks;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.chain, before->plan.chain) << "still there to compare";
+    project.grid.method = GridMethod::chain;
+    project.grid.chain.later_iterations = 0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_NE(pipeline.latest()->plan.chain, before->plan.chain);
+}
+
 TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     Project project = sample("dome", 6);
     pipeline.request(project);

@@ -65,6 +65,20 @@ TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
     EXPECT_GT(by_uniform.trajectory->duration(), 0.0);
 }
 
+TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
+    Project project = sample("two-bell", 8);
+    EXPECT_EQ(make_plan(project, folders, Progress()).chain, nullptr);
+    project.grid.method = GridMethod::chain;
+    project.grid.chain.later_iterations = 30;
+    const Plan plan = make_plan(project, folders, Progress());
+    ASSERT_NE(plan.chain, nullptr);
+    EXPECT_LT(plan.chain->closest.mean, plan.optimised->closest.mean);
+    EXPECT_LE(plan.chain->track_gap, 1.15 * plan.uniform->track_gap);
+    EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Whole chain"));
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    EXPECT_NEAR(report.at("error").at("chain").at("closest").at("mean"), plan.chain->closest.mean, 1e-6);
+}
+
 TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {
     const Project project = sample("dome", 6);
     const Plan whole = make_plan(project, folders, Progress());

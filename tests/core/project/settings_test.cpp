@@ -28,6 +28,7 @@ TEST(Settings, EveryNumberHasARangeThatHoldsItsDefault) {
     expect_sound(grid_numbers());
     expect_sound(elliptic_numbers());
     expect_sound(tracks_numbers());
+    expect_sound(chain_numbers());
     expect_sound(program_numbers());
 }
 

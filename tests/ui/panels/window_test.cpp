@@ -161,6 +161,29 @@ TEST(Workbench, AWatchedAdaptationStepsAndGoesBack) {
     EXPECT_GE(person.workshop().look().watched->state->iteration, before);
 }
 
+TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
+    Person person;
+    person.workshop().run("view.grid");
+    person.frames();
+    person.fill_in("inspector/grid/nu", "8");
+    person.fill_in("inspector/grid/nv", "8");
+    person.click("inspector/watch/grid_chain");
+    person.wait_idle();
+    const auto watched = person.workshop().look().watched;
+    ASSERT_TRUE(watched && watched->state);
+    EXPECT_EQ(watched->method, GridMethod::chain);
+    EXPECT_LT(watched->state->of_best.mean, watched->state->start.mean);
+    EXPECT_FALSE(person.sees("outline/stages/chain"));
+    person.workshop().run("grid.use_chain");
+    person.wait_idle();
+    EXPECT_TRUE(person.sees("outline/stages/chain"));
+    const auto now = person.workshop().look();
+    ASSERT_NE(now.evaluation(GridMethod::chain), nullptr);
+    EXPECT_LT(now.evaluation(GridMethod::chain)->closest.mean,
+              now.evaluation(GridMethod::uniform)->closest.mean);
+    person.keep("whole-chain");
+}
+
 TEST(Workbench, StepsThroughTheProgramAndTheListingFollows) {
     Person person;
     person.open(dome);
