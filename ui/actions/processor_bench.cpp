@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::int64_t clocks_a_frame = 300'000;    // some milliseconds
 constexpr std::int64_t clocks_of_a_run = 1'000'000; // that are followed for the differences: 30 ms
-constexpr double clock_hz = 8e6;                    // as in the thesis
 
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;
@@ -83,8 +82,13 @@ void ProcessorBench::load(ProcessorSource source, std::string text, std::filesys
 void ProcessorBench::set(const ProcessorChoice& choice) {
     ProcessorChoice before = std::exchange(choice_, choice);
     before.clocks_a_second = choice.clocks_a_second;
+    const ProcessorChoice slower = before;
+    before.clock_hz = choice.clock_hz;
+    before.needle_rpm = choice.needle_rpm;
     if (!(before == choice) && !name_.empty()) {
         compile();
+    } else if (!(slower == choice)) {
+        judge();
     }
 }
 
@@ -107,7 +111,7 @@ void ProcessorBench::compile() {
     }
     const auto micro = debugger_.micro_breakpoints();
     const cordic::Processor made = failure_ ? nothing() : cordic::Processor(settings(), program_.image);
-    debugger_ = cordic::Debugger(made, program_.code_lines);
+    debugger_ = cordic::Debugger(made, failure_ ? std::vector<cordic::CodeLine>() : program_.code_lines);
     for (const std::uint8_t address : micro) {
         debugger_.toggle_micro_breakpoint(address);
     }
@@ -123,15 +127,24 @@ void ProcessorBench::compile() {
 }
 
 void ProcessorBench::execute_all(const cordic::Processor& processor) {
+    executed_.reset();
     differences_.clear();
-    report_ = {};
-    if (failure_) {
-        return;
+    if (!failure_) {
+        executed_ = processor;
+        executed_->run(clocks_of_a_run);
+        differences_ = cordic::path_differences(*executed_, program_.points);
     }
-    cordic::Processor whole = processor;
-    whole.run(clocks_of_a_run);
-    report_ = cordic::report_of(whole, program_.points, clock_hz);
-    differences_ = cordic::path_differences(whole, program_.points);
+    judge();
+}
+
+void ProcessorBench::judge() {
+    report_ = {};
+    sewing_ = {};
+    if (executed_) {
+        report_ = cordic::report_of(*executed_, program_.points, choice_.clock_hz);
+        sewing_ = cordic::sew({.needle_rpm = choice_.needle_rpm},
+                              cordic::stitches_of(*executed_, choice_.clock_hz));
+    }
 }
 
 std::ptrdiff_t ProcessorBench::code_row() const {

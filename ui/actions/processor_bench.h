@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
 #include "core/cordic/run_report.h"
+#include "core/cordic/sewing.h"
 #include "core/gcode/reader/cordic_program.h"
 
 #include <cstdint>
@@ -26,6 +27,8 @@ struct ProcessorChoice {
     bool thesis_direction = false;  ///< G02 counter-clockwise, as the thesis's model turns
     bool matlab_zero = false;       ///< no turn where nothing is left to turn, as the thesis's MATLAB model
     double clocks_a_second = 200.0; ///< while it runs, to be watched; 0: as fast as it goes
+    double clock_hz = 8e6;          ///< of the processor beside its machine, as in the thesis; > 0
+    double needle_rpm = 3000.0;     ///< of the sewing machine that takes each set-point as a stitch; > 0
 
     friend bool operator==(const ProcessorChoice&, const ProcessorChoice&) = default;
 };
@@ -45,7 +48,7 @@ public:
 
     /// Takes a program in place of the present one and compiles it. `name` is not empty.
     void load(ProcessorSource source, std::string text, std::filesystem::path name);
-    /// Compiles the same program anew where that changes anything. Breakpoints of instructions go.
+    /// Compiles the same program anew where that changes anything; breakpoints of instructions then go.
     void set(const ProcessorChoice& choice);
 
     [[nodiscard]] const ProcessorChoice& choice() const { return choice_; }
@@ -66,6 +69,8 @@ public:
     /// Of a run from reset to the end, or as far as it was followed.
     [[nodiscard]] const cordic::RunReport& report() const { return report_; }
     [[nodiscard]] const std::vector<cordic::PathDifference>& differences() const { return differences_; }
+    /// The same run, each of its set-points being a stitch.
+    [[nodiscard]] const cordic::SewingRun& sewing() const { return sewing_; }
 
     void step(ProcessorStep step);
     void run();
@@ -91,6 +96,7 @@ public:
 private:
     void compile();
     void execute_all(const cordic::Processor& processor);
+    void judge(); ///< what was executed, at the chosen clock
     [[nodiscard]] const CodeRow* first_of_line(int line) const;
     [[nodiscard]] cordic::ProcessorSettings settings() const;
 
@@ -104,7 +110,9 @@ private:
     std::vector<CodeRow> code_;
     std::vector<std::string> micro_lines_;
     std::vector<int> micro_addresses_;
+    std::optional<cordic::Processor> executed_; ///< behind the whole run
     cordic::RunReport report_;
+    cordic::SewingRun sewing_;
     std::vector<cordic::PathDifference> differences_;
     bool running_ = false;
     double owed_clocks_ = 0.0;

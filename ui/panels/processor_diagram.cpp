@@ -1,15 +1,14 @@
 #include "ui/panels/processor_diagram.h"
 
 #include "ui/actions/processor_bench.h"
+#include "ui/panels/processor_blocks.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/sketch.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::panels {
@@ -20,13 +19,13 @@ using cordic::Control;
 using cordic::ControlSignals;
 using cordic::Processor;
 using cordic::ProcessorState;
-using cordic::Register;
+using Block = ProcessorBlock;
 using widgets::Point;
 using widgets::Rect;
 using widgets::Sketch;
 
-/// Where a block stands in a raster of `columns` x `rows`.
-struct Block {
+/// Where a block stands, in the order of ProcessorBlock, in a raster of `columns` x `rows`.
+struct BlockPlace {
     std::string_view id;
     std::string_view title;
     float column, row, wide;
@@ -35,24 +34,7 @@ struct Block {
 constexpr float columns = 12.0F;
 constexpr int rows = 4;
 
-enum BlockIndex {
-    bus,
-    rom,
-    ram,
-    port,
-    ir,
-    map,
-    sequencer,
-    counter,
-    stack,
-    pipeline,
-    registers,
-    fold,
-    first,
-    second
-};
-
-constexpr std::array<Block, 14> blocks{{
+constexpr std::array<BlockPlace, 14> blocks{{
     {"bus", "Interface", 0.0F, 0, 4.0F},
     {"rom", "Program ROM", 4.0F, 0, 2.6F},
     {"ram", "Dual-port RAM", 6.6F, 0, 2.4F},
@@ -69,216 +51,26 @@ constexpr std::array<Block, 14> blocks{{
     {"second", "Rotator x2, y2", 8.6F, 3, 3.4F},
 }};
 
-constexpr ControlSignals signals(std::initializer_list<Control> controls) {
-    ControlSignals all = 0;
-    for (const Control control : controls) {
-        all |= cordic::bit_of(control);
-    }
-    return all;
-}
-
 /// A way that is lit by any of its signals.
 struct Way {
-    BlockIndex from, to;
+    Block from, to;
     ControlSignals by;
 };
 
-constexpr ControlSignals folds = signals({Control::fold_radius, Control::fold_move, Control::fold_space});
-constexpr ControlSignals passes = signals({Control::rotate, Control::vector, Control::correct});
-
 constexpr std::array<Way, 10> ways{{
-    {bus, ir, signals({Control::load_opcode})},
-    {registers, fold, folds},
-    {fold, first, folds | signals({Control::load_speed, Control::fold_rise})},
-    {first, fold, signals({Control::unfold_radius, Control::unfold_speed, Control::unfold_rise})},
-    {fold, registers, signals({Control::unfold_radius, Control::unfold_speed, Control::unfold_rise})},
-    {first, second, signals({Control::rotate_both, Control::load_speed})},
-    {ir, map, 0},
-    {map, sequencer, 0},
-    {sequencer, pipeline, 0},
-    {counter, sequencer, 0},
+    {Block::bus, Block::ir, signals({Control::load_opcode})},
+    {Block::registers, Block::fold, fold_signals},
+    {Block::fold, Block::first, fold_signals | signals({Control::load_speed, Control::fold_rise})},
+    {Block::first, Block::fold, unfold_signals},
+    {Block::fold, Block::registers, unfold_signals},
+    {Block::first, Block::second, signals({Control::rotate_both, Control::load_speed})},
+    {Block::ir, Block::map, 0},
+    {Block::map, Block::sequencer, 0},
+    {Block::sequencer, Block::pipeline, 0},
+    {Block::counter, Block::sequencer, 0},
 }};
 
-ControlSignals lit_by(BlockIndex block) {
-    switch (block) {
-    case ir:
-        return signals({Control::load_opcode});
-    case registers:
-        return signals({Control::store_register,
-                        Control::unfold_radius,
-                        Control::unfold_speed,
-                        Control::unfold_rise,
-                        Control::take_position,
-                        Control::count_chord});
-    case fold:
-        return folds | signals({Control::unfold_radius, Control::unfold_speed});
-    case first:
-        return passes | folds | signals({Control::load_speed, Control::fold_rise});
-    case second:
-        return signals({Control::rotate_both, Control::correct_both, Control::load_speed});
-    case port:
-        return signals({Control::publish, Control::command});
-    default:
-        return 0;
-    }
-}
-
-bool lights(BlockIndex block, const ProcessorState& state) {
-    const cordic::BusPins& pins = state.bus.pins;
-    const bool on_bus = pins.ale || pins.psen || pins.rd || pins.wr;
-    const cordic::Device device = cordic::device_at(pins.address);
-    switch (block) {
-    case bus:
-        return on_bus;
-    case rom:
-        return on_bus && device == cordic::Device::rom;
-    case ram:
-        return on_bus && device == cordic::Device::ram;
-    case port:
-        return (on_bus && device == cordic::Device::port) || (state.pipeline.controls & lit_by(block)) != 0;
-    case map:
-        return state.pipeline.op == cordic::MicroOp::JMAP;
-    case counter:
-        return state.pipeline.op == cordic::MicroOp::RPCT || state.pipeline.op == cordic::MicroOp::LDCT ||
-               state.pipeline.op == cordic::MicroOp::RFCT;
-    case stack:
-        return state.pipeline.op == cordic::MicroOp::CJS || state.pipeline.op == cordic::MicroOp::CRTN ||
-               state.pipeline.op == cordic::MicroOp::PUSH || state.pipeline.op == cordic::MicroOp::RFCT;
-    case sequencer:
-    case pipeline:
-        return state.clocks.total > 0;
-    default:
-        return (state.pipeline.controls & lit_by(block)) != 0;
-    }
-}
-
-std::string opcode_name(const ProcessorState& state) {
-    if (state.opcode >= 0x10 && state.opcode < 0x20) {
-        return fmt::format("MOV {}", cordic::to_text(static_cast<Register>(state.opcode - 0x10)));
-    }
-    return std::string(cordic::to_text(static_cast<cordic::Opcode>(state.opcode)));
-}
-
-std::string signal_names(ControlSignals controls) {
-    std::string names;
-    for (int n = 0; n < cordic::control_count; ++n) {
-        const auto control = static_cast<Control>(n);
-        if ((controls & cordic::bit_of(control)) != 0) {
-            names += (names.empty() ? "" : ", ") + std::string(cordic::to_text(control));
-        }
-    }
-    return names.empty() ? "no signal" : names;
-}
-
-std::string label_of(const cordic::Microprogram& program, int address) {
-    std::string text = fmt::format("{:02x}", address);
-    int best = -1;
-    for (const auto& [label, at] : program.labels) {
-        if (at <= address && at > best) {
-            best = at;
-            text = at == address ? label : fmt::format("{}+{}", label, address - at);
-        }
-    }
-    return text;
-}
-
-std::vector<std::string> sequencer_lines(const Processor& processor) {
-    const ProcessorState& state = processor.state();
-    return {fmt::format("executed {}", cordic::to_text(state.pipeline.op)),
-            fmt::format("next {:02x} {}",
-                        state.sequencer.address,
-                        label_of(processor.microprogram(), state.sequencer.address))};
-}
-
-std::vector<std::string> port_lines(const Processor& processor) {
-    std::vector<std::string> lines{fmt::format("{} set-points", processor.published().size()),
-                                   fmt::format("{} commands", processor.commanded().size())};
-    if (!processor.published().empty()) {
-        const auto last = processor.set_point(processor.published().back());
-        lines.push_back(fmt::format("X {:.4f} Y {:.4f}", last.x, last.y));
-    }
-    return lines;
-}
-
-std::vector<std::string> stack_lines(const Processor& processor) {
-    const cordic::SequencerState& state = processor.state().sequencer;
-    std::string words;
-    for (std::size_t n = 0; n < state.stack.size(); ++n) {
-        words += n < state.depth ? fmt::format("{:02x} ", state.stack[n]) : "\u00b7\u00b7 ";
-    }
-    return {words, fmt::format("{} of {}", state.depth, cordic::stack_depth)};
-}
-
-std::vector<std::string> pipeline_lines(const Processor& processor) {
-    const cordic::MicroWord& word = processor.state().pipeline;
-    return {fmt::format("{}  condition {}  branch {:02x}",
-                        cordic::to_text(word.op),
-                        cordic::to_text(word.condition),
-                        word.branch),
-            signal_names(word.controls)};
-}
-
-std::string flag(std::string_view name, bool on) {
-    return fmt::format("{} {:d}  ", name, on);
-}
-
-std::vector<std::string> rom_lines(const ProcessorState& state) {
-    const std::string page = state.bus.page > 0 ? fmt::format("{:x}:", state.bus.page) : "";
-    return {fmt::format("PC {}{:04x}", page, register_of(state, Register::PC)),
-            fmt::format("byte {:02x}", state.bus.data),
-            fmt::format("at {:04x}", state.bus.address)};
-}
-
-std::vector<std::string> lines_of(BlockIndex block, const Processor& processor) {
-    const ProcessorState& state = processor.state();
-    const cordic::BusPins& pins = state.bus.pins;
-    const auto number = [&](cordic::Word word) { return word_text(processor, word); };
-    const auto reg = [&](Register name) { return state.registers[static_cast<std::size_t>(name)]; };
-    switch (block) {
-    case bus:
-        return {fmt::format("ALE{:d} PSEN{:d} RD{:d} WR{:d}", pins.ale, pins.psen, pins.rd, pins.wr),
-                fmt::format("A {:04x}  AD {:02x}", pins.address, pins.data)};
-    case rom:
-        return rom_lines(state);
-    case ram:
-        return {"8000", "to bfff"};
-    case port:
-        return port_lines(processor);
-    case ir:
-        return {fmt::format("{:02x}", state.opcode), opcode_name(state)};
-    case map: {
-        const auto start = processor.microprogram().map[state.opcode];
-        return {start ? fmt::format("\u2192 {:02x}", *start) : "\u2192 none",
-                start ? label_of(processor.microprogram(), *start) : ""};
-    }
-    case sequencer:
-        return sequencer_lines(processor);
-    case counter:
-        return {fmt::format("{}", state.sequencer.counter)};
-    case stack:
-        return stack_lines(processor);
-    case pipeline:
-        return pipeline_lines(processor);
-    case registers:
-        return {"X0 " + number(reg(Register::X0)),
-                "Y0 " + number(reg(Register::Y0)),
-                "Z0 " + number(reg(Register::Z0)),
-                "Vx " + number(reg(Register::Vx)),
-                "Vy " + number(reg(Register::Vy))};
-    case fold:
-        return {flag("f1", state.path.f1), flag("f2", state.path.f2)};
-    case first:
-        return {"x " + number(state.path.x),
-                "y " + number(state.path.y),
-                "z " + number(state.path.z),
-                fmt::format("step {}  correction {}", state.path.step, state.path.correction)};
-    case second:
-        return {"x2 " + number(state.path.x2), "y2 " + number(state.path.y2)};
-    }
-    return {};
-}
-
-Rect place_of(const Block& block, const Rect& place, float gap) {
+Rect place_of(const BlockPlace& block, const Rect& place, float gap) {
     const float unit = place.w / columns;
     const std::array<float, rows> heights{0.24F, 0.24F, 0.22F, 0.30F};
     float top = place.y;
@@ -307,20 +99,23 @@ void draw_way(Sketch& sketch, const Rect& from, const Rect& to, widgets::Colour 
     }
 }
 
+using Boxes = std::array<Rect, blocks.size()>;
+
+const Rect& box_of(const Boxes& boxes, Block block) {
+    return boxes[static_cast<std::size_t>(block)];
+}
+
 /// Address and data from the interface to whatever the decoder selects; what is selected is lit.
-void draw_bus(Sketch& sketch,
-              const Ui& ui,
-              const std::array<Rect, blocks.size()>& boxes,
-              const ProcessorState& state) {
+void draw_bus(Sketch& sketch, const Ui& ui, const Boxes& boxes, const ProcessorState& state) {
     const widgets::Palette& colours = ui.colours();
-    const Rect& from = boxes[bus];
+    const Rect& from = box_of(boxes, Block::bus);
     const float y = from.bottom() + ui.px(9.0F);
     const float begin = from.right() - ui.px(24.0F);
-    const bool used = lights(bus, state);
+    const bool used = lights(Block::bus, state);
     float lit_end = begin;
-    sketch.line({begin, y}, {boxes[port].centre().x, y}, colours.line, 2.0F);
-    for (const BlockIndex device : {rom, ram, port}) {
-        const Rect& to = boxes[device];
+    sketch.line({begin, y}, {box_of(boxes, Block::port).centre().x, y}, colours.line, 2.0F);
+    for (const Block device : {Block::rom, Block::ram, Block::port}) {
+        const Rect& to = box_of(boxes, device);
         const bool lit = used && lights(device, state);
         const float x = to.centre().x;
         sketch.line({x, y}, {x, to.bottom()}, lit ? colours.accent : colours.line, 2.0F);
@@ -332,7 +127,7 @@ void draw_bus(Sketch& sketch,
 
 void draw_block(Ui& ui,
                 Sketch& sketch,
-                const Block& block,
+                const BlockPlace& block,
                 const Rect& box,
                 bool lit,
                 const std::vector<std::string>& lines) {
@@ -364,10 +159,6 @@ void draw_block(Ui& ui,
 
 } // namespace
 
-std::string word_text(const Processor& processor, cordic::Word word) {
-    return fmt::format("{:.7g}", processor.number(word));
-}
-
 void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const Processor& processor = now.processor.debugger().processor();
     const widgets::Canvas canvas = widgets::canvas(ui, "diagram", place, 0);
@@ -376,7 +167,7 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const float margin = ui.px(8.0F);
     const float gap = ui.px(22.0F);
     const Rect inside{place.x, place.y + margin, place.w, place.h - 2.0F * margin};
-    std::array<Rect, blocks.size()> boxes;
+    Boxes boxes;
     for (std::size_t n = 0; n < blocks.size(); ++n) {
         boxes[n] = place_of(blocks[n], inside, gap);
     }
@@ -387,13 +178,13 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
         const bool lit = (controls & way.by) != 0 || (way.by == 0 && lights(way.from, processor.state()) &&
                                                       processor.state().clocks.total > 0);
         draw_way(sketch,
-                 boxes[static_cast<std::size_t>(way.from)],
-                 boxes[static_cast<std::size_t>(way.to)],
+                 box_of(boxes, way.from),
+                 box_of(boxes, way.to),
                  lit ? colours.accent : colours.line,
                  lit ? 2.0F : 1.0F);
     }
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-        const auto block = static_cast<BlockIndex>(n);
+        const auto block = static_cast<Block>(n);
         const bool lit = lights(block, processor.state());
         draw_block(ui, sketch, blocks[n], boxes[n], lit, lines_of(block, processor));
         ui.record(blocks[n].id, boxes[n]);

@@ -1,15 +1,11 @@
 // The processor as blocks with what is in them, and the ways that data take in this clock.
 #pragma once
 
-#include "core/cordic/processor.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {
 
 /// Fills `place` of the current pane. What the last clock did is lit.
 void processor_diagram(Ui& ui, const Workbench& now, const widgets::Rect& place);
-
-/// A word of the processor's format as people read it.
-[[nodiscard]] std::string word_text(const cordic::Processor& processor, cordic::Word word);
 
 } // namespace millwright::panels

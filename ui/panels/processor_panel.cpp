@@ -1,9 +1,10 @@
 #include "ui/panels/processor_panel.h"
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/processor_diagram.h"
+#include "ui/panels/processor_blocks.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/sketch.h"
 #include "ui/widgets/slider.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace millwright::panels {
@@ -44,6 +46,9 @@ void choose(ActionQueue& ask, const ProcessorChoice& choice) {
 }
 
 std::string halt_text(const ProcessorBench& bench) {
+    if (bench.failure()) {
+        return "Not for this processor";
+    }
     if (bench.running()) {
         return "Running";
     }
@@ -57,6 +62,10 @@ std::string halt_text(const ProcessorBench& bench) {
            : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
            : bench.halt() == cordic::Halt::limit      ? "Not come to yet: once more goes on"
                                                       : "Stands between two clocks";
+}
+
+std::string late_text(std::int64_t late, std::int64_t stitches) {
+    return fmt::format("{} of {} stitches", late, stitches);
 }
 
 std::string register_text(const cordic::Processor& processor, Register name) {
@@ -113,7 +122,8 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
     ui.beside();
     ui.words(fmt::format("{} clocks", state.clocks.total));
     ui.beside();
-    const bool fault = state.stop != cordic::Stop::none && state.stop != cordic::Stop::halted;
+    const bool fault =
+        bench.failure() || (state.stop != cordic::Stop::none && state.stop != cordic::Stop::halted);
     ui.words(halt_text(bench), fault ? widgets::Tone::danger : widgets::Tone::good);
 }
 
@@ -121,6 +131,7 @@ void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_choice(ui, now, ask);
     draw_errors(ui, now);
     draw_registers(ui, now);
+    draw_times(ui, now, ask);
     draw_clocks(ui, now);
 }
 
@@ -268,6 +279,52 @@ void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
                   row);
         ui.move_by(0.0F, line);
     }
+}
+
+void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("times", "In time");
+    if (!section) {
+        return;
+    }
+    const ProcessorChoice& choice = now.processor.choice();
+    const widgets::FieldInfo clock{
+        "clock",
+        "Clock",
+        "kHz",
+        "Of the processor. A set-point is late that takes longer to compute than the "
+        "motion before it",
+        1e-3,
+        1e6,
+        8000.0,
+        3};
+    constexpr double hertz = 1e3; // a kHz
+    if (const auto value = ui.number(choice.clock_hz / hertz, clock)) {
+        ProcessorChoice wanted = choice;
+        wanted.clock_hz = hertz * *value;
+        choose(ask, wanted);
+    }
+    const cordic::RunReport& report = now.processor.report();
+    ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
+    ui.value("fastest", "None up to", fmt::format("{:.6g}", to_mm_per_min(report.fastest)), "mm/min");
+    const widgets::FieldInfo needle{
+        "needle",
+        "Needle",
+        "rpm",
+        "Of a sewing machine that takes each set-point as a stitch. It is computed "
+        "during the stitch before, and moved to in the 2/3 of a turn in which the "
+        "needle is up, by a screw of 20 mm a turn that turns 3000 times a minute at most",
+        1.0,
+        1e6,
+        3000.0,
+        0};
+    if (const auto value = ui.number(choice.needle_rpm, needle)) {
+        ProcessorChoice wanted = choice;
+        wanted.needle_rpm = *value;
+        choose(ask, wanted);
+    }
+    const cordic::SewingRun& sewing = now.processor.sewing();
+    ui.value("stitches_computed", "Computed late", late_text(sewing.late_computations, sewing.stitches));
+    ui.value("stitches_moved", "Moved late", late_text(sewing.late_moves, sewing.stitches));
 }
 
 void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {

@@ -25,6 +25,7 @@ private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_errors(Ui& ui, const Workbench& now) const;
     void draw_registers(Ui& ui, const Workbench& now) const;
+    void draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_clocks(Ui& ui, const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;

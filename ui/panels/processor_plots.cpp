@@ -272,7 +272,7 @@ void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place
     view.series =
         steps.empty() ? std::span<const widgets::Series>() : std::span<const widgets::Series>(series);
     view.height = inside.h;
-    view.when_empty = "Step on to see it converge.";
+    view.when_empty = "No step yet.";
     const Rect next = ui.rest();
     ui.move_by(inside.x - next.x, inside.y - next.y);
     const auto width = ui.width(inside.w);
@@ -339,7 +339,12 @@ void ProcessorPlots::draw_path(Ui& ui, const Workbench& now, const Rect& place) 
 void ProcessorPlots::draw_map(Ui& ui, const Workbench& now, const Rect& place) const {
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const double worst = now.processor.report().position_error;
-    const Rect inside = below_title(ui, place, "CORDIC path against the exact one");
+    const std::span<const std::size_t> late = now.processor.report().late;
+    const Rect inside =
+        below_title(ui,
+                    place,
+                    late.empty() ? std::string("CORDIC path against the exact one")
+                                 : fmt::format("CORDIC path, exact path; {} set-points late", late.size()));
     (void)widgets::canvas(ui, "map", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");
@@ -357,6 +362,12 @@ void ProcessorPlots::draw_map(Ui& ui, const Workbench& now, const Rect& place) c
             const Point here = fit.at(path[n].x, path[n].y);
             sketch.line(before, here, colour_of(render::color_of(scale, path[n].distance)), 3.0F);
             before = here;
+        }
+        for (const std::size_t n : thinned(late.size())) {
+            if (late[n] < path.size()) {
+                const cordic::PathDifference& point = path[late[n]];
+                sketch.dot(fit.at(point.x, point.y), ui.px(2.5F), ui.colours().warning);
+            }
         }
     }
     widgets::LegendView legend;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace millwright::actions {
 namespace {
@@ -58,6 +60,29 @@ TEST(ProcessorBench, TellsTheErrorOfAnotherFormatAtOnceAndKeepsMicroBreakpoints)
     EXPECT_EQ(bench.debugger().state().clocks.total, 0);
 }
 
+// Three moves of 1 mm at 10 mm/s, 0.1 s each; a line and its MOV take about 100 clocks.
+TEST(ProcessorBench, TellsWhatComesTooLateAtASlowerClockAndStaysWhereItStands) {
+    ProcessorBench bench = loaded("G21 F600\nG1 X1\nG1 X2\nG1 X3\nM2\n");
+    bench.step(ProcessorStep::instruction);
+    const auto stands = bench.debugger().state().clocks.total;
+    EXPECT_GT(stands, 0);
+    EXPECT_TRUE(bench.report().late.empty());
+    EXPECT_TRUE(bench.sewing().late.empty());
+    ProcessorChoice choice = bench.choice();
+    choice.clock_hz = 500.0; // 0.2 s a line
+    bench.set(choice);
+    EXPECT_EQ(bench.report().late, (std::vector<std::size_t>{1, 2}));
+    EXPECT_EQ(bench.sewing().late_computations, 3); // more than the 20 ms of a stitch
+    EXPECT_EQ(bench.sewing().late_moves, 0);
+    choice.clock_hz = 8e6;
+    choice.needle_rpm = 50'000.0; // 1 mm in 0.8 ms: 3750 turns a minute of the screw
+    bench.set(choice);
+    EXPECT_TRUE(bench.report().late.empty());
+    EXPECT_EQ(bench.sewing().late_computations, 0);
+    EXPECT_EQ(bench.sewing().late_moves, 3);
+    EXPECT_EQ(bench.debugger().state().clocks.total, stands);
+}
+
 TEST(ProcessorBench, KeepsWhatIsWrongWithAProgramAndExecutesNothing) {
     ProcessorBench bench = loaded("G21\nG0 X1 C5\nM2\n");
     ASSERT_TRUE(bench.failure());
@@ -67,6 +92,8 @@ TEST(ProcessorBench, KeepsWhatIsWrongWithAProgramAndExecutesNothing) {
     bench.run();
     EXPECT_FALSE(bench.running());
     EXPECT_TRUE(bench.differences().empty());
+    EXPECT_EQ(bench.debugger().line(), 0);
+    EXPECT_EQ(bench.sewing().stitches, 0);
     bench.load(ProcessorSource::opened_file, square, "part.ngc");
     EXPECT_FALSE(bench.failure());
 }

@@ -191,6 +191,32 @@ TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {
     EXPECT_TRUE(person.sees("inspector/errors/position"));
 }
 
+TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
+    Bench bench({1600, 1000});
+    Person& person = bench.person;
+    EXPECT_TRUE(bench.processor().report().late.empty());
+    person.click("inspector/registers"); // folded away, so that all of the next section is in sight
+    person.click("inspector/times/clock");
+    person.type("0.2"); // kHz: a chord takes 0.6 s to compute, and 1.2 s at 30 mm/min
+    person.press_key(render::Key::enter);
+    person.frames(2);
+    EXPECT_NEAR(bench.processor().choice().clock_hz, 200.0, 1e-9);
+    EXPECT_EQ(bench.processor().report().late.size(), 1U); // the rapid before it is faster
+    person.click("inspector/times/clock");
+    person.type("0.05"); // 2.4 s
+    person.press_key(render::Key::enter);
+    person.frames(2);
+    EXPECT_EQ(bench.processor().report().late.size(), bench.processor().differences().size() - 1);
+    EXPECT_TRUE(person.sees("inspector/times/late"));
+    person.click("inspector/times/needle");
+    person.type("50");
+    person.press_key(render::Key::enter);
+    person.frames(2);
+    EXPECT_NEAR(bench.processor().choice().needle_rpm, 50.0, 1e-9);
+    EXPECT_GT(bench.processor().sewing().late.size(), 0U);
+    person.keep("processor-late");
+}
+
 TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
     Bench bench;
     bench.person.workshop().run("processor.project"); // the dome needs five axes
