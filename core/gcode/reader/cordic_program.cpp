@@ -7,6 +7,7 @@
 #include "core/gcode/reader/internal/chords.h"
 #include "core/gcode/reader/internal/cordic_code.h"
 #include "core/gcode/reader/internal/cordic_commands.h"
+#include "core/gcode/reader/internal/programmed_feed.h"
 
 #include <fmt/format.h>
 
@@ -25,9 +26,8 @@ namespace {
 using cordic::Opcode;
 using cordic::Register;
 using cordic::Word;
+using internal::same_place;
 
-constexpr double seconds_a_minute = 60.0;
-constexpr double same_place = 1e-9;             // mm or degrees: rounding of offsets
 constexpr double widest_chord = pi / 4;         // rad
 constexpr std::int64_t most_chords = 2'000'000; // of one arc: what a person waits for, far below register N
 
@@ -78,9 +78,12 @@ public:
         case MoveKind::traverse:
             return line({Opcode::g00, Opcode::g00z}, end, settings_.rapid_speed, move.source);
         case MoveKind::feed:
-            return line(feed_line, end, feed_, move.source);
+            if (const auto speed = feed_speed(move.source)) {
+                line(feed_line, end, *speed, move.source);
+            }
+            return;
         case MoveKind::arc:
-            return arc(move, end);
+            return move.plane == Plane::xy ? arc(move, end) : arc_in_chords(move);
         case MoveKind::probe:
             return code_.fault({move.source, 'G'}, "the CORDIC processor cannot probe");
         case MoveKind::rigid_tap:
@@ -90,17 +93,17 @@ public:
 
     void curve(const Curve& curve) {
         const AxisValues start = frame_.from_machine(at_);
-        internal::curve_chords(
-            start, curve, settings_.chord_tolerance / frame_.unit(), [&](const AxisValues& end) {
-                line(feed_line, frame_.to_machine(end), feed_, curve.source);
-            });
+        if (const auto speed = feed_speed(curve.source)) {
+            internal::curve_chords(
+                start, curve, settings_.chord_tolerance / frame_.unit(), [&](const AxisValues& end) {
+                    line(feed_line, frame_.to_machine(end), *speed, curve.source);
+                });
+        }
     }
 
     void command(const Command& command) {
         frame_.command(command);
-        if (command.kind == CommandKind::set_feed_rate) {
-            feed_ = command.value * frame_.unit() / seconds_a_minute;
-        }
+        feed_.command(command, frame_.unit());
         commands_.command(command);
     }
 
@@ -124,8 +127,8 @@ private:
     internal::CordicCode code_;
     internal::CordicCommands commands_{code_};
     CanonFrame frame_;
-    AxisValues at_;     ///< on the machine, mm and degrees
-    double feed_ = 0.0; ///< mm/s
+    internal::ProgrammedFeed feed_;
+    AxisValues at_; ///< on the machine, mm and degrees
     /// Of the third axis, as the format holds it; unknown behind the chords of a helix.
     std::optional<double> height_ = 0.0;
     /// Where the processor stands, as its format holds it; unknown behind rotations.
@@ -161,6 +164,17 @@ private:
             }
         }
         return true;
+    }
+
+    /// mm/s; nothing, and a fault, where it is not known.
+    std::optional<double> feed_speed(SourcePlace source) {
+        const auto speed = feed_.speed();
+        if (!speed) {
+            code_.fault({source, 'G'},
+                        "a feed a revolution (G95) of a spindle that follows the diameter (G96)",
+                        "G97: turns a minute");
+        }
+        return speed;
     }
 
     bool load_speed(double speed, SourcePlace source) {
@@ -217,11 +231,32 @@ private:
         code_.result().points.push_back({to.x, to.y, speed, source.line, to.z});
     }
 
-    void arc(const Move& move, const AxisValues& end) {
-        if (move.plane != Plane::xy) {
-            return code_.fault({move.source, 'G'},
-                               "the CORDIC processor turns arcs in the XY plane alone (G17)");
+    /// In the other planes: the processor turns about Z alone.
+    void arc_in_chords(const Move& move) {
+        const AxisValues start = frame_.from_machine(at_);
+        const double radius = frame_.unit() * internal::arc_radius(start, move);
+        const auto speed = feed_speed(move.source);
+        if (speed && chords_of(radius, move)) {
+            internal::arc_chords(
+                start, move, settings_.chord_tolerance / frame_.unit(), [&](const AxisValues& end) {
+                    line(feed_line, frame_.to_machine(end), *speed, move.source);
+                });
         }
+    }
+
+    /// Nothing, and a fault, if they are more than anybody waits for.
+    std::optional<std::int64_t> chords_of(double radius, const Move& move) {
+        const std::int64_t chords = chord_count(radius, move.sweep, settings_.chord_tolerance);
+        if (chords > most_chords) {
+            code_.fault({move.source, 'G'},
+                        fmt::format("an arc of {} chords", chords),
+                        "choose a larger chord tolerance");
+            return std::nullopt;
+        }
+        return chords;
+    }
+
+    void arc(const Move& move, const AxisValues& end) {
         if (!is_inside(end, move.source)) {
             return;
         }
@@ -231,24 +266,23 @@ private:
         const AxisValues centre = frame_.to_machine(centre_in_program);
         const Place3 about{centre[Axis::x], centre[Axis::y], at_[Axis::z]};
         const double radius = std::hypot(at_[Axis::x] - about.x, at_[Axis::y] - about.y);
-        const std::int64_t chords = chord_count(radius, move.sweep, settings_.chord_tolerance);
-        if (chords > most_chords) {
-            return code_.fault({move.source, 'G'},
-                               fmt::format("an arc of {} chords", chords),
-                               "choose a larger chord tolerance");
+        const auto speed = feed_speed(move.source);
+        const auto chords = chords_of(radius, move);
+        if (!chords || !speed) {
+            return;
         }
         const double rise = end[Axis::z] - at_[Axis::z];
-        const Turn turn{about, move.sweep, std::abs(rise) > same_place ? rise : 0.0, chords, move.source};
+        const Turn turn{about, move.sweep, std::abs(rise) > same_place ? rise : 0.0, *chords, move.source};
         const bool rotated = settings_.arc_end == ArcEnd::rotated && !turn.rises();
-        const std::int64_t rotations = rotated ? chords : chords - 1;
-        if (rotations > 0 && !rotate(turn, rotations)) {
+        const std::int64_t rotations = rotated ? *chords : *chords - 1;
+        if (rotations > 0 && !rotate(turn, rotations, *speed)) {
             return;
         }
         held_.reset();
         if (rotated) {
             at_ = end;
         } else {
-            line(feed_line, end, feed_, move.source);
+            line(feed_line, end, *speed, move.source);
         }
     }
     /// Where `k` chords lead from where the axes are.
@@ -262,14 +296,14 @@ private:
                 turn.about.z + turn.rise * share};
     }
     /// The first `rotations` of its chords.
-    bool rotate(const Turn& turn, std::int64_t rotations) {
+    bool rotate(const Turn& turn, std::int64_t rotations, double speed) {
         const auto count = static_cast<double>(turn.chords);
         const auto i = code_.number(turn.about.x, "the centre's X", {turn.source, 'I'});
         const auto j = code_.number(turn.about.y, "the centre's Y", {turn.source, 'J'});
         const auto dz =
             code_.number(std::abs(turn.sweep) / count, "the angle of a chord", {turn.source, 'G'});
         const auto rise = code_.number(turn.rise / count, "the rise of a chord", {turn.source, 'Z'});
-        if (!i || !j || !dz || !rise || !load_speed(feed_, turn.source)) {
+        if (!i || !j || !dz || !rise || !load_speed(speed, turn.source)) {
             return false;
         }
         code_.mov(Register::XI, *i);
@@ -286,7 +320,7 @@ private:
         }
         code_.set_loaded(Register::N, 0); // counted down
         for (std::int64_t k = 1; k <= rotations; ++k) {
-            publish(on_arc(turn, k), feed_, turn.source);
+            publish(on_arc(turn, k), speed, turn.source);
         }
         return true;
     }

@@ -1,9 +1,9 @@
-// From canonical commands to a program of the CORDIC processor: lines of X, Y and Z, arcs in the XY plane,
-// dwell, spindle, tool, coolant and stops as its instructions, with offsets, units and rotation applied. Arcs
-// become chords; the last chord is a line to the programmed end, so that what rounding adds up to on the way
-// does not stay. Positions mm, speeds mm/s.
-// Source: Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1;
-// the rule for the number of chords is ours (docs/reference/cordic.md#compiler).
+// From canonical commands to a program of the CORDIC processor: lines of X, Y and Z, arcs, dwell, spindle,
+// tool, coolant and stops as its instructions, with offsets, units and rotation applied. Arcs about Z become
+// chords that the processor turns, of which the last is a line to the programmed end, so that what rounding
+// adds up to on the way does not stay; those of other planes become lines. Positions mm, speeds mm/s. Source:
+// Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1; the rule
+// for the number of chords is ours (docs/reference/cordic.md#compiler).
 #pragma once
 
 #include "core/base/error.h"

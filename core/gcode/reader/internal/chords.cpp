@@ -120,6 +120,12 @@ private:
 
 } // namespace
 
+double arc_radius(const AxisValues& start, const Move& arc) {
+    const auto [first, second] = axes_of(arc.plane);
+    return std::max(std::hypot(start[first] - arc.centre_1, start[second] - arc.centre_2),
+                    std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2));
+}
+
 void arc_chords(const AxisValues& start, const Move& arc, double tolerance, const ChordSink& sink) {
     expects(tolerance > 0.0, "a chord tolerance is positive");
     const auto [first, second] = axes_of(arc.plane);
@@ -128,7 +134,7 @@ void arc_chords(const AxisValues& start, const Move& arc, double tolerance, cons
     const double radius = std::hypot(x, y);
     const double end_radius = std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2);
     const double angle = std::atan2(y, x);
-    const double step = longest_step(std::max({radius, end_radius, tolerance}), tolerance);
+    const double step = longest_step(std::max(arc_radius(start, arc), tolerance), tolerance);
     const double wanted = std::ceil(std::abs(arc.sweep) / step);
     constexpr double most = 1e7; // of one arc
     expects(wanted <= most, "an arc has a finite number of chords");

@@ -9,6 +9,9 @@ namespace millwright::gcode::internal {
 
 using ChordSink = std::function<void(const AxisValues& end)>;
 
+/// Of an arc that begins at `start`, in its unit; the larger one where start and end have not the same.
+[[nodiscard]] double arc_radius(const AxisValues& start, const Move& arc);
+
 /// The ends of the chords of an arc that begins at `start`, each nowhere farther than `tolerance` from it (in
 /// the unit of the arc) and at most 45 degrees long; the last is exactly the target. The other axes go
 /// linearly with the angle; so does the radius where start and end have not the same.

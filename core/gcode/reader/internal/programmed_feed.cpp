@@ -74,9 +74,18 @@ std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const Axi
     return rate > 0.0 ? std::optional(way / rate * seconds_a_minute) : std::nullopt;
 }
 
+double ProgrammedFeed::rate() const {
+    return a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_ * times_a_minute().value_or(0.0);
+}
+
 std::optional<double> ProgrammedFeed::duration(double length) const {
-    const double rate = a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_ * times_a_minute().value_or(0.0);
-    return rate > 0.0 ? std::optional(length / rate * seconds_a_minute) : std::nullopt;
+    const double found = rate();
+    return found > 0.0 ? std::optional(length / found * seconds_a_minute) : std::nullopt;
+}
+
+std::optional<double> ProgrammedFeed::speed() const {
+    const double found = rate();
+    return found > 0.0 ? std::optional(found / seconds_a_minute) : std::nullopt;
 }
 
 } // namespace millwright::gcode::internal

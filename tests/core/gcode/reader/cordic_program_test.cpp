@@ -138,7 +138,9 @@ TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
     for (const Case& c :
          {Case{"G21\nG0 X1 A5\nM2\n", 7, "no axis A"},
           Case{"G21\n(B) g0 x[1+1] b 5\nM2\n", 15, "no axis B"},
-          Case{"G21\nG18 G2 X2 Z0 I1 K0 F100\nM2\n", 1, "XY plane"},
+          Case{"G21\nS100 M3 G96 D500 G95 G1 X1 F0.1\nM2\n", 9, "a feed a revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G18 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
           Case{"G21\nG0 X200\nM2\n", 4, "X 200 does not fit into q8.24"},
           Case{"G21\nG0 Y1 Z-200\nM2\n", 7, "Z -200 does not fit into q8.24"},
           Case{"G21\nG1 X1 F12000\nM2\n", 7, "the speed in mm/s 200 does not fit"},
@@ -185,6 +187,59 @@ TEST(CordicCompiler, MakesLinesInSpaceAndHelicesOfWhatRises) {
     }
     EXPECT_EQ(processor.height_point(processor.published().back()).z, -3.0);
     EXPECT_EQ(processor.set_point(processor.published().back()).x, 3.0);
+}
+
+// Half a turn of radius 5 about Y, a quarter about X: on their circles, and at their ends exactly.
+TEST(CordicCompiler, MakesChordsOfArcsInTheOtherPlanes) {
+    CordicProgramSettings settings;
+    settings.format = cordic::binary64;
+    const CordicProgram program =
+        compiled("G21 F600 G0 X5\nG18 G3 X-5 Z0 I-5 K0\nG19 G2 Y5 Z-5 J0 K-5\nM2\n", settings);
+    ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
+    const cordic::Processor processor = run(program);
+    ASSERT_EQ(processor.published().size(), program.points.size());
+    int on_zx = 0;
+    int on_yz = 0;
+    double lowest = 0.0;
+    for (std::size_t n = 1; n < program.points.size(); ++n) {
+        const auto set = processor.set_point(processor.published()[n]);
+        const double z = processor.height_point(processor.published()[n]).z;
+        const bool first = program.points[n].line == 2;
+        (first ? on_zx : on_yz) += 1;
+        EXPECT_NEAR(first ? std::hypot(set.x, z) : std::hypot(set.y, z + 5.0), 5.0, 1e-9);
+        EXPECT_NEAR(first ? set.y : set.x + 5.0, 0.0, 1e-12);
+        lowest = std::min(lowest, first ? z : lowest);
+    }
+    EXPECT_NEAR(lowest, -5.0, 0.01); // G18: counter-clockwise from Z to X, so from +X to -Z
+    EXPECT_EQ(on_zx, chord_count(5.0, pi, settings.chord_tolerance));
+    EXPECT_EQ(on_yz, chord_count(5.0, pi / 2, settings.chord_tolerance));
+    const auto end = processor.set_point(processor.published().back());
+    EXPECT_EQ(end.y, 5.0);
+    EXPECT_EQ(processor.height_point(processor.published().back()).z, -5.0);
+    EXPECT_LT(cordic::report_of(processor, program.points, 8e6).speed_error, 1e-6);
+}
+
+TEST(CordicCompiler, RefusesAnArcOfTooManyChordsInAnyPlane) {
+    CordicProgramSettings settings;
+    settings.chord_tolerance = 1e-13;
+    for (const char* text : {"G21 F600\nG2 X8 I4\nM2\n", "G21 F600\nG18 G2 X8 I4\nM2\n"}) {
+        const CordicProgram program = compiled(text, settings);
+        ASSERT_EQ(program.faults.size(), 1U) << text;
+        EXPECT_EQ(program.faults[0].place.line, 2);
+        EXPECT_THAT(program.faults[0].message, HasSubstr("chords"));
+    }
+}
+
+// 0.1 mm a turn at 1200 and 2400 turns a minute, then mm a minute, then 2 a minute (inverse time).
+TEST(CordicCompiler, KnowsFeedsARevolutionAMinuteAndOfInverseTime) {
+    const CordicProgram program =
+        compiled("G21 S1200 M3\nG95 F0.1 G1 X5\nS2400\nG1 X10\nG94 F300\nG1 X15\nG93 G1 X20 F2\nM2\n");
+    ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
+    ASSERT_EQ(program.points.size(), 4U);
+    EXPECT_NEAR(program.points[0].speed, 2.0, 1e-12);
+    EXPECT_NEAR(program.points[1].speed, 4.0, 1e-12);
+    EXPECT_NEAR(program.points[2].speed, 5.0, 1e-12);
+    EXPECT_NEAR(program.points[3].speed, 5.0 * 2.0 / 60.0, 1e-12);
 }
 
 // A loop in the processor, not a chord an instruction: a thousand turns of a thread take as many bytes as

@@ -102,7 +102,7 @@ TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove)
     Bench bench;
     EXPECT_THAT(bench.refusal_of("G21 G0 X1\nG38.2 X5 F100\nM2\n"),
                 HasSubstr("program:2:1: the CORDIC processor cannot probe"));
-    EXPECT_THAT(bench.refusal_of("G21\nG18 G3 X2 Z0 R5 F100\nM2\n"), HasSubstr("program:2:1: the CORDIC"));
+    EXPECT_THAT(bench.refusal_of("G21\nM64 P1\nM2\n"), HasSubstr("program:2:1: the CORDIC"));
     EXPECT_EQ(bench.driver.status().position, AxisPositions::Zero(3));
     EXPECT_EQ(bench.driver.status().state, DriverState::idle);
 }
