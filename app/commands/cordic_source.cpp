@@ -5,6 +5,7 @@
 #include "core/base/units.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/microprogram.h"
+#include "core/cordic/run_report.h"
 #include "core/gcode/reader/interpreter.h"
 
 #include <CLI/Config.hpp>
@@ -157,12 +158,7 @@ Error not_at_its_end(const cordic::Processor& processor,
         const int line = processor.microprogram().lines[state.sequencer.address];
         return Error(Diagnostic{{choice.microprogram, line, 1, -1}, std::string(to_text(state.stop)), {}});
     }
-    const cordic::CodeLine at = cordic::line_at(program.code_lines, state.instruction_at);
-    return Error(Diagnostic{{source.file, at.line, at.column, -1},
-                            fmt::format("the processor stopped in the instruction at {:#06x}: {}",
-                                        state.instruction_at,
-                                        to_text(state.stop)),
-                            {}});
+    return Error(cordic::stop_diagnostic(state, program.code_lines, source.file));
 }
 
 } // namespace millwright::app

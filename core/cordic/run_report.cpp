@@ -1,6 +1,6 @@
 #include "core/cordic/run_report.h"
 
-#include "core/base/error.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,6 +99,18 @@ RunReport report_of(const Processor& processor,
     compare(report, processor, exact, from);
     find_late(report, processor, clock_hz, from);
     return report;
+}
+
+Diagnostic stop_diagnostic(const ProcessorState& state,
+                           std::span<const CodeLine> lines,
+                           const std::filesystem::path& file) {
+    const CodeLine at = line_at(lines, state.instruction_at);
+    return {.place = {file, at.line, at.column, -1},
+            .message = fmt::format("the processor stopped in the instruction at {:#06x}: {}",
+                                   state.instruction_at,
+                                   to_text(state.stop)),
+            .hint =
+                state.stop == Stop::overflow ? "choose a number format with more bits before the point" : ""};
 }
 
 } // namespace millwright::cordic

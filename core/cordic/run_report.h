@@ -2,11 +2,14 @@
 // keeps up with the motion it feeds.
 #pragma once
 
+#include "core/base/error.h"
+#include "core/cordic/instruction.h"
 #include "core/cordic/processor.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -49,5 +52,11 @@ struct RunReport {
                                   std::span<const ExactPoint> exact,
                                   double clock_hz,
                                   const std::array<double, 3>& start = {});
+
+/// Why a processor stands that is not at the end of its program `file`: where in it, and what to do. `lines`
+/// by ascending address.
+[[nodiscard]] Diagnostic stop_diagnostic(const ProcessorState& state,
+                                         std::span<const CodeLine> lines,
+                                         const std::filesystem::path& file);
 
 } // namespace millwright::cordic

@@ -152,7 +152,7 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
              Bad{"d.asm",
                  ".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV XI, 7\nG01\nHLT\n",
                  "d.asm:5:1: the processor stopped in the instruction at 0x000f: a number did not fit the "
-                 "word"},
+                 "word (choose a number format with more bits before the point)"},
              Bad{"j.ngc",
                  "G21 F100\nG0 X-100\nG1 X100\nM2\n",
                  "j.ngc:3:1: the processor stopped in the instruction at",

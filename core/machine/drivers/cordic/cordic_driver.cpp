@@ -146,12 +146,7 @@ void CordicDriver::refuse_unfinished(const cordic::Processor& processor,
                     program_name);
     }
     if (state.stop != cordic::Stop::halted) {
-        const cordic::CodeLine at = cordic::line_at(made.code_lines, state.instruction_at);
-        throw Error(Diagnostic{{program_name, at.line, at.column, -1},
-                               fmt::format("the processor stopped in the instruction at {:#06x}: {}",
-                                           state.instruction_at,
-                                           to_text(state.stop)),
-                               {}});
+        throw Error(cordic::stop_diagnostic(state, made.code_lines, program_name));
     }
 }
 
