@@ -18,7 +18,7 @@ constexpr double width = 760.0;
 constexpr double height = 460.0;
 constexpr double left = 90.0;
 constexpr double right = 30.0;
-constexpr double top = 44.0;
+constexpr double top = 66.0; // title and legend
 constexpr double bottom = 60.0;
 constexpr double faintest = 1e-18; // what a logarithmic scale shows of a smaller value
 
@@ -185,6 +185,29 @@ void draw(Canvas& canvas, const Chart& chart, const Series& series, std::string_
     }
 }
 
+std::string_view colour_of(std::size_t series) {
+    return colours[series % colours.size()];
+}
+
+/// Side by side between the title and the drawing.
+void draw_legend(Canvas& canvas, const std::vector<Series>& series) {
+    constexpr double widest = 180.0;
+    constexpr double mark = 14.0;
+    const double share = std::min(widest, (width - left - right) / static_cast<double>(series.size()));
+    double x = left;
+    for (std::size_t n = 0; n < series.size(); ++n) {
+        if (!series[n].label.empty()) {
+            canvas.add("<rect x=\"{:.1f}\" y=\"{}\" width=\"{}\" height=\"3\" fill=\"{}\"/>\n",
+                       x,
+                       top - 17,
+                       mark,
+                       colour_of(n));
+            canvas.text(x + mark + 5, top - 11, "start", series[n].label);
+            x += share;
+        }
+    }
+}
+
 /// From blue (small) over yellow to red.
 std::string colour_at(double fraction) {
     const double f = std::clamp(fraction, 0.0, 1.0);
@@ -219,19 +242,10 @@ std::string to_svg(const Chart& chart) {
     Canvas canvas(x, y);
     canvas.titles(chart.title, chart.x_label, chart.y_label);
     canvas.axes(chart.logarithmic);
-    double legend = top + 18.0;
     for (std::size_t n = 0; n < chart.series.size(); ++n) {
-        const auto colour = colours[n % colours.size()];
-        draw(canvas, chart, chart.series[n], colour);
-        if (!chart.series[n].label.empty()) {
-            canvas.add("<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"3\" fill=\"{}\"/>\n",
-                       width - right - 150,
-                       legend - 5,
-                       colour);
-            canvas.text(width - right - 130, legend, "start", chart.series[n].label);
-            legend += 18.0;
-        }
+        draw(canvas, chart, chart.series[n], colour_of(n));
     }
+    draw_legend(canvas, chart.series);
     return canvas.done();
 }
 
