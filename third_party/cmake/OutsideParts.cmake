@@ -17,6 +17,7 @@ set_target_properties(Potrace::Potrace PROPERTIES
     IMPORTED_LOCATION ${POTRACE_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${POTRACE_INCLUDE_DIR})
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
+pkg_check_modules(nlopt REQUIRED IMPORTED_TARGET nlopt)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 
 if(MILLWRIGHT_UI)

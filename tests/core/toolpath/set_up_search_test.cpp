@@ -1,0 +1,105 @@
+#include "core/toolpath/set_up_search.h"
+
+#include "core/base/error.h"
+#include "core/toolpath/kinematic_error.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace millwright::toolpath {
+namespace {
+
+using grid::Grid;
+using grid::TrackDirection;
+
+SetUpCost cost_of(const char* preset, const char* machine, int nodes, SetUpGoal goal = SetUpGoal::error) {
+    return {test::patch(preset),
+            test::machine(machine),
+            false,
+            Grid::uniform(nodes, nodes),
+            TrackDirection::along_v,
+            goal};
+}
+
+/// Where the dome may stand on the thesis's table.
+const SetUpSearchSettings on_the_table{{-100.0, -100.0, 150.0}, {50.0, 50.0, 260.0}, 3, 100};
+
+TEST(SetUpSearch, HalvesTheErrorOfADomeThatStoodFarFromTheAxis) {
+    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 20);
+    const SetUpSearch found = search_set_up(cost, on_the_table, {});
+    EXPECT_EQ(found.start.offset, Vec3(-15.0, 0.0, 175.0));
+    EXPECT_LE(found.best.cost, 0.55 * found.start.cost);
+    EXPECT_LE(found.best.cost, 0.194) << "mm: what a prototype found";
+    EXPECT_LE(found.evaluations, 1 + 27 + 100);
+    EXPECT_NEAR(found.best.offset.x(), -50.0, 20.0) << "the middle of the part is above the turning axis";
+    EXPECT_NEAR(found.best.offset.y(), -50.0, 20.0);
+    const KinematicError there(test::patch("dome"),
+                               test::machine("rotary-tilt-listing").with_workpiece_offset(found.best.offset),
+                               false);
+    const auto moves = measure(there, Grid::uniform(20, 20), TrackDirection::along_v, grid::coarse);
+    EXPECT_DOUBLE_EQ(grid::summary(moves).mean, found.best.cost);
+}
+
+TEST(SetUpSearch, IsNeverWorseThanTheStart) {
+    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 6);
+    SetUpSearchSettings far = on_the_table; // the start lies outside, and everything inside is worse
+    far.least = {400.0, 400.0, 175.0};
+    far.most = {500.0, 500.0, 180.0};
+    far.places = 2;
+    far.descent = 20;
+    const SetUpSearch found = search_set_up(cost, far, {});
+    EXPECT_EQ(found.best.offset, found.start.offset);
+    EXPECT_EQ(found.best.cost, found.start.cost);
+}
+
+TEST(SetUpSearch, LessTravelOfTheLinearAxesNearTheTurningAxis) {
+    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 8, SetUpGoal::travel);
+    const SetUpSearch found = search_set_up(cost, on_the_table, {});
+    EXPECT_LT(found.best.cost, 0.8 * found.start.cost);
+}
+
+TEST(SetUpSearch, AMapTellsWhatTheCostTells) {
+    const SetUpCost cost = cost_of("two-bell", "ac-table", 5);
+    SetUpSearchSettings box;
+    box.least = {-20.0, -30.0, -10.0};
+    box.most = {20.0, 30.0, 10.0};
+    const SetUpMap map = set_up_map(cost, {1.0, 2.0, 3.0}, 2, 0, 3, box, {});
+    ASSERT_EQ(map.costs.size(), 9U);
+    EXPECT_EQ(map.x, (std::vector{-10.0, 0.0, 10.0}));
+    EXPECT_EQ(map.y, (std::vector{-20.0, 0.0, 20.0}));
+    EXPECT_EQ(map.costs[5], cost.at({0.0, 2.0, 10.0}, {})) << "row y = 0, column x = 10";
+}
+
+TEST(SetUpSearch, OutOfReachIsInfinite) {
+    const SetUpCost cost = cost_of("dome", "ac-table", 5);
+    EXPECT_TRUE(std::isinf(cost.at({1e5, 0.0, 0.0}, {})));
+}
+
+TEST(SetUpSearch, CanBeCancelledInTheDescent) {
+    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 6);
+    SetUpSearchSettings settings = on_the_table;
+    settings.places = 1;
+    settings.descent = 1000;
+    std::stop_source stop;
+    const Progress progress(
+        [&](const Progress::Report& report) {
+            if (report.fraction > 0.01) {
+                stop.request_stop();
+            }
+        },
+        stop.get_token());
+    EXPECT_THROW((void)search_set_up(cost, settings, progress), Cancelled);
+}
+
+TEST(SetUpSearch, RefusesABoxWithoutAVolume) {
+    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 4);
+    SetUpSearchSettings flat;
+    flat.most.z() = flat.least.z();
+    EXPECT_THROW((void)search_set_up(cost, flat, {}), Defect);
+    EXPECT_THROW((void)set_up_map(cost, Vec3::Zero(), 1, 1, 5, {}, {}), Defect);
+}
+
+} // namespace
+} // namespace millwright::toolpath
