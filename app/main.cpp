@@ -13,6 +13,7 @@
 #include "app/commands/render_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/send_command.h"
+#include "app/commands/study_command.h"
 #include "app/commands/workbench_command.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
     add_render_command(app, chosen);
     add_run_command(app, chosen);
     add_send_command(app, chosen);
+    add_study_command(app, chosen);
     add_jobs_command(app, chosen);
     add_pmac_command(app, chosen);
     add_ports_command(app, chosen);

@@ -91,7 +91,22 @@ Surface two_bell() {
     return single_patch(std::move(net));
 }
 
-constexpr std::array<SurfacePreset, 6> presets{{
+/// z = 18 ((2u-1)^2 - (2v-1)^2): exactly biquadratic, its normal is vertical in the middle alone.
+Surface saddle() {
+    constexpr double height = 18.0;
+    constexpr std::array<double, 3> square{1.0, -1.0, 1.0}; // (2t-1)^2 in Bernstein form
+    ControlNet net = ControlNet::sized(3, 3);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const double z =
+                height * (square[static_cast<std::size_t>(i)] - square[static_cast<std::size_t>(j)]);
+            net.point(i, j) = {50.0 * i - 50.0, 50.0 * j - 50.0, z};
+        }
+    }
+    return single_patch(std::move(net));
+}
+
+constexpr std::array<SurfacePreset, 7> presets{{
     {"dome", "Dome", "Parasilmongkol 1997, appendix listing", dome},
     {"dome-text", "Dome (text)", "Parasilmongkol 1997, ch. 2; x and y nets of the listing", dome_text},
     {"sine", "Sine sheet", "Parasilmongkol 1997, ch. 2, with the lost minus sign put back", sine},
@@ -101,6 +116,7 @@ constexpr std::array<SurfacePreset, 6> presets{{
      sine_as_printed},
     {"matlab-demo", "MATLAB demo patch", "Parasilmongkol 1997, ch. 2, MATLAB example", matlab_demo},
     {"two-bell", "Two bells", "test surface of the 5-axis tool path literature", two_bell},
+    {"saddle", "Saddle", "ours: z = 18 ((2u-1)^2 - (2v-1)^2) mm over 100 x 100 mm", saddle},
 }};
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/grid/grid_promise.h"
 #include "core/grid/internal/each_track.h"
 #include "core/grid/polish.h"
 #include "core/grid/track_choice.h"
@@ -123,7 +124,7 @@ ChainOptimiser::ChainOptimiser(const ErrorModel& model,
                                ChainSettings settings)
     : model_(model), direction_(direction), settings_(std::move(settings)),
       state_{.current = start.array(), .best = start, .start = {}, .now = {}, .of_best = {}, .note = {}},
-      start_(straight_tracks(start, direction)), accepted_(start.array()) {
+      start_(straight_tracks(start, direction)), accepted_(start.array()), bests_{{start, {}}} {
     check(settings_);
     settings_.tracks = checked(settings_.tracks, start.nodes_per_track(direction));
 }
@@ -152,6 +153,7 @@ void ChainOptimiser::measure_start(const Progress& progress) {
     state_.start = state_.now = state_.of_best = found;
     state_.note = "Start measured";
     links_.push_back({"start", found, true});
+    bests_.front().reached = found;
     stage_ = Stage::tracks;
 }
 
@@ -174,12 +176,33 @@ bool ChainOptimiser::consider(const NodeArray& nodes, const Progress& progress) 
     return true;
 }
 
+void ChainOptimiser::end_link(std::string name, bool accepted) {
+    links_.push_back({std::move(name), state_.now, accepted});
+    if (score(state_.of_best) < score(bests_.back().reached)) {
+        bests_.push_back({state_.best, state_.of_best});
+    }
+}
+
+/// What the track optimiser finds keeps more promises than what comes after, where nodes are few.
+void ChainOptimiser::optimise_tracks(const Progress& progress) {
+    TrackSettings settings;
+    settings.lattice = settings_.tracks.lattice;
+    settings.error_exponent = settings_.tracks.error_exponent;
+    settings.axis_weight_mm_per_deg = settings_.tracks.axis_weight_mm_per_deg;
+    settings.polish_sweeps = settings_.tracks.polish_sweeps;
+    settings.gap_allowance = settings_.tracks.gap_allowance;
+    TrackOptimiser optimiser(model_, bests_.front().grid, direction_, settings);
+    const Grid found = run(optimiser, progress).best;
+    end_link("track optimiser", consider(found.array(), progress));
+}
+
 /// Where a choice of tracks breaks the promise, the start's own tracks with their best nodes are next.
 void ChainOptimiser::choose_tracks(const Progress& progress) {
     progress.report(0.0, "Measuring the candidates for tracks");
+    optimise_tracks(progress.part(0.0, 0.1));
     const std::vector<PlacedTrack> candidates = candidates_of(start_, settings_.candidates_a_gap);
     std::vector<BestNodes> best(candidates.size());
-    each_track(std::ssize(candidates), progress.part(0.0, 0.85), [&](std::size_t c) {
+    each_track(std::ssize(candidates), progress.part(0.1, 0.85), [&](std::size_t c) {
         best[c] = best_nodes(model_, candidates[c], settings_.tracks, progress);
     });
     std::vector<double> costs;
@@ -203,25 +226,21 @@ void ChainOptimiser::choose_tracks(const Progress& progress) {
             tracks[t] = polished(model_, best[c].placed, settings_.tracks, progress);
         });
         const bool kept = consider(array_of(tracks), progress);
-        links_.push_back({name, state_.now, kept});
+        end_link(name, kept);
         if (kept) {
             break;
         }
     }
     ++state_.round;
     state_.note = links_.back().name;
+    accepted_ = state_.best.array();
     begin_descent(progress);
 }
 
 void ChainOptimiser::begin_descent(const Progress& progress) {
     const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
     if (level_ > settings_.exponents.size() || allowed == 0) {
-        descent_.reset();
-        state_.status =
-            score(state_.of_best) < score(state_.start) ? ImproverStatus::converged : ImproverStatus::no_gain;
-        state_.current = state_.best.array();
-        state_.now = state_.of_best;
-        stage_ = Stage::done;
+        finish(progress);
         return;
     }
     const std::vector<MoveError> moves = measure(model_, Grid(accepted_), direction_, fine, progress);
@@ -235,6 +254,22 @@ void ChainOptimiser::begin_descent(const Progress& progress) {
     descent_.emplace(PathObjective(model_, direction_, accepted_, objective), accepted_, progress);
     iterations_of_level_ = 0;
     stage_ = Stage::descent;
+}
+
+/// Each move by itself is not the whole truth: the path as it is run has the last word on each link's best.
+void ChainOptimiser::finish(const Progress& progress) {
+    const Grid start = bests_.front().grid;
+    const GridPromise promise(model_, start, direction_, progress);
+    while (bests_.size() > 1 && !promise.kept_by(bests_.back().grid, progress)) {
+        bests_.pop_back();
+    }
+    descent_.reset();
+    state_.best = bests_.back().grid;
+    state_.of_best = bests_.back().reached;
+    state_.status = bests_.size() > 1 ? ImproverStatus::converged : ImproverStatus::no_gain;
+    state_.current = state_.best.array();
+    state_.now = state_.of_best;
+    stage_ = Stage::done;
 }
 
 void ChainOptimiser::descend(const Progress& progress) {
@@ -256,7 +291,7 @@ void ChainOptimiser::descend(const Progress& progress) {
     state_.note =
         fmt::format("All nodes at once, exponent {:g}, iteration {}", exponent, iterations_of_level_);
     if (!going || iterations_of_level_ >= allowed) {
-        links_.push_back({fmt::format("all nodes at once, exponent {:g}", exponent), state_.now, kept});
+        end_link(fmt::format("all nodes at once, exponent {:g}", exponent), kept);
         ++state_.round;
         ++level_;
         begin_descent(progress);

@@ -32,10 +32,12 @@ struct ChainLink {
     bool accepted = true; ///< whether that grid keeps the promise
 };
 
-/// First step: measures the start. Second: the tracks and their nodes. Then a few iterations of a descent a
-/// step. `best` has the least product of max and mean of the grids that keep the promise: max, mean, lmean
-/// and axis_max not above the start's, the track gap not above it by more than the allowance, no corner
-/// triangle below the least. `norm` is the furthest way of a node in the last iteration, in cells.
+/// First step: measures the start. Second: the tracks and their nodes, beside what the track optimiser makes
+/// of the start's own. Then a few iterations of a descent a step. `best` has the least product of max and
+/// mean of the grids that keep the promise: max, mean, lmean and axis_max not above the start's, the track
+/// gap not above it by more than the allowance, no corner triangle below the least. In the end it is the best
+/// of a link whose path as it is run keeps the promise of GridPromise too. `norm` is the furthest way of a
+/// node in the last iteration, in cells.
 class ChainOptimiser final : public GridImprover {
 public:
     /// `model` must outlive the optimiser. Throws Defect if a track of `start` is not straight.
@@ -50,12 +52,19 @@ public:
 
 private:
     enum class Stage { start, tracks, descent, done };
+    struct Best {
+        Grid grid;
+        ErrorSummary reached;
+    };
 
     void measure_start(const Progress& progress);
     void choose_tracks(const Progress& progress);
+    void optimise_tracks(const Progress& progress);
     void begin_descent(const Progress& progress);
     void descend(const Progress& progress);
     bool consider(const NodeArray& nodes, const Progress& progress);
+    void end_link(std::string name, bool accepted);
+    void finish(const Progress& progress);
 
     const ErrorModel& model_;
     TrackDirection direction_;
@@ -67,8 +76,9 @@ private:
     std::optional<PathDescent> descent_;
     std::size_t level_ = 0; // 0: the exponent of the tracks; n: exponents[n - 1]
     int iterations_of_level_ = 0;
-    NodeArray accepted_; // where the next descent begins
     std::vector<ChainLink> links_;
+    NodeArray accepted_;      // where the next descent begins
+    std::vector<Best> bests_; // after each link, if it was better than that before
 };
 
 } // namespace millwright::grid

@@ -112,25 +112,26 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     progress.report(1.0);
 }
 
+std::optional<double> estimated_time(const Evaluation& evaluation,
+                                     const kinematics::MachineModel& machine,
+                                     const ProgramInput& input,
+                                     const Progress& progress) {
+    try {
+        const gcode::PostResult posted =
+            gcode::post(machine, evaluation.toolpath, evaluation.axes, program_settings(input), {}, progress);
+        progress.check();
+        return motion::plan(posted.program, machine, motion::PlannerSettings{}, progress).duration();
+    } catch (const Error&) { // such a program is beyond the machine's limits
+        return std::nullopt;
+    }
+}
+
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress) {
     for (const GridMethod method : every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
-        if (!evaluation || plan.estimated_time(method)) {
-            continue;
-        }
-        try {
-            const kinematics::MachineModel& machine = plan.workpiece->machine;
-            const gcode::PostResult posted = gcode::post(machine,
-                                                         evaluation->toolpath,
-                                                         evaluation->axes,
-                                                         program_settings(project.program),
-                                                         {},
-                                                         progress);
-            progress.check();
+        if (evaluation && !plan.estimated_time(method)) {
             plan.estimated_time(method) =
-                motion::plan(posted.program, machine, motion::PlannerSettings{}, progress).duration();
-        } catch (
-            const Error&) { // this grid has no program on this machine, which concerns only the chosen one
+                estimated_time(*evaluation, plan.workpiece->machine, project.program, progress);
         }
     }
 }

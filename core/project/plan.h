@@ -67,6 +67,13 @@ struct Folders {
 /// Cancelled, then `plan` is as it was.
 void add_program(Plan& plan, const Project& project, const Progress& progress);
 
+/// What a program of `evaluation` would take on `machine`, s; nothing where it can run none. Throws
+/// Cancelled.
+[[nodiscard]] std::optional<double> estimated_time(const Evaluation& evaluation,
+                                                   const kinematics::MachineModel& machine,
+                                                   const ProgramInput& input,
+                                                   const Progress& progress);
+
 /// Of the grids that were not chosen the estimated times, for comparison, into `plan`: those that are missing
 /// and can be made into a program. Throws Cancelled.
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress);

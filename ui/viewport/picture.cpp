@@ -2,11 +2,9 @@
 
 #include "core/base/error.h"
 #include "ui/render/camera.h"
-#include "ui/render/imgui_compat.h"
-#include "ui/render/imgui_session.h"
-#include "ui/render/offscreen_context.h"
 #include "ui/render/view_target.h"
 #include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/internal/desk.h"
 #include "ui/viewport/internal/overlay.h"
 #include "ui/viewport/internal/sheet.h"
 #include "ui/viewport/machine_sight.h"
@@ -54,40 +52,6 @@ std::vector<Part> parts_of(const project::Project& project, const project::Plan&
     part.scene.error.high = before.scene.error.high = error_colors(before.scene, {}).high;
     return {before, part};
 }
-
-/// ImGui, its fonts and the widgets on a context without display.
-class Desk {
-public:
-    Desk(const PixelSize& size, double scale, render::Theme theme)
-        : context_(size, scale), session_(context_), ui_(look(static_cast<float>(scale), theme)) {}
-
-    template <typename Draw> [[nodiscard]] render::Picture picture(const Draw& draw) {
-        session_.begin_frame();
-        ui_.begin_frame();
-        const PixelSize size = context_.framebuffer_size();
-        {
-            const auto pane = ui_.bare_pane(
-                "picture", {0.0F, 0.0F, static_cast<float>(size.width), static_cast<float>(size.height)});
-            draw(ui_);
-        }
-        ui_.end_frame();
-        session_.end_frame();
-        return context_.read_back();
-    }
-
-private:
-    static widgets::Look look(float scale, render::Theme theme) {
-        const widgets::Theme own =
-            theme == render::Theme::dark ? widgets::Theme::dark : widgets::Theme::light;
-        widgets::apply(own, scale, ImGui::GetStyle());
-        return {
-            .theme = own, .scale = scale, .fonts = widgets::load_fonts(*ImGui::GetIO().Fonts, scale).fonts};
-    }
-
-    render::OffscreenContext context_;
-    render::ImGuiSession session_;
-    widgets::Ui ui_;
-};
 
 /// A part on the sheet with what it is drawn by.
 class DrawnPart {

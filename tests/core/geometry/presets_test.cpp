@@ -91,6 +91,18 @@ TEST(TwoBellPreset, EqualsItsPolynomial) {
     }
 }
 
+TEST(SurfacePreset, TheSaddleIsItsFormula) {
+    const BezierPatch saddle = patch_of("saddle");
+    for (double u = 0.0; u <= 1.0; u += 0.1) {
+        for (double v = 0.0; v <= 1.0; v += 0.1) {
+            const double a = 2.0 * u - 1.0;
+            const double b = 2.0 * v - 1.0;
+            const Vec3 formula(50.0 * a, 50.0 * b, 18.0 * (a * a - b * b));
+            EXPECT_LT((saddle.position(u, v) - formula).norm(), 1e-12);
+        }
+    }
+}
+
 TEST(SurfacePreset, AnUnknownIdListsTheKnownOnes) {
     try {
         (void)surface_preset("dom");

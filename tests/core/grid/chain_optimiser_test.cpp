@@ -32,10 +32,11 @@ TEST(ChainOptimiser, EachLinkCutsTheErrorOfASpike) {
     EXPECT_LT(state.of_best.mean, 0.85 * state.start.mean);
     EXPECT_LT(state.of_best.max, 0.3 * state.start.max);
     EXPECT_EQ(state.status, ImproverStatus::converged);
-    ASSERT_EQ(chain.links().size(), 6U); // start, tracks, exponents 2, 4, 8, 16
+    ASSERT_EQ(chain.links().size(), 7U); // start, track optimiser, chosen tracks, exponents 2, 4, 8, 16
     EXPECT_LT(chain.links()[1].reached.max, chain.links()[0].reached.max);
-    EXPECT_LT(chain.links()[2].reached.lmean, chain.links()[1].reached.lmean);
-    EXPECT_LT(chain.links()[5].reached.max, chain.links()[2].reached.max);
+    EXPECT_LT(chain.links()[2].reached.max, chain.links()[0].reached.max);
+    EXPECT_LT(chain.links()[3].reached.lmean, chain.links()[2].reached.lmean);
+    EXPECT_LT(chain.links()[6].reached.max, chain.links()[3].reached.max);
 }
 
 TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {

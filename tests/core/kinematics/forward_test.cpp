@@ -52,7 +52,11 @@ AxisPositions random_positions(const MachineModel& machine, std::mt19937& random
 }
 
 std::vector<MachineModel> machines() {
-    return {test::machine("rotary-tilt-listing"), test::machine("ac-table"), head_head_machine()};
+    return {test::machine("rotary-tilt-listing"),
+            test::machine("ac-table"),
+            test::machine("bc-table-head"),
+            test::machine("ca-head"),
+            head_head_machine()};
 }
 
 TEST(Forward, EqualsTheProductOfFrames) {

@@ -1,0 +1,145 @@
+#include "core/project/kinematic_study.h"
+
+#include "core/base/error.h"
+#include "core/toolpath/set_up_search.h"
+
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+std::vector<StudyCase> cases_with(std::span<const int> points, int tracks) {
+    std::vector<StudyCase> found;
+    for (const char* surface : {"dome", "sine", "two-bell", "saddle"}) {
+        for (const char* machine : {"rotary-tilt-listing", "bc-table-head", "ca-head"}) {
+            for (const int n : points) {
+                found.push_back({surface, machine, n, tracks});
+            }
+        }
+    }
+    return found;
+}
+
+Project project_of(const StudyCase& of) {
+    Project project = project_from_preset(of.surface);
+    project.machine.file = of.machine;
+    project.grid.nu = of.points;
+    project.grid.nv = of.tracks;
+    project.grid.direction = grid::TrackDirection::along_u;
+    return project;
+}
+
+StudyFigures figures_of(const Evaluation& evaluation, const Workpiece& workpiece, const Progress& progress) {
+    return {evaluation.closest,
+            evaluation.track_gap,
+            evaluation.path_length,
+            estimated_time(evaluation, workpiece.machine, ProgramInput{}, progress),
+            workpiece.machine.description().workpiece_offset};
+}
+
+/// The part about its own middle on the table, as far as it may be shifted.
+toolpath::SetUpSearchSettings shifts_of(const Workpiece& workpiece) {
+    const Vec3 reach(60.0, 60.0, 80.0);
+    Vec3 middle = -workpiece.patch.control_box().center();
+    middle.z() = workpiece.machine.description().workpiece_offset.z();
+    return {.least = middle - reach, .most = middle + reach};
+}
+
+Workpiece in_best_set_up(Workpiece workpiece, const Progress& progress) {
+    constexpr int nodes = 20; // the error's mean knows the best place from any grid
+    const toolpath::SetUpCost cost(workpiece.patch,
+                                   workpiece.machine,
+                                   workpiece.flipped,
+                                   grid::Grid::uniform(nodes, nodes),
+                                   workpiece.direction,
+                                   toolpath::SetUpGoal::error);
+    const auto found = toolpath::search_set_up(cost, shifts_of(workpiece), progress);
+    workpiece.machine = workpiece.machine.with_workpiece_offset(found.best.offset);
+    return workpiece;
+}
+
+/// A workpiece with its uniform grid, and rows of grids on it.
+class Bench {
+public:
+    Bench(StudyCase of, Workpiece workpiece, GridInput input, const Progress& progress)
+        : of_(std::move(of)), workpiece_(std::move(workpiece)), input_(std::move(input)),
+          uniform_(evaluate(workpiece_, uniform_outcome(input_), report_samples, progress)) {}
+
+    [[nodiscard]] StudyRow uniform_row(StudyMethod method, const Progress& progress) const {
+        return {of_, method, figures_of(uniform_, workpiece_, progress), {}};
+    }
+    [[nodiscard]] StudyRow
+    improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
+        const Evaluation found =
+            improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress);
+        return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
+    }
+
+private:
+    StudyCase of_;
+    Workpiece workpiece_;
+    GridInput input_;
+    Evaluation uniform_;
+};
+
+std::vector<StudyRow> out_of_reach_rows(const StudyCase& of, const std::string& why) {
+    std::vector<StudyRow> rows;
+    for (const StudyMethod method : every_study_method) {
+        rows.push_back({of, method, std::nullopt, why});
+    }
+    return rows;
+}
+
+} // namespace
+
+std::string_view label(StudyMethod method) {
+    switch (method) {
+    case StudyMethod::uniform:
+        return "uniform";
+    case StudyMethod::elliptic:
+        return "elliptic";
+    case StudyMethod::tracks:
+        return "tracks";
+    case StudyMethod::chain:
+        return "chain";
+    case StudyMethod::set_up:
+        return "set-up";
+    case StudyMethod::set_up_chain:
+        return "set-up + chain";
+    }
+    return {};
+}
+
+std::vector<StudyCase> full_study() {
+    constexpr std::array points{15, 20, 30, 40, 60};
+    return cases_with(points, 20);
+}
+
+std::vector<StudyCase> quick_study() {
+    constexpr std::array points{12};
+    return cases_with(points, 8);
+}
+
+std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const Progress& progress) {
+    const Project project = project_of(of);
+    const Workpiece workpiece = workpiece_of(project, folders);
+    try {
+        std::vector<StudyRow> rows;
+        const Bench there(of, workpiece, project.grid, progress);
+        rows.push_back(there.uniform_row(StudyMethod::uniform, progress));
+        rows.push_back(
+            there.improved_row(StudyMethod::elliptic, GridMethod::elliptic, progress.part(0.02, 0.1)));
+        rows.push_back(there.improved_row(StudyMethod::tracks, GridMethod::tracks, progress.part(0.1, 0.15)));
+        rows.push_back(there.improved_row(StudyMethod::chain, GridMethod::chain, progress.part(0.15, 0.5)));
+        const Bench best(of, in_best_set_up(workpiece, progress.part(0.5, 0.6)), project.grid, progress);
+        rows.push_back(best.uniform_row(StudyMethod::set_up, progress));
+        rows.push_back(
+            best.improved_row(StudyMethod::set_up_chain, GridMethod::chain, progress.part(0.6, 1.0)));
+        return rows;
+    } catch (const Error& error) {
+        return out_of_reach_rows(of, error.diagnostic().message);
+    }
+}
+
+} // namespace millwright::project

@@ -1,0 +1,104 @@
+#include "core/project/kinematic_study.h"
+
+#include "core/base/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace millwright::project {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Folders folders{{}, "assets"};
+
+const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
+    return *std::ranges::find(rows, method, &StudyRow::method);
+}
+
+TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
+    for (const char* machine : {"rotary-tilt-listing", "bc-table-head", "ca-head"}) {
+        const auto rows = studied({"two-bell", machine, 8, 6}, folders, Progress());
+        ASSERT_EQ(rows.size(), every_study_method.size());
+        for (std::size_t n = 0; n < rows.size(); ++n) {
+            EXPECT_EQ(rows[n].method, every_study_method[n]);
+            ASSERT_TRUE(rows[n].figures) << machine << ": " << rows[n].note;
+        }
+        const auto mean = [&](StudyMethod method) { return row_of(rows, method).figures->error.mean; };
+        EXPECT_LE(mean(StudyMethod::elliptic), mean(StudyMethod::uniform)) << machine;
+        EXPECT_LT(mean(StudyMethod::tracks), mean(StudyMethod::uniform)) << machine;
+        EXPECT_LT(mean(StudyMethod::chain), mean(StudyMethod::uniform)) << machine;
+        EXPECT_LT(mean(StudyMethod::set_up_chain), mean(StudyMethod::set_up)) << machine;
+        EXPECT_EQ(row_of(rows, StudyMethod::set_up).figures->offset,
+                  row_of(rows, StudyMethod::set_up_chain).figures->offset);
+    }
+}
+
+TEST(KinematicStudy, TheDomeFarFromTheAxisGainsByItsSetUp) {
+    const auto rows = studied({"dome", "rotary-tilt-listing", 10, 6}, folders, Progress());
+    EXPECT_LT(row_of(rows, StudyMethod::set_up).figures->error.mean,
+              0.7 * row_of(rows, StudyMethod::uniform).figures->error.mean);
+}
+
+TEST(KinematicStudy, CoversFourSurfacesOnThreeMachines) {
+    EXPECT_EQ(full_study().size(), 4U * 3U * 5U);
+    EXPECT_EQ(quick_study().size(), 4U * 3U);
+}
+
+TEST(KinematicStudy, RefusesWhatItDoesNotKnow) {
+    EXPECT_THROW((void)studied({"dune", "ca-head", 8, 6}, folders, Progress()), Error);
+    EXPECT_THROW((void)studied({"dome", "no-machine", 8, 6}, folders, Progress()), Error);
+}
+
+std::vector<StudyRow> two_rows() {
+    StudyFigures figures;
+    figures.error.max = 1.5;
+    figures.error.mean = 0.25;
+    figures.error.axis_max = 0.1;
+    figures.offset = {1.0, 2.0, 3.0};
+    const StudyCase of{"dome", "ca-head", 15, 20};
+    std::vector<StudyRow> rows;
+    for (const StudyMethod method : every_study_method) {
+        rows.push_back({of, method, figures, {}});
+    }
+    rows.back().figures.reset();
+    rows.back().note = "a \"pose\", out of reach";
+    return rows;
+}
+
+TEST(KinematicStudyText, ForSpreadsheetsNamesEveryColumn) {
+    const std::string text = study_csv(two_rows());
+    EXPECT_THAT(text, StartsWith("surface,machine,points,tracks,method,max_mm,mean_mm,"));
+    EXPECT_THAT(text, HasSubstr("\ndome,ca-head,15,20,uniform,1.500000,0.250000,"));
+    EXPECT_THAT(text, HasSubstr(",,1.0000,2.0000,3.0000,\"\"\n")) << "no program, no time";
+    EXPECT_THAT(
+        text,
+        HasSubstr("\ndome,ca-head,15,20,set-up + chain,,,,,,,,,,,,,,\"a \"\"pose\"\", out of reach\"\n"));
+    const auto commas = [](const std::string& line) { return std::ranges::count(line, ','); };
+    EXPECT_EQ(commas(text.substr(0, text.find('\n'))), 18);
+}
+
+TEST(KinematicStudyText, ForProgramsIsJson) {
+    const auto json = nlohmann::json::parse(study_json(two_rows()));
+    ASSERT_EQ(json.at("rows").size(), every_study_method.size());
+    EXPECT_EQ(json.at("rows")[0].at("figures").at("max_mm"), 1.5);
+    EXPECT_TRUE(json.at("rows")[0].at("figures").at("time_s").is_null());
+    EXPECT_TRUE(json.at("rows").back().at("figures").is_null());
+}
+
+TEST(KinematicStudyText, ForPeopleIsATableASurfaceAndMachine) {
+    const std::string text = study_markdown(two_rows());
+    EXPECT_THAT(text, HasSubstr("## dome on ca-head, 20 tracks"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("| points | uniform | elliptic | tracks | chain | set-up | set-up + chain |\n|---|---|"));
+    EXPECT_THAT(text, HasSubstr("\n| 15 | 1.500 / 0.2500 / 5.7 | 1.500"));
+    EXPECT_THAT(text, HasSubstr("| out of reach |\n"));
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,43 @@
+#include "ui/viewport/chart_picture.h"
+
+#include "core/base/error.h"
+#include "ui/viewport/internal/desk.h"
+#include "ui/widgets/plot.h"
+
+namespace millwright::viewport {
+
+namespace {
+
+void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
+    ui.heading(chart.title);
+    std::vector<widgets::Series> series;
+    for (const ChartLine& line : chart.lines) {
+        series.push_back({.label = line.label, .x = line.x, .y = line.y});
+    }
+    widgets::PlotView view;
+    view.x_label = chart.x_label;
+    view.y_label = chart.y_label;
+    view.y_unit = chart.y_unit;
+    view.series = series;
+    view.y_is_log = chart.y_is_log;
+    view.y_from_zero = !chart.y_is_log;
+    view.height = height;
+    (void)widgets::line_plot(ui, chart.title, view);
+}
+
+} // namespace
+
+render::Picture
+chart_picture(const std::vector<Chart>& charts, const render::PixelSize& size, render::Theme theme) {
+    expects(!charts.empty(), "a picture has a chart");
+    constexpr float heading = 44.0F;
+    const float height = static_cast<float>(size.height) / static_cast<float>(charts.size()) - heading;
+    Desk desk(size, 1.0, theme);
+    return desk.picture([&](widgets::Ui& ui) {
+        for (const Chart& chart : charts) {
+            draw_chart(ui, chart, height);
+        }
+    });
+}
+
+} // namespace millwright::viewport
