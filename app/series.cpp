@@ -122,7 +122,23 @@ private:
             throw Error("there is nothing to go on with", file_);
         }
         for (const QueuedJob& job : left()) {
+            load_or_leave_out(job);
+        }
+    }
+
+    /// A program that cannot be had again as it was queued holds all others, unless a person leaves it out.
+    void load_or_leave_out(const QueuedJob& job) {
+        try {
             queue_->load(job.id, steps_.make(job.project, job.from_line));
+        } catch (const Error& error) {
+            if (choice_.confirmed ||
+                question(fmt::format("{} cannot go on: {}\ns: leave it out, anything else: not now > ",
+                                     job.project,
+                                     to_text(error.diagnostic())),
+                         stop_) != "s") {
+                throw;
+            }
+            queue_->remove(job.id);
         }
     }
 
@@ -149,24 +165,28 @@ private:
                         {},
                         "without --yes it is asked what becomes of it");
         }
-        const std::string answer = question(
-            fmt::format("{} did not come to its end: {}\nLook at the machine and the part.\n"
-                        "a: again from its beginning, a number: from this line, s: leave it out, anything "
-                        "else: not now > ",
-                        job.project,
-                        job.sentence),
-            stop_);
-        if (answer == "s") {
-            return Decision::leave_out;
+        const std::string story = fmt::format(
+            "{} did not come to its end: {}\nLook at the machine and the part.\n", job.project, job.sentence);
+        for (std::string before = story;;) {
+            const std::string answer =
+                question(before + "a: again from its beginning, a number: from this line, s: leave it out, "
+                                  "anything else: not now > ",
+                         stop_);
+            if (answer == "s") {
+                return Decision::leave_out;
+            }
+            const std::optional<int> line = answer == "a" ? 1 : number(answer);
+            if (!line) {
+                return Decision::not_now;
+            }
+            try {
+                queue_->load(job.id, steps_.make(job.project, *line));
+                queue_->release(job.id);
+                return Decision::begin;
+            } catch (const Error& error) { // a line that cannot be begun; another may be
+                before = to_text(error.diagnostic()) + "\n";
+            }
         }
-        const std::optional<int> line = answer == "a" ? 1 : number(answer);
-        if (!line) {
-            return Decision::not_now;
-        }
-        machine::Job again = steps_.make(job.project, *line);
-        queue_->load(job.id, std::move(again));
-        queue_->release(job.id);
-        return Decision::begin;
     }
 
     static std::optional<int> number(std::string_view text) {

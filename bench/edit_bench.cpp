@@ -1,5 +1,6 @@
 // What a person waits for while dragging a control point of a 20 x 20 project: surface, path and error at
 // once, the optimised grid soon after.
+#include "core/project/assets.h"
 #include "core/project/pipeline.h"
 #include "core/project/project_file.h"
 
@@ -10,12 +11,14 @@
 namespace millwright::project {
 namespace {
 
-const Folders folders{"assets/projects", "assets"};
+Folders folders() {
+    return {assets_folder() / "projects", assets_folder()};
+}
 
 Project sample(int index) {
     constexpr std::array names{"dome", "two-bell", "sine"};
-    return read_project(std::string("assets/projects/") + names.at(static_cast<std::size_t>(index)) +
-                        ".json");
+    return read_project(folders().project /
+                        (std::string(names.at(static_cast<std::size_t>(index))) + ".json"));
 }
 
 /// Moves a control point a little further each time.
@@ -27,7 +30,7 @@ void surface_path_and_error(benchmark::State& state) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const Workpiece workpiece = workpiece_of(project, folders);
+        const Workpiece workpiece = workpiece_of(project, folders());
         benchmark::DoNotOptimize(
             evaluate(workpiece, uniform_outcome(project.grid), live_samples, Progress()));
     }
@@ -37,7 +40,7 @@ void optimised_grid(benchmark::State& state, Effort effort) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const Workpiece workpiece = workpiece_of(project, folders);
+        const Workpiece workpiece = workpiece_of(project, folders());
         const int samples = effort == Effort::live ? live_samples : report_samples;
         const Evaluation uniform = evaluate(workpiece, uniform_outcome(project.grid), samples, Progress());
         benchmark::DoNotOptimize(
@@ -48,7 +51,7 @@ void optimised_grid(benchmark::State& state, Effort effort) {
 /// From the request to a publication that `fits`, through the pipeline's thread.
 template <class Fits> void through_the_pipeline(benchmark::State& state, Fits fits) {
     std::atomic<int> woken{0};
-    Pipeline pipeline(folders, [&] {
+    Pipeline pipeline(folders(), [&] {
         ++woken;
         woken.notify_all();
     });

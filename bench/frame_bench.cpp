@@ -2,6 +2,7 @@
 // the person who turns the view waits for it. In memory, so no display is needed.
 #include "core/geometry/mesh.h"
 #include "core/geometry/presets.h"
+#include "core/project/assets.h"
 #include "core/project/plan.h"
 #include "core/project/project_file.h"
 #include "ui/render/camera.h"
@@ -14,6 +15,8 @@
 
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
+
+#include <filesystem>
 
 namespace millwright::viewport {
 namespace {
@@ -108,9 +111,10 @@ void background(benchmark::State& state) {
 
 void view(benchmark::State& state) {
     const render::OffscreenContext context(pane);
-    const project::Project project = project::read_project("assets/projects/dome.json");
+    const std::filesystem::path assets = project::assets_folder();
+    const project::Project project = project::read_project(assets / "projects/dome.json");
     const project::Plan plan =
-        project::make_plan(project, {"assets/projects", "assets"}, Progress(), project::Scope::program);
+        project::make_plan(project, {assets / "projects", assets}, Progress(), project::Scope::program);
     const auto kind = static_cast<ViewKind>(state.range(1));
     SceneView drawn;
     drawn.update(scene_of(project, plan, kind));

@@ -7,6 +7,7 @@
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/motion/time_estimate.h"
+#include "core/project/assets.h"
 
 #include <benchmark/benchmark.h>
 
@@ -22,7 +23,7 @@ namespace {
 
 kinematics::MachineModel five_axes(bool jerk) {
     kinematics::MachineDescription machine =
-        kinematics::read_machine("assets/machines/ac-table.json").description();
+        kinematics::read_machine(project::assets_folder() / "machines/ac-table.json").description();
     for (auto* axes : {&machine.table, &machine.head}) {
         for (kinematics::MachineAxis& axis : *axes) {
             axis.max_jerk = jerk ? 20.0 * axis.max_acceleration : std::numeric_limits<double>::infinity();
@@ -116,7 +117,8 @@ gcode::Program sample(const kinematics::MachineModel& machine, const std::filesy
 void samples(benchmark::State& state, bool jerk) {
     const kinematics::MachineModel machine = five_axes(jerk);
     std::vector<gcode::Program> programs;
-    for (const auto& entry : std::filesystem::directory_iterator("assets/samples/gcode")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(project::assets_folder() / "samples/gcode")) {
         programs.push_back(sample(machine, entry.path()));
     }
     std::erase_if(programs, [](const gcode::Program& program) { return program.blocks.empty(); });

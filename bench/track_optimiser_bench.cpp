@@ -3,6 +3,7 @@
 #include "core/geometry/presets.h"
 #include "core/grid/track_optimiser.h"
 #include "core/kinematics/machine_file.h"
+#include "core/project/assets.h"
 #include "core/toolpath/kinematic_error.h"
 
 #include <benchmark/benchmark.h>
@@ -12,7 +13,7 @@ namespace {
 
 toolpath::KinematicError dome() {
     return {geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
-            kinematics::read_machine("assets/machines/rotary-tilt-listing.json"),
+            kinematics::read_machine(project::assets_folder() / "machines/rotary-tilt-listing.json"),
             false};
 }
 

@@ -81,21 +81,25 @@ private:
     std::int64_t count_ = 0;
 };
 
-void print_json(const gcode::Interpreter& program, std::int64_t moves) {
-    nlohmann::ordered_json errors = nlohmann::ordered_json::array();
-    for (const Diagnostic& error : program.errors()) {
+nlohmann::ordered_json as_json(const std::vector<Diagnostic>& errors) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Diagnostic& error : errors) {
         nlohmann::ordered_json entry;
         entry["file"] = error.place.file.string();
         entry["line"] = error.place.line;
         entry["column"] = error.place.column;
         entry["message"] =
             error.hint.empty() ? error.message : fmt::format("{} ({})", error.message, error.hint);
-        errors.push_back(std::move(entry));
+        list.push_back(std::move(entry));
     }
+    return list;
+}
+
+void print_json(const gcode::Interpreter& program, std::int64_t moves) {
     nlohmann::ordered_json answer;
     answer["lines"] = program.line_count();
     answer["moves"] = moves;
-    answer["errors"] = std::move(errors);
+    answer["errors"] = as_json(program.errors());
     if (program.further_errors() > 0) {
         answer["further_errors"] = program.further_errors();
     }
@@ -266,6 +270,7 @@ struct EstimatedTime {
     double seconds = 0.0;
     double length = 0.0; ///< mm
     int blocks = 0;
+    std::vector<Diagnostic> beyond_travel;
 };
 
 /// How long the machine takes: the duration of the motion that is planned for it. Throws Error with the first
@@ -294,17 +299,21 @@ EstimatedTime estimated_time(const Options& options) {
     for (const gcode::Block& block : rest.program.blocks) {
         estimate.add(block);
     }
-    return {estimate.finish(), rest.length, count};
+    return {estimate.finish(), rest.length, count, rest.beyond_travel};
 }
 
 int time(const Options& options) {
     const EstimatedTime found = estimated_time(options);
+    for (const Diagnostic& warning : found.beyond_travel) {
+        fmt::print(stderr, "millwright: {}\n", to_text(warning));
+    }
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["time_s"] = found.seconds;
         answer["length_mm"] = found.length;
         answer["blocks"] = found.blocks;
-        fmt::print("{}\n", answer.dump(2));
+        answer["warnings"] = as_json(found.beyond_travel);
+        fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
         fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
                    clock_time(found.seconds),

@@ -1,7 +1,7 @@
 #include "app/commands/jobs_command.h"
 
 #include "core/base/error.h"
-#include "core/machine/recovery.h"
+#include "core/machine/way_on.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <set>
 #include <string>
 
 namespace millwright::app {
@@ -38,20 +39,31 @@ nlohmann::ordered_json as_json(const machine::JobStory& story) {
             {"sentence", story.sentence}};
 }
 
-void show(const machine::JobStory& story) {
+void say_how_it_goes_on(const machine::JobStory& story) {
+    const machine::WayOn way = machine::way_on(story);
+    const bool from_line = way.why_the_beginning.empty();
+    fmt::print("    Look at the machine and the part. {}\n"
+               "    millwright {} {} --driver {}{} ...\n",
+               from_line ? "To go on before the first line that is not certain:"
+                         : fmt::format("It runs again from its beginning alone: {}.", way.why_the_beginning),
+               story.start.project.ends_with(".json") ? "run" : "send",
+               story.start.project,
+               story.start.driver,
+               from_line
+                   ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
+                   : std::string());
+}
+
+/// `told`: the programs of later jobs; what these have left is what counts.
+void show(const machine::JobStory& story, std::set<std::string>& told) {
     fmt::print("{}  {}  {}\n    {}\n",
                story.log_file.string(),
                story.start.started_at.empty() ? "-" : story.start.started_at,
                story.start.project,
                story.sentence);
-    if (story.broken_off() && story.next_line > 0 && story.executed_blocks < story.start.blocks) {
-        const bool is_project = story.start.project.ends_with(".json");
-        fmt::print(
-            "    Look at the machine and the part. To go on before the first line that is not certain:\n"
-            "    millwright {} {} --from-line {} ...\n",
-            is_project ? "run" : "send",
-            story.start.project,
-            story.next_line);
+    const bool latest = told.insert(story.start.project).second;
+    if (latest && !story.running && story.executed_blocks < story.start.blocks) {
+        say_how_it_goes_on(story);
     }
 }
 
@@ -67,8 +79,9 @@ int list_jobs(const Options& options) {
         }
         fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
+        std::set<std::string> told;
         for (const machine::JobStory& story : folder.jobs) {
-            show(story);
+            show(story, told);
         }
         if (folder.jobs.empty()) {
             fmt::print("No job logs in {}.\n", options.folder);

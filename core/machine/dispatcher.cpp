@@ -36,8 +36,10 @@ bool ended(DriverState state) {
 }
 
 std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed) {
-    const std::string executed = fmt::format(
-        "{} of {} blocks were executed in {}", status.executed_blocks, blocks, clock_time(elapsed));
+    const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}",
+                                             status.executed_blocks,
+                                             blocks,
+                                             clock_time(elapsed));
     switch (end) {
     case JobEnd::done:
         return fmt::format("All {} blocks were executed in {}.", blocks, clock_time(elapsed));
@@ -51,7 +53,7 @@ std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, dou
     const std::string why = status.state == DriverState::disconnected ? "the link was lost"
                             : status.message.empty()                  ? "the program did not get to its end"
                                                                       : status.message;
-    return fmt::format("Fault: {}; {} for certain.", why, executed);
+    return fmt::format("Fault: {}; {}.", why, executed);
 }
 
 } // namespace
@@ -217,10 +219,14 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const double fraction = planned_time() > 0.0
-                                    ? last_.planned_time / planned_time()
-                                    : static_cast<double>(last_.executed_blocks) / std::max(1, blocks());
-        progress.report(fraction, fmt::format("Block {} of {}", last_.executed_blocks, blocks()));
+        const double fraction =
+            planned_time() > 0.0
+                ? last_.planned_time / planned_time()
+                : static_cast<double>(std::max(last_.executed_blocks, last_.block)) / std::max(1, blocks());
+        const std::string sent = last_.sent_blocks > last_.executed_blocks
+                                     ? fmt::format(", {} sent", last_.sent_blocks)
+                                     : std::string();
+        progress.report(fraction, fmt::format("Block {} of {}{}", last_.executed_blocks, blocks(), sent));
         if (listener) {
             listener({last_, blocks(), elapsed(), planned_time()});
         }

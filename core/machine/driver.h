@@ -32,12 +32,14 @@ struct Capabilities {
     bool jog = false;
     std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
     bool home = false;
-    bool command = false;       ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
-    bool probe = false;         ///< G38.2 as a command
-    bool settings = false;      ///< has a table of its own that can be changed
-    bool single_block = false;  ///< can stand still after each block
-    bool optional_stop = false; ///< has a switch for M1 here
-    bool piecewise = false;     ///< gives a program to the controller bit by bit, and asks Work::ahead
+    std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
+    bool tells_spindle = true;      ///< whether it turns
+    bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
+    bool probe = false;             ///< G38.2 as a command
+    bool settings = false;          ///< has a table of its own that can be changed
+    bool single_block = false;      ///< can stand still after each block
+    bool optional_stop = false;     ///< has a switch for M1 here
+    bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
     std::optional<gcode::Dialect> dialect{}; ///< in which it reads text
 };
 

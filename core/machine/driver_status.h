@@ -69,9 +69,10 @@ struct DriverStatus {
     kinematics::AxisPositions velocity;
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;
-    int work_system = 0;     ///< in force, 1 is G54, 9 is G59.3; 0: not told
-    std::string modes;       ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not told
-    int block = -1;          ///< of the current or last program, in execution or next; -1 without one
+    int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not told
+    std::string modes;   ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not told
+    int block =
+        -1; ///< of the current or last program, in execution or next, as far as is known; -1 without one
     double fraction = 0.0;   ///< of that block
     int executed_blocks = 0; ///< of the current or last program, completely executed
     int sent_blocks = 0;     ///< of it, given to the controller; 0 where that is done at once

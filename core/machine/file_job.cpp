@@ -47,7 +47,7 @@ Job file_job(const std::filesystem::path& file,
         job = planned_job(text, file, std::move(machine), settings.start);
     }
     if (std::ranges::none_of(job.program->blocks, &gcode::Block::moves)) {
-        throw Error("the program moves nothing", file);
+        throw Error(Diagnostic{{file, 1, 1, -1}, "the program moves nothing", {}});
     }
     return job;
 }

@@ -1,12 +1,14 @@
 #include "core/machine/job.h"
 
-#include "core/base/units.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/line_ends.h"
 #include "core/gcode/reader/machine_program.h"
+#include "core/gcode/reader/word_column.h"
+#include "core/kinematics/travel.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -40,15 +42,10 @@ void check_axes(const gcode::Program& program, const MachineModel& machine, std:
     }
 }
 
-std::string outside_sentence(const MachineAxis& axis, double position) {
-    const bool rotary = axis.kind == AxisKind::rotary;
-    const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
-    return fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} {}",
-                       axis.letter,
-                       shown(position),
-                       shown(axis.min),
-                       shown(axis.max),
-                       rotary ? "deg" : "mm");
+/// The file whose lines the listing has; a project's program has none, and is called by its name.
+std::filesystem::path program_file(const Job& job) {
+    const std::filesystem::path file(job.project);
+    return file.empty() || file.extension() == ".json" ? std::filesystem::path(job.name) : file;
 }
 
 class BlockChecks {
@@ -59,15 +56,14 @@ public:
         const Block& block = job_.program->blocks[static_cast<std::size_t>(n)];
         for (int axis = 0; axis < job_.machine->axis_count(); ++axis) {
             const MachineAxis& limits = job_.machine->axis(axis);
-            const double position = block.target[axis];
-            const bool inside = position >= limits.min && position <= limits.max;
-            if (!inside && reported_.insert(limits.letter).second) {
-                report(n, outside_sentence(limits, position));
+            std::string sentence = kinematics::beyond_travel(limits, block.target[axis]);
+            if (!sentence.empty() && reported_.insert(limits.letter).second) {
+                report(n, limits.letter, std::move(sentence));
             }
         }
         const bool timed = block.kind == BlockKind::feed || block.kind == BlockKind::dwell;
         if (timed && !(std::isfinite(block.duration) && block.duration > 0.0)) {
-            report(n, fmt::format("a duration of {} s cannot be executed", block.duration));
+            report(n, 'F', fmt::format("a duration of {} s cannot be executed", block.duration));
         }
     }
 
@@ -76,9 +72,10 @@ private:
     std::vector<Diagnostic>& found_;
     std::set<char> reported_; ///< once an axis is enough
 
-    void report(int n, std::string sentence) {
+    void report(int n, char letter, std::string sentence) {
         const int line = job_.listing->line_of_block[static_cast<std::size_t>(n)];
-        found_.push_back({{job_.name, line, 0, -1}, std::move(sentence), {}});
+        const int column = std::max(1, gcode::column_of_word(job_.listing->line(line), letter));
+        found_.push_back({{program_file(job_), line, column, -1}, std::move(sentence), {}});
     }
 };
 
@@ -122,7 +119,7 @@ Job text_job(std::string text, const std::filesystem::path& file) {
         listing.line_starts.push_back(n + 1);
     }
     if (listing.line_of_block.empty()) {
-        throw Error("there is nothing in the program", file);
+        throw Error(Diagnostic{{file, 1, 1, -1}, "there is nothing in the program", {}});
     }
     Job job;
     job.name = file.stem().string();
@@ -148,7 +145,7 @@ Job planned_job(std::string_view text,
         }
     }
     if (made.program.blocks.empty()) {
-        throw Error("nothing in it is to be executed", file);
+        throw Error(Diagnostic{{file, 1, 1, -1}, "nothing in the program is to be executed", {}});
     }
     Job job;
     job.name = file.stem().string();
@@ -174,7 +171,7 @@ std::vector<Diagnostic> preflight(const Job& job) {
         return found;
     }
     if (program.blocks.empty() || program.blocks.back().kind != BlockKind::end) {
-        found.push_back({{job.name, 0, 0, -1}, "the program does not say where it ends", {}});
+        found.push_back({{program_file(job), 0, 0, -1}, "the program does not say where it ends", {}});
     }
     BlockChecks checks(job, found);
     for (int n = 0; n < program.block_count(); ++n) {

@@ -132,7 +132,7 @@ std::string PointPlayer::complaint() {
         return {};
     }
     if (const auto why = link_->lost()) {
-        return "the link was lost: " + *why;
+        return loss_sentence(*why);
     }
     inbox_.add(link_->read());
     while (const auto line = inbox_.next()) {

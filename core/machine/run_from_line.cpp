@@ -1,6 +1,7 @@
 #include "core/machine/run_from_line.h"
 
 #include "core/gcode/reader/interpreter.h"
+#include "core/machine/internal/approach_room.h"
 #include "core/machine/internal/bare_line.h"
 #include "core/machine/internal/program_from_line.h"
 #include "core/machine/modal_lines.h"
@@ -247,6 +248,7 @@ RunFrom run_from_line(std::string_view text,
     if (line < 1 || line > std::ssize(lines)) {
         refuse(file, line, fmt::format("the program has {} lines", lines.size()));
     }
+    internal::check_room_above(line, line, file);
     check_flow(lines, file);
     Watcher watcher;
     const ModalState state = state_before(text, file, line, settings.dialect, watcher);
@@ -269,12 +271,7 @@ RunFrom run_from_line(std::string_view text,
                           : state.unit == gcode::LengthUnit::mm ? slow_mm
                                                                 : slow_mm / gcode::mm_per_inch;
     const std::vector<std::string> before = approach(state, watcher, settings, *clearance, plunge);
-    if (line <= std::ssize(before)) {
-        refuse(file,
-               line,
-               fmt::format("line {} is among the first {}", line, before.size()),
-               "run it from its beginning");
-    }
+    expects(std::ssize(before) <= approach_lines, "an approach has its room above the line");
     RunFrom result{.text = {}, .line = line, .tool = state.selected_tool};
     for (const std::string& one : before) {
         result.text += one + "\n";

@@ -12,6 +12,13 @@
 
 namespace millwright::machine {
 
+/// Lines of a file that an approach may take: a program begins in its middle below them.
+constexpr int approach_lines = 11;
+
+[[nodiscard]] constexpr bool can_begin_at(int line) {
+    return line > approach_lines;
+}
+
 struct RunFromSettings {
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
     /// Z, in the work coordinates and the unit that are in force at the line, in which the tool can go
@@ -30,8 +37,8 @@ struct RunFrom {
 /// The approach: modes, tool, spindle and coolant; Z up to the clearance; the other axes; Z down at the feed
 /// in force. Throws Error with place and reason where nobody can know what was in force: programs with
 /// subroutines, loops or parameters; a line within a canned cycle or cutter compensation; after probing, or
-/// after the program itself has changed offsets; no feed, no clearance; a line among the first ten, which is
-/// run from the beginning as easily.
+/// after the program itself has changed offsets; no clearance; a line among the first
+/// `approach_lines`, which is run from the beginning as easily.
 [[nodiscard]] RunFrom run_from_line(std::string_view text,
                                     const std::filesystem::path& file,
                                     int line,

@@ -13,6 +13,7 @@ namespace millwright::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -88,7 +89,11 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     Ended ended = send({"--continue", "--yes"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("did not come to its end: Fault: "));
-    ended = send({"--continue"}, "20\ny\n"); // from line 20, then the other
+    EXPECT_THAT(
+        run({"jobs", logs}).out,
+        AnyOf(HasSubstr("send " + a + " --driver grbl --from-line "), HasSubstr("from its beginning")));
+    ended = send({"--continue"}, "5\n20\ny\n"); // line 5 cannot be begun; from line 20, then the other
+    EXPECT_THAT(ended.out, HasSubstr("line 5 is among the first 11"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));
     EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));
@@ -112,6 +117,25 @@ TEST_F(Series, AnotherProgramThanTheOneThatWasQueuedIsRefused) {
     const Ended ended = send({"--continue"}, "y\n");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("b is another program than the one that was queued"));
+}
+
+TEST_F(Series, AProgramThatCannotBeHadAgainIsLeftOutIfAPersonSaysSo) {
+    Emulator emulator(port, {"--speed", "50"});
+    EXPECT_EQ(send({a, b, c}, "no\n").exit_code, 1);
+    EXPECT_EQ(queue(), "a done b waiting c waiting ");
+    fs::remove(b);
+    Ended ended = send({"--continue"}, "later\n");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("b.ngc"));
+    EXPECT_EQ(queue(), "a done b waiting c waiting ");
+    ended = send({"--continue", "--yes"}, "s\n"); // nobody is asked
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("b.ngc"));
+    ended = send({"--continue"}, "s\ny\n");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr(b + " cannot go on: "));
+    EXPECT_FALSE(fs::exists(logs + "/b-0001.jsonl"));
+    EXPECT_TRUE(fs::exists(logs + "/c-0001.jsonl"));
 }
 
 TEST_F(Series, ProjectsFollowEachOtherOnOneMachine) {

@@ -203,10 +203,13 @@ void Controller::watch() {
     DriverStatus status = driver->status();
     auto settings = driver->settings();
     auto offsets = driver->stored_offsets();
+    machine::Capabilities can = driver->capabilities(); // a setting may change them
     bool changed = false;
     {
         const std::scoped_lock lock(mutex_);
-        changed = !looks_same(status, view_.status) || settings.size() != view_.settings.size();
+        changed = !looks_same(status, view_.status) || settings.size() != view_.settings.size() ||
+                  can.home != view_.can.home;
+        view_.can = std::move(can);
         view_.status = std::move(status);
         view_.settings = std::move(settings);
         view_.offsets = std::move(offsets);

@@ -60,7 +60,8 @@ Permission can_home(const Workbench& now) {
         return connected;
     }
     if (!now.controller.can.home) {
-        return Permission::refused("This machine cannot home.");
+        const std::string_view why = now.controller.can.why_no_home;
+        return Permission::refused(why.empty() ? "This machine cannot home." : std::string(why));
     }
     if (now.controller.status.link_lost) {
         return Permission::refused("The link is lost: reconnect first.");

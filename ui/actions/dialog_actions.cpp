@@ -31,8 +31,8 @@ Permission can_continue(const Workbench& now) {
         return found;
     }
     const machine::JobStory& story = now.broken_jobs->front();
-    if (story.next_line <= 1 || story.executed_blocks >= story.start.blocks) {
-        return Permission::refused("There is no line to begin at.");
+    if (story.executed_blocks >= story.start.blocks) {
+        return Permission::refused("Nothing is left of it.");
     }
     std::error_code none;
     return std::filesystem::is_regular_file(story.start.project, none)
@@ -76,7 +76,8 @@ void add_dialog_actions(Actions& actions) {
         {"broken_job.continue",
          dialog_menu,
          "Run from line",
-         "Opens the program and shows the approach to the first line that is not certain. Nothing moves yet.",
+         "Opens the program and shows the approach to the first line that is not certain, if one can be "
+         "begun there. Nothing moves yet.",
          "",
          ""},
         can_continue,

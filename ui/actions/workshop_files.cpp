@@ -1,5 +1,6 @@
 // The part of the workshop that deals with whole files: opening, saving, leaving, recovering.
 #include "core/base/error.h"
+#include "core/machine/way_on.h"
 #include "core/project/project_file.h"
 #include "ui/actions/workshop.h"
 
@@ -278,7 +279,9 @@ void Workshop::continue_broken_job() {
     }
     open(file);
     session_.workspace = Workspace::machine;
-    session_.begin = {true, story.next_line, std::nullopt, story.start.program_hash};
+    const bool in_the_middle = machine::why_not_from_line(story).empty();
+    session_.begin =
+        in_the_middle ? BeginAt{true, story.next_line, std::nullopt, story.start.program_hash} : BeginAt{};
     job_recovery_->dismiss();
 }
 

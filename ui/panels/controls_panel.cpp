@@ -159,14 +159,12 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
     const machine::DriverStatus& status = now.controller.status;
     const Permission can = can_command(now.controller);
-    // linuxcncrsh ends when it is asked for its spindle.
-    const bool tells_spindle = now.controller.choice.kind != machine::DriverKind::linuxcnc;
     const bool turning = status.spindle != gcode::SpindleTurning::stopped;
     ui.value("state",
              "Spindle",
-             !tells_spindle ? std::string("not told")
-             : turning      ? fmt::format("{:.0f} rpm", status.spindle_rpm)
-                            : std::string("stopped"));
+             !now.controller.can.tells_spindle ? std::string("not told")
+             : turning                         ? fmt::format("{:.0f} rpm", status.spindle_rpm)
+                                               : std::string("stopped"));
     const double rpm = now.session.hand.spindle_rpm;
     hand_number(ui,
                 ask,

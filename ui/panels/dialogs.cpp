@@ -1,5 +1,6 @@
 #include "ui/panels/dialogs.h"
 
+#include "core/machine/way_on.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
@@ -131,8 +132,9 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
                   catalogue_,
                   "broken_job.continue",
                   Rank::primary,
-                  story.next_line > 1 ? fmt::format("From line {} \u2026", story.next_line)
-                                      : std::string("From a line \u2026"));
+                  machine::why_not_from_line(story).empty()
+                      ? fmt::format("From line {} \u2026", story.next_line)
+                      : std::string("From its beginning \u2026"));
 }
 
 } // namespace millwright::panels

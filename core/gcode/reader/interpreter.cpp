@@ -64,8 +64,8 @@ struct Interpreter::Parts {
     bool execute_flow(Cursor& cursor);
     void repeat_from_the_top();
     void look_for_percent();
-    void check_repetition() const;
-    void report(const Refusal& refusal);
+    void check_repetition();
+    void report(SourcePlace place, const Refusal& refusal);
 
     ReaderSettings settings;
     Run run;
@@ -78,6 +78,7 @@ struct Interpreter::Parts {
     bool stopped = false;
     bool seen_text = false;   ///< a line that is not blank
     bool in_percents = false; ///< the program began with %
+    bool watching_turns = false;
 };
 
 void Interpreter::Parts::start() {
@@ -120,11 +121,13 @@ bool Interpreter::Parts::step() {
     }
     run.out.begin({files.place(), text});
     run.variables.program.line = files.place().line;
+    check_repetition();
     try {
-        check_repetition();
-        execute(text);
+        if (!stopped) {
+            execute(text);
+        }
     } catch (const Refusal& refusal) {
-        report(refusal);
+        report(files.place(), refusal);
     }
     if (run.ended && in_percents) {
         look_for_percent();
@@ -149,9 +152,23 @@ void Interpreter::Parts::look_for_percent() {
         internal::command_of(CommandKind::comment, "interpreter: percent sign missing from end of file"));
 }
 
-void Interpreter::Parts::check_repetition() const {
-    if (files.repeated_lines() > settings.most_repeated_lines) {
-        internal::refuse(1, "lines are executed again and again: the program does not seem to end");
+/// The outermost loop that has gone round in the second half of the patience is taken for the one without
+/// end.
+void Interpreter::Parts::check_repetition() {
+    const std::int64_t repeated = files.repeated_lines();
+    if (repeated <= settings.most_repeated_lines / 2) {
+        return;
+    }
+    if (!std::exchange(watching_turns, true)) {
+        flow.forget_turns();
+    }
+    if (repeated > settings.most_repeated_lines) {
+        stopped = true;
+        report(flow.turned().value_or(files.place()),
+               {1,
+                fmt::format("what begins here does not seem to end: more than {} lines were executed again",
+                            settings.most_repeated_lines),
+                {}});
     }
 }
 
@@ -167,11 +184,14 @@ void Interpreter::Parts::end_of_text() {
         if (in_percents) {
             internal::refuse(1, "the program begins with % and does not end with one", "M2 or % is missing");
         }
+        if (!seen_text) {
+            internal::refuse(1, "there is nothing in the program");
+        }
         if (!is_grbl()) {
             internal::refuse(1, "the program does not end: M2, M30 or % is missing");
         }
     } catch (const Refusal& refusal) {
-        report(refusal);
+        report(files.place(), refusal);
     }
     reset();
 }
@@ -266,13 +286,13 @@ void Interpreter::Parts::repeat_from_the_top() {
     run.ended = true;
 }
 
-void Interpreter::Parts::report(const Refusal& refusal) {
+void Interpreter::Parts::report(SourcePlace place, const Refusal& refusal) {
     if (std::ssize(errors) >= settings.most_errors) {
         ++further_errors;
         return;
     }
     Diagnostic found;
-    found.place = {files.name(), files.place().line, refusal.column, -1};
+    found.place = {files.name_of(place.file), std::max(place.line, 1), refusal.column, -1};
     found.message = refusal.rule;
     found.hint = refusal.hint;
     errors.push_back(std::move(found));

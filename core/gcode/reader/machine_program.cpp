@@ -5,6 +5,8 @@
 #include "core/gcode/reader/internal/chords.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
 #include "core/gcode/reader/line_ends.h"
+#include "core/gcode/reader/word_column.h"
+#include "core/kinematics/travel.h"
 
 #include <fmt/format.h>
 
@@ -70,7 +72,8 @@ public:
     }
 
     void move(const Move& move, const SourceLine& now) {
-        worded_ = now.place == move.source ? axes_with_words(now.text, machine_) : AxisSet();
+        text_ = now.place == move.source ? now.text : std::string_view();
+        worded_ = axes_with_words(text_, machine_);
         const AxisValues start = frame_.from_machine(at_);
         switch (move.kind) {
         case MoveKind::traverse:
@@ -88,7 +91,8 @@ public:
         }
     }
 
-    void curve(const Curve& curve) {
+    void curve(const Curve& curve, const SourceLine& now) {
+        text_ = now.place == curve.source ? now.text : std::string_view();
         worded_ = {};
         const AxisValues start = frame_.from_machine(at_);
         internal::curve_chords(start, curve, tolerance(), [&](const AxisValues& end) {
@@ -194,8 +198,10 @@ private:
     int selected_tool_ = 0;
     bool pallet_moves_ = false; ///< and then the program stops
     AxisValues at_;             ///< on the machine, mm and degrees
-    AxisSet worded_;            ///< axes that the move's line names
+    std::string_view text_;     ///< the line of the move at hand; empty where another line brought it
+    AxisSet worded_;            ///< axes that it names
     std::set<char> missing_;    ///< axes that were complained about
+    AxisSet beyond_;            ///< the same for their travel
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -254,9 +260,28 @@ private:
         add(BlockKind::end, source);
     }
 
-    void fault(SourcePlace source, std::string message) {
+    /// At the word of an axis, or where the line begins.
+    [[nodiscard]] Diagnostic diagnostic(SourcePlace source, char letter, std::string message) const {
+        const int word = letter == '\0' ? 0 : column_of_word(text_, letter);
+        return {{file_, source.line, word > 0 ? word : std::max(first_column(text_), 1), -1},
+                std::move(message),
+                {}};
+    }
+
+    void fault(SourcePlace source, char letter, std::string message) {
         if (result_.faults.size() < settings_.most_faults) {
-            result_.faults.push_back({{file_, source.line, 0, -1}, std::move(message), {}});
+            result_.faults.push_back(diagnostic(source, letter, std::move(message)));
+        }
+    }
+
+    void look_at_travel(int n, double position, SourcePlace source) {
+        if (beyond_.contains(n)) {
+            return;
+        }
+        const kinematics::MachineAxis& axis = machine_.axis(n);
+        if (std::string sentence = kinematics::beyond_travel(axis, position); !sentence.empty()) {
+            beyond_.insert(n);
+            result_.beyond_travel.push_back(diagnostic(source, axis.letter, std::move(sentence)));
         }
     }
 
@@ -268,7 +293,9 @@ private:
             if (std::abs(target[n] - at_[n]) > same_place && machine_.axis_index(letter) < 0) {
                 can = false;
                 if (missing_.insert(letter).second) {
-                    fault(source, fmt::format("the machine '{}' has no axis {}", machine_.name(), letter));
+                    fault(source,
+                          letter,
+                          fmt::format("the machine '{}' has no axis {}", machine_.name(), letter));
                 }
             }
         }
@@ -298,6 +325,7 @@ private:
             const std::optional<double> found = feed_.duration(at_, end);
             if (!found && !std::exchange(no_feed_said_, true)) {
                 fault(source,
+                      '\0',
                       "a feed move without a feed, or a revolution of a spindle that stands or whose speed "
                       "follows the diameter");
             }
@@ -314,6 +342,7 @@ private:
             const kinematics::MachineAxis& axis = machine_.axis(n);
             const double value = end[index_of(axis.letter)];
             block.target[n] = axis.kind == kinematics::AxisKind::rotary ? from_degrees(value) : value;
+            look_at_travel(n, block.target[n], source);
         }
         const double way = linear_distance(at_, end);
         block.feed = duration > 0.0 ? way / duration : 0.0;
@@ -351,8 +380,8 @@ void MachineProgramBuilder::move(const Move& move, const SourceLine& now) {
     parts_->move(move, now);
 }
 
-void MachineProgramBuilder::curve(const Curve& curve, const SourceLine&) {
-    parts_->curve(curve);
+void MachineProgramBuilder::curve(const Curve& curve, const SourceLine& now) {
+    parts_->curve(curve, now);
 }
 
 void MachineProgramBuilder::command(const Command& command, const SourceLine&) {

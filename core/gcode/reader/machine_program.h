@@ -29,7 +29,9 @@ struct MachineProgramSettings {
 struct MachineProgram {
     Program program;
     std::vector<Diagnostic> faults; ///< what this machine cannot do; such moves are left out
-    double length = 0.0;            ///< of the ways of X Y Z, rapids too, mm
+    /// Ways beyond the machine's travel, the first of each axis; these are in the program.
+    std::vector<Diagnostic> beyond_travel;
+    double length = 0.0; ///< of the ways of X Y Z, rapids too, mm
 };
 
 /// The lines of a G-code file with the blocks that were read from them.

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/machine/drivers/internal/console_tap.h"
 #include "core/machine/drivers/internal/controller_session.h"
+#include "core/machine/links/link.h"
 
 #include <chrono>
 #include <stop_token>
@@ -41,7 +42,7 @@ struct SessionDriver::Body {
         tap.received(bytes, now);
         session->receive(bytes, now);
         if (const auto why = link->lost(); why && !session->link_lost()) {
-            tap.note("the link was lost: " + *why, now);
+            tap.note(loss_sentence(*why), now);
             session->lost(*why);
         }
         session->tick(now);

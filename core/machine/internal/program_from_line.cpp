@@ -5,6 +5,7 @@
 #include "core/gcode/retract.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
+#include "core/machine/internal/approach_room.h"
 
 #include <fmt/format.h>
 
@@ -182,15 +183,10 @@ private:
 };
 
 /// Above `line` the words of the approach, and empty lines; from there on the lines of `whole`.
-Listing joined(const Job& job, const Program& approach, const Listing& whole, int block, int line) {
+Listing joined(const Program& approach, const Listing& whole, int block) {
     Listing words = gcode::write_gcode(approach, {});
     const int last = whole.line_of_block[static_cast<std::size_t>(block)];
-    if (words.line_count() >= last) {
-        refuse(job,
-               line,
-               fmt::format("line {} is among the first {}", line, words.line_count()),
-               "run it from its beginning");
-    }
+    expects(words.line_count() <= approach_lines, "an approach has its room above the line");
     Listing result;
     result.text = words.text + std::string(static_cast<std::size_t>(last - 1 - words.line_count()), '\n') +
                   whole.text.substr(whole.line_starts[static_cast<std::size_t>(last) - 1]);
@@ -212,8 +208,9 @@ Job program_from_line(const Job& job, int line, const RunFromSettings& settings)
     expects(job.listing != nullptr && job.program != nullptr && job.machine != nullptr,
             "a job with a program has its listing and a machine");
     const int block = first_block(job, line);
+    check_room_above(job.listing->line_of_block[static_cast<std::size_t>(block)], line, job.project);
     Program program = Approach(job, block, line, settings).make();
-    Listing listing = joined(job, program, *job.listing, block, line);
+    Listing listing = joined(program, *job.listing, block);
     program.blocks.insert(
         program.blocks.end(), job.program->blocks.begin() + block, job.program->blocks.end());
     Job result = job;

@@ -30,6 +30,10 @@ std::unique_ptr<Link> make_tcp_link(const std::string& address) {
 
 } // namespace
 
+std::string loss_sentence(const std::string& why) {
+    return why.starts_with(held_by_another) ? why : "the link was lost: " + why;
+}
+
 std::unique_ptr<Link> make_link(const std::string& address) {
     if (address.empty()) {
         throw Error("no port is named", {}, "a path as /dev/ttyUSB0, or tcp:HOST:PORT");

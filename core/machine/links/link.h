@@ -30,6 +30,12 @@ public:
     virtual void close() noexcept = 0;
 };
 
+/// A sentence for people of what Link::lost() says: "the link was lost: WHY", or that it was never ours.
+[[nodiscard]] std::string loss_sentence(const std::string& why);
+
+/// Begins Link::lost() where another client holds the port.
+inline constexpr std::string_view held_by_another = "the port is held by another client";
+
 /// The link that `address` names: `tcp:HOST:PORT`, `file:PATH` (only written to), else the path of a serial
 /// port (115200 baud, 8N1). Not opened yet. Throws Error if it is no address.
 [[nodiscard]] std::unique_ptr<Link> make_link(const std::string& address);

@@ -5,12 +5,16 @@
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace millwright::machine {
 
@@ -36,6 +40,51 @@ void make_raw(int handle) {
     if (::tcsetattr(handle, TCSANOW, &settings) != 0) {
         fail("cannot set up a pseudo-terminal");
     }
+}
+
+std::string first_line(const fs::path& file) {
+    std::ifstream stream(file);
+    std::string line;
+    std::getline(stream, line);
+    return line;
+}
+
+/// Whether this is the far end of terminal `number`, by what Linux tells of an open file.
+bool is_far_end(const fs::path& descriptor, const std::string& number) {
+    std::ifstream info(descriptor.parent_path().parent_path() / "fdinfo" / descriptor.filename());
+    for (std::string key, value; info >> key >> value;) {
+        if (key == "tty-index:") {
+            return value == number;
+        }
+    }
+    return false;
+}
+
+/// Nothing of a folder that is hidden, or goes meanwhile.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code gone;
+    for (fs::directory_iterator entry(folder, gone); entry != fs::directory_iterator() && !gone;
+         entry.increment(gone)) {
+        entries.push_back(entry->path());
+    }
+    return entries;
+}
+
+/// Of the processes that this user may look into; empty: none of them.
+std::string holder_of(const fs::path& near_end) {
+    for (const fs::path& process : entries_of("/proc")) {
+        const std::string id = process.filename().string();
+        if (id.find_first_not_of("0123456789") != std::string::npos) {
+            continue;
+        }
+        for (const fs::path& descriptor : entries_of(process / "fd")) {
+            if (is_far_end(descriptor, near_end.filename().string())) {
+                return fmt::format(", which {} (process {}) holds", first_line(process / "comm"), id);
+            }
+        }
+    }
+    return {};
 }
 
 } // namespace
@@ -81,6 +130,12 @@ void PseudoTerminal::make_symlink() {
     }
     std::error_code failure;
     if (fs::is_symlink(symlink_, failure)) {
+        const fs::path target = fs::read_symlink(symlink_, failure);
+        if (target != near_end_ && fs::exists(symlink_, failure)) {
+            throw Error(fmt::format("leads to {} already{}", target.string(), holder_of(target)),
+                        symlink_,
+                        "choose another link, end that program, or take the link away if it is an old one");
+        }
         fs::remove(symlink_, failure);
     }
     fs::create_symlink(near_end_, symlink_, failure);
@@ -106,16 +161,15 @@ std::optional<std::string> PseudoTerminal::lost() const {
 }
 
 void PseudoTerminal::close() noexcept {
+    if (near_handle_ >= 0) {
+        std::error_code ignored; // before the terminal ends, and another may have its name
+        if (!symlink_.empty() && fs::read_symlink(symlink_, ignored) == near_end_) {
+            fs::remove(symlink_, ignored);
+        }
+        ::close(near_handle_);
+        near_handle_ = -1;
+    }
     port_->close();
-    if (near_handle_ < 0) {
-        return;
-    }
-    ::close(near_handle_);
-    near_handle_ = -1;
-    std::error_code ignored;
-    if (!symlink_.empty() && fs::read_symlink(symlink_, ignored) == near_end_) {
-        fs::remove(symlink_, ignored);
-    }
 }
 
 } // namespace millwright::machine

@@ -19,7 +19,8 @@ public:
     /// Of the near end, once open.
     [[nodiscard]] std::filesystem::path path() const;
     [[nodiscard]] std::string name() const override;
-    /// A symbolic link that stands in the way is replaced, anything else is an Error.
+    /// A symbolic link that leads nowhere is replaced. Throws Error for anything else that stands in the
+    /// way: of a link to another terminal it says which program holds that, where the system tells.
     void open() override;
     void write(std::string_view bytes) override;
     [[nodiscard]] std::string read() override;

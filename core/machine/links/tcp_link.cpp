@@ -69,7 +69,12 @@ void TcpLink::wait(double seconds) {
 std::optional<std::string> TcpLink::lost() const {
     const std::optional<std::string> why = port_->lost();
     const std::string first = port_->first_line();
-    return why && first.starts_with("busy: ") ? first : why; // a TcpServer that has a client already
+    const std::size_t holder_end = first.find(" holds this port");
+    constexpr std::string_view busy = "busy: "; // so says a TcpServer that has a client already
+    if (!why || !first.starts_with(busy) || holder_end == std::string::npos) {
+        return why;
+    }
+    return fmt::format("{}, {}", held_by_another, first.substr(busy.size(), holder_end - busy.size()));
 }
 
 void TcpLink::close() noexcept {

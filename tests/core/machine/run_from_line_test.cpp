@@ -205,7 +205,9 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
     EXPECT_THAT(refusal(with_head("G53 G0 Z0\n"), 14), HasSubstr("machine position"));
     EXPECT_THAT(refusal(with_head("G28\nG0 X1 Y1\n"), 15), HasSubstr("tells Z since"));
     EXPECT_THAT(refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("among the first"));
+    EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("line 3 is among the first 11"));
+    EXPECT_THAT(refusal(with_head("G1 X1\n"), 11), HasSubstr("line 11 is among the first 11"));
+    EXPECT_EQ(refusal(with_head("G1 X1\n"), 12), "");
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
     EXPECT_THAT(refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 14, {.clearance = -5.0}), HasSubstr("is below"));
@@ -221,6 +223,13 @@ TEST(RunFromLine, NamesTheToolAndChangesItWhereTheProgramDoes) {
     const RunFrom rest = run_from_line(with_head("T4 M6\nG0 X5\n"), "test.ngc", 15, {});
     EXPECT_EQ(rest.tool, 4);
     EXPECT_THAT(rest.text, HasSubstr("T4 M6\n"));
+}
+
+TEST(RunFromLine, TheLongestApproachHasItsRoom) {
+    const std::string text =
+        "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 Z20\n\n\n\n\nG0 Z30\nG1 X1 Y2 F4\nM2\n";
+    const RunFrom rest = run_from_line(text, "test.ngc", 12, {});
+    EXPECT_THAT(rest.text, HasSubstr("G93\nG1 X1 Y2 F4\n"));
 }
 
 } // namespace

@@ -57,6 +57,11 @@ protected:
     }
 };
 
+TEST_F(MachineControls, DoNotHomeWhereTheControllerHasNoHoming) {
+    ASSERT_TRUE(rests());
+    EXPECT_THAT(person.refusal("inspector/finding/machine_home"), HasSubstr("($22=0)"));
+}
+
 TEST_F(MachineWithSwitches, IsHomed) {
     press("inspector/finding/machine_home");
     ASSERT_TRUE(person.live_until([this] { return status().activity == machine::Activity::homing; }));

@@ -165,18 +165,18 @@ TEST_F(MachineJobs, LogTheOverridesOfAPerson) {
 TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfAtTheStartAndGoOnFromTheirLine) {
     const test::ScratchFolder folder;
     const auto file = program(folder.path());
-    const auto log = broken_log(folder / "logs", file, 10);
+    const auto log = broken_log(folder / "logs", file, 11);
     GrblBench grbl;
     Person person({1280, 800}, {}, folder / "logs");
     person.wait_idle();
     ASSERT_TRUE(person.sees("dialogs/broken_job/broken_job_continue"));
-    EXPECT_THAT(person.workshop().look().broken_jobs->front().sentence, HasSubstr("10 of 15 blocks"));
+    EXPECT_THAT(person.workshop().look().broken_jobs->front().sentence, HasSubstr("11 of 15 blocks"));
     person.keep("job-recovery");
     person.click("dialogs/broken_job/broken_job_continue");
     person.wait_idle();
     EXPECT_FALSE(person.workshop().look().asks());
     EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
-    EXPECT_EQ(person.workshop().session().begin.line, 11);
+    EXPECT_EQ(person.workshop().session().begin.line, 12);
     EXPECT_FALSE(person.workshop().look().job.running);
     connect(person, grbl);
     person.wait_idle();

@@ -36,6 +36,15 @@ Cutter cutter_of_words(const Block& block, const ModalState& s, int code) {
     return {0.5 * block['D'], orientation};
 }
 
+/// A length of the tool table in the program's unit, rounded as LinuxCNC rounds it, for which an inch is
+/// 1 / 0.03937007874016 mm: on that hangs whether a move as long as the radius is longer, as many programs
+/// have it.
+double table_length(const Run& run, double length) {
+    constexpr double inches_of_mm = 0.03937007874016;
+    const double mm = run.settings.machine_unit == LengthUnit::inch ? length / inches_of_mm : length;
+    return run.state.unit == LengthUnit::inch ? mm / mm_per_inch : mm;
+}
+
 Cutter cutter_of_table(Run& run, const Block& block, int code) {
     const int column = block.column_of(GGroup::cutter_compensation);
     Tool tool = run.state.spindle_tool;
@@ -55,7 +64,7 @@ Cutter cutter_of_table(Run& run, const Block& block, int code) {
     if (lathe_tool && run.state.plane != Plane::xz) {
         refuse(column, fmt::format("G{} with a lathe tool works in the XZ plane (G18) only", code / 10));
     }
-    return {0.5 * tool.diameter * run.machine_to_program(), tool.orientation};
+    return {0.5 * table_length(run, tool.diameter), tool.orientation};
 }
 
 double left_or_right(const ModalState& s) {
@@ -140,7 +149,7 @@ void enter_straight(Run& run, Move move, const AxisValues& end) {
     const PlaneAxes axes = axes_of(s.plane);
     const Vec2 from = in_plane(s.position, axes);
     const Vec2 to = in_plane(end, axes);
-    if (!((to - from).norm() > s.cutter.radius)) {
+    if (!(std::hypot(to.x() - from.x(), to.y() - from.y()) > s.cutter.radius)) {
         refuse(1, "the move onto the compensated path must be longer than the tool's radius");
     }
     const Vec2 direction = (to - from).normalized();

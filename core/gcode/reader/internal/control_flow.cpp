@@ -117,7 +117,7 @@ void ControlFlow::open_block(const Line& line, Cursor& cursor, OWord kind) {
         refuse(line.column, fmt::format("blocks are nested more than {} deep", deepest_blocks));
     }
     expect_end_of_o_line(cursor);
-    open_.push_back({kind, line.label, files_.here()});
+    open_.push_back({kind, line.label, files_.here(), run_.out.place()});
 }
 
 bool ControlFlow::condition(Cursor& cursor) const {
@@ -168,7 +168,7 @@ void ControlFlow::while_or_end_of_do(const Line& line, Cursor& cursor) {
     const Open* open = find_open(line.label);
     if (open != nullptr && open->kind == OWord::do_) {
         if (condition(cursor)) {
-            files_.go_to(open->begin);
+            go_round(*open);
         } else {
             close(line.label);
         }
@@ -210,11 +210,36 @@ void ControlFlow::end_loop(const Line& line, OWord kind) {
         close(line.label);
         return;
     }
-    const Bookmark begin = open->begin;
+    go_round(*open);
     if (kind == OWord::while_) {
         close(line.label); // its line opens it again
     }
-    files_.go_to(begin);
+}
+
+void ControlFlow::go_round(const Open& open) {
+    note_turn(outer_depth() + static_cast<std::size_t>(&open - open_.data()), open.place);
+    files_.go_to(open.begin);
+}
+
+void ControlFlow::note_turn(std::size_t depth, SourcePlace place) {
+    if (!turned_ || depth < turned_->depth) {
+        turned_ = {depth, place};
+    }
+}
+
+std::size_t ControlFlow::outer_depth() const {
+    std::size_t depth = 0;
+    for (const Frame& frame : frames_) {
+        depth += frame.caller_open.size() + 1;
+    }
+    return depth;
+}
+
+std::optional<SourcePlace> ControlFlow::turned() const {
+    if (turned_) {
+        return turned_->place;
+    }
+    return frames_.empty() ? std::nullopt : std::optional(frames_.front().called_from);
 }
 
 void ControlFlow::break_or_continue(const Line& line) {
@@ -225,15 +250,14 @@ void ControlFlow::break_or_continue(const Line& line) {
     const bool is_while = open->kind == OWord::while_;
     const SourcePlace place = run_.out.place();
     if (line.word == OWord::continue_ && is_while) {
-        const Bookmark begin = open->begin;
+        go_round(*open);
         close(line.label);
-        files_.go_to(begin);
         return;
     }
     Cursor cursor{std::string_view()};
     skip_to(line.label, {is_while ? OWord::endwhile : OWord::while_}, &cursor, place);
     if (line.word == OWord::continue_ && condition(cursor)) {
-        files_.go_to(find_open(line.label)->begin);
+        go_round(*find_open(line.label));
         return;
     }
     close(line.label);

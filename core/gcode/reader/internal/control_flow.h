@@ -48,13 +48,23 @@ public:
     /// Where the innermost subroutine was called; line 0 outside of any.
     [[nodiscard]] SourcePlace called_from() const;
 
+    /// The outermost loop that has gone round since forget_turns(): where it begins. Without one, where the
+    /// outermost subroutine was called that is being executed.
+    [[nodiscard]] std::optional<SourcePlace> turned() const;
+    void forget_turns() { turned_.reset(); }
+
 private:
     /// An if, a loop or a definition that is open.
     struct Open {
         OWord kind = OWord::if_;
         std::string label;
         Bookmark begin; ///< of a while: before its line; of do and repeat: behind it
+        SourcePlace place;
         int repeats = 0;
+    };
+    struct Turn {
+        std::size_t depth = 0; ///< of blocks that are open round it
+        SourcePlace place;
     };
     struct Frame {
         std::string name;
@@ -102,6 +112,10 @@ private:
     /// text. If it is asked for, `cursor` is behind the word.
     OWord
     skip_to(const std::string& label, std::initializer_list<OWord> words, Cursor* cursor, SourcePlace opened);
+    void go_round(const Open& open);
+    void note_turn(std::size_t depth, SourcePlace place);
+    /// Blocks that are open in the subroutines that wait.
+    [[nodiscard]] std::size_t outer_depth() const;
     [[nodiscard]] Open* find_open(const std::string& label);
     void close(const std::string& label);
     [[nodiscard]] std::string scope() const { return frames_.empty() ? std::string() : frames_.back().name; }
@@ -114,6 +128,7 @@ private:
     std::map<std::string, SourcePlace, std::less<>> defined_at_;
     std::map<std::string, Label, std::less<>> labels_;
     std::string skipped_line_;
+    std::optional<Turn> turned_;
 };
 
 } // namespace millwright::gcode::internal

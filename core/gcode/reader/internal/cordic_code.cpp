@@ -1,7 +1,7 @@
 #include "core/gcode/reader/internal/cordic_code.h"
 
 #include "core/cordic/arithmetic.h"
-#include "core/gcode/reader/internal/word_column.h"
+#include "core/gcode/reader/word_column.h"
 
 #include <fmt/format.h>
 

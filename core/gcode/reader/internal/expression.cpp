@@ -223,7 +223,9 @@ double read_parameter(Cursor& cursor, const Variables& variables) {
     const std::string name = read_name(cursor);
     const auto value = variables.named(name);
     if (!value) {
-        refuse(column, fmt::format("the parameter #<{}> is not defined", name));
+        refuse(column,
+               fmt::format("the parameter #<{}> is not defined", name),
+               "a line sets parameters when all of it is read");
     }
     return *value;
 }

@@ -27,7 +27,9 @@ public:
     [[nodiscard]] SourcePlace place() const {
         return {files_[present_].source->line_number(), static_cast<int>(present_)};
     }
-    [[nodiscard]] const std::filesystem::path& name() const { return files_[present_].source->name(); }
+    [[nodiscard]] const std::filesystem::path& name_of(int file) const {
+        return files_[static_cast<std::size_t>(file)].source->name();
+    }
 
     [[nodiscard]] Bookmark here() const {
         return {static_cast<int>(present_), files_[present_].source->position()};

@@ -153,6 +153,7 @@ bool ControlFlow::return_fanuc() {
         refuse(1, "M99 returns from a subprogram that M98 called; this one ends by endsub");
     }
     if (frames_.back().repeats-- > 0) {
+        note_turn(outer_depth() - 1, frames_.back().called_from);
         files_.go_to(frames_.back().begin);
         return true;
     }

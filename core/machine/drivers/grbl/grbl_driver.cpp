@@ -24,12 +24,17 @@ Session& GrblDriver::talk() const {
 
 Capabilities GrblDriver::capabilities() const {
     using kinematics::AxisKind;
+    constexpr int homing_cycle = 22;
+    const auto settings = readout().settings;
+    const auto cycle = settings.find(homing_cycle);
+    const bool homes = cycle == settings.end() || cycle->second > 0.0;
     return {.plans = true,
             .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
             .overrides = true,
             .other_overrides = true,
             .jog = true,
-            .home = true,
+            .home = homes,
+            .why_no_home = homes ? "" : "Homing is switched off in this controller ($22=0).",
             .command = true,
             .probe = true,
             .settings = true,

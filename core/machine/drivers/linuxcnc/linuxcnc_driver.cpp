@@ -61,6 +61,7 @@ Capabilities LinuxCncDriver::capabilities() const {
     using kinematics::AxisKind;
     Capabilities able;
     able.plans = able.overrides = able.jog = able.home = able.command = true;
+    able.tells_spindle = false; // linuxcncrsh ends when it is asked for its spindle
     able.jog_axes = "XYZ";
     able.dialect = gcode::Dialect::linuxcnc;
     for (const char letter : options_.axes) {

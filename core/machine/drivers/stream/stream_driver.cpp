@@ -56,7 +56,7 @@ DriverStatus StreamDriver::status() const {
         status.state = DriverState::alarm;
         status.activity = Activity::none;
         status.link_lost = true;
-        status.message = "the link was lost: " + lost_;
+        status.message = loss_sentence(lost_);
     }
     return status;
 }
@@ -242,7 +242,7 @@ template <class Act> auto StreamDriver::between_records(const Act& act) {
     std::unique_lock lock(mutex_);
     landed_.wait(lock, [this] { return !in_flight_ || !lost_.empty(); });
     if (!lost_.empty()) {
-        throw Error("the link was lost: " + lost_, {}, "look at the machine, then reset it");
+        throw Error(loss_sentence(lost_), {}, "look at the machine, then reset it");
     }
     return act();
 }

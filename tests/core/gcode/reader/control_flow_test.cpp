@@ -113,5 +113,24 @@ TEST(ControlFlow, DefinitionsThatRunIntoTheEndNameTheirBeginning) {
     EXPECT_EQ(error_of("G0 X1\nO1 while [0]\nG0 X2"), "4:1: O1 of line 2 is not closed");
 }
 
+TEST(ControlFlow, TakesTheOutermostLoopThatGoesRoundForTheEndlessOne) {
+    const auto line_of_error = [](const std::string& text) {
+        ReaderSettings settings;
+        settings.most_repeated_lines = 20'000;
+        settings.most_errors = 100;
+        const auto errors = test::read_all(text, settings).errors;
+        EXPECT_EQ(errors.size(), 1U);
+        return errors.empty() ? 0 : errors.front().place.line;
+    };
+    const std::string inner = "O2 repeat [50]\nG0 X1\nX2\nO2 endrepeat\n";
+    EXPECT_EQ(line_of_error("G21 G90\nO1 while [1]\n" + inner + "O1 endwhile\nM2\n"), 2);
+    EXPECT_EQ(line_of_error("G21 G90\nO1 do\n" + inner + "O1 while [1]\nM2\n"), 2);
+    EXPECT_EQ(line_of_error("O2 repeat [9]\nG0 X1\nO1 while [1]\nG0 X2\nO1 endwhile\nO2 endrepeat\nM2\n"), 3);
+    EXPECT_EQ(line_of_error("O9 sub\n" + inner + "O9 endsub\nO1 while [1]\nO9 call\nO1 endwhile\nM2\n"), 7);
+    EXPECT_EQ(line_of_error("O9 sub\nO1 do\nG0 X1\nO1 while [1]\nO9 endsub\nG0 X0\nO9 call\nM2\n"), 2);
+    EXPECT_EQ(line_of_error("G21\nM98 P7 L1000000\nM2\nO7\nG0 X1\nX2\nM99\n"), 2);
+    EXPECT_EQ(line_of_error("O1 while [1]\nG0 X1\nO1 continue\nO1 endwhile\nM2\n"), 1);
+}
+
 } // namespace
 } // namespace millwright::gcode

@@ -114,6 +114,8 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
                             13);
     EXPECT_EQ(error_of(bytes), "2:1: byte 0x7F is no character of a program");
     EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 is no character of a program");
+    EXPECT_EQ(error_of("\xEF\xBB\xBFG0 X1\n"), "1:1: a byte order mark (of UTF-8) begins no word");
+    EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the text is UTF-16");
 }
 
 TEST(Interpreter, StateTellsWhatIsInForce) {
@@ -200,6 +202,16 @@ TEST(Interpreter, AFileThatCannotBeReadIsAnError) {
     EXPECT_THROW(Interpreter(std::filesystem::path("no/such/file.ngc"), {}, none), Error);
     Interpreter folder(std::filesystem::path("/"), {}, none);
     EXPECT_THROW(folder.step(), Error);
+}
+
+TEST(Interpreter, SaysThatThereIsNothing) {
+    for (const std::string text : {"", "\n", " \n\t\n"}) {
+        const auto errors = test::read_all(text).errors;
+        ASSERT_EQ(errors.size(), 1U);
+        EXPECT_EQ(errors[0].message, "there is nothing in the program");
+        EXPECT_GE(errors[0].place.line, 1);
+        EXPECT_EQ(errors[0].place.column, 1);
+    }
 }
 
 } // namespace

@@ -183,6 +183,7 @@ TEST_F(Rs274Reader, RefusesMostOfTheBadProgramsToo) {
                                              "io-channel",
                                              "nested-deep",
                                              "number-huge",
+                                             "parameter-same-line",
                                              "spline-first",
                                              "value-too-large"};
     for (const auto& entry : std::filesystem::directory_iterator("tests/golden/gcode-bad")) {
@@ -191,6 +192,26 @@ TEST_F(Rs274Reader, RefusesMostOfTheBadProgramsToo) {
             EXPECT_TRUE(theirs(entry.path()).refused) << name;
         }
     }
+}
+
+// Programs come onto the path by a move exactly as long as the radius; then roundings decide.
+TEST_F(Rs274Reader, JudgesAMoveAsLongAsTheRadiusByTheSameRoundings) {
+    const std::string rest = "G1 Y9 F100\nX-9\nG40\nM2\n";
+    int number = 0;
+    for (const std::string compensation : {"T1 M6\nG41", "G41.1 D0.125", "G42.1 D0.125"}) {
+        for (const std::string end :
+             {"X0.0625 Y0", "X0.0375 Y0.05", "X0.05 Y-0.0375", "X0.0624999999999 Y0"}) {
+            expect_same_text(fmt::format("G20 G90 G17\nG0 X0 Y0\n{} G0 {}\n{}", compensation, end, rest),
+                             "entry " + std::to_string(++number));
+        }
+    }
+    for (const std::string end : {"X1.5875 Y0", "X0.9525 Y1.27", "X1.58749999 Y0", "X1.5876 Y0"}) {
+        expect_same_text(fmt::format("G21 G90 G17\nT1 M6\nG41 G0 {}\n{}", end, rest),
+                         "entry " + std::to_string(++number));
+        expect_same_text(fmt::format("G21 G90 G17\nG41.1 D3.175 G0 {}\n{}", end, rest),
+                         "entry " + std::to_string(++number));
+    }
+    EXPECT_EQ(number, 20);
 }
 
 } // namespace

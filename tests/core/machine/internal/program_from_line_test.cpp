@@ -199,7 +199,9 @@ TEST(ProgramFromLine, RefusesLinesThatCannotBeBegun) {
     };
     EXPECT_THAT(refusal(0), HasSubstr("the program has"));
     EXPECT_THAT(refusal(10'000), HasSubstr("the program has"));
-    EXPECT_THAT(refusal(2), HasSubstr("among the first"));
+    EXPECT_THAT(refusal(2), HasSubstr("line 2 is among the first 11"));
+    EXPECT_THAT(refusal(11), HasSubstr("line 11 is among the first 11"));
+    EXPECT_EQ(refusal(12), "");
     EXPECT_THAT(refusal(30, -50.0), HasSubstr("is below"));
     EXPECT_EQ(refusal(30, 55.0), "");
 }

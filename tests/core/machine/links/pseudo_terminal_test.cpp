@@ -5,9 +5,12 @@
 #include "tests/core/machine/links/reading.h"
 #include "tests/support/scratch_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <string>
 
 namespace millwright::machine {
 namespace {
@@ -60,6 +63,43 @@ TEST(PseudoTerminal, ReplacesALinkButNoFile) {
     std::ofstream(scratch / "file") << "precious";
     EXPECT_THROW(PseudoTerminal(scratch / "file").open(), Error);
     EXPECT_TRUE(std::filesystem::is_regular_file(scratch / "file"));
+}
+
+TEST(PseudoTerminal, LeavesALinkToAnotherThatLives) {
+    const test::ScratchFolder scratch;
+    const auto path = scratch / "grbl";
+    PseudoTerminal first(path);
+    first.open();
+    {
+        PseudoTerminal second(path);
+        try {
+            second.open();
+            ADD_FAILURE() << "the link was taken over";
+        } catch (const Error& error) {
+            EXPECT_THAT(
+                to_text(error.diagnostic()),
+                testing::AllOf(testing::HasSubstr(first.path().string()),
+                               testing::HasSubstr("(process " + std::to_string(::getpid()) + ") holds")));
+        }
+    }
+    EXPECT_EQ(std::filesystem::read_symlink(path), first.path());
+    first.close();
+    EXPECT_FALSE(std::filesystem::is_symlink(path));
+    PseudoTerminal third(path);
+    third.open();
+    EXPECT_EQ(std::filesystem::read_symlink(path), third.path());
+}
+
+TEST(PseudoTerminal, LeavesALinkThatAnotherHasMadeSince) {
+    const test::ScratchFolder scratch;
+    const auto path = scratch / "grbl";
+    PseudoTerminal first(path);
+    first.open();
+    std::filesystem::remove(path);
+    PseudoTerminal second(path);
+    second.open();
+    first.close();
+    EXPECT_EQ(std::filesystem::read_symlink(path), second.path());
 }
 
 TEST(SerialLink, IsForOneProgramAtATime) {

@@ -34,7 +34,7 @@ TEST(TcpServer, KeepsASecondClientOutAndSaysWhoHoldsIt) {
     const std::string expected = "busy: " + holder + " holds this port\r\n";
     EXPECT_EQ(test::read_bytes(second, expected.size()), expected);
     test::wait_until([&] { return second.lost().has_value(); });
-    EXPECT_EQ(second.lost(), "busy: " + holder + " holds this port");
+    EXPECT_EQ(second.lost(), "the port is held by another client, " + holder);
     EXPECT_FALSE(first.lost());
 }
 
@@ -49,7 +49,7 @@ TEST(TcpServer, TellsWhoHoldsItAlsoToWhoTalksFirst) {
         second.open();
         second.write("hello EMC x 1.1\r\nset echo off\r\n");
         test::wait_until([&] { return second.lost().has_value(); });
-        EXPECT_EQ(second.lost(), "busy: " + server.holder() + " holds this port");
+        EXPECT_EQ(second.lost(), "the port is held by another client, " + server.holder());
     }
 }
 

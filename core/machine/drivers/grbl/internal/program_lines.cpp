@@ -156,13 +156,24 @@ std::string_view why_not(std::string_view text) {
     return text.starts_with("$X") ? "use reset for it" : "it changes how the controller works as a whole";
 }
 
-ProgramLine line_of(std::string text, const Place& place, std::size_t longest) {
+/// Column of the first character of `line` that Grbl would not take any more.
+int column_beyond(std::string_view line, const Place& place, std::size_t longest) {
+    std::size_t within = 0;
+    for (std::size_t beyond = line.size(); beyond - within > 1;) {
+        const std::size_t half = within + (beyond - within) / 2;
+        const bool fits = without_line_number(bare_text(line.substr(0, half), place)).size() <= longest;
+        (fits ? within : beyond) = half;
+    }
+    return static_cast<int>(within) + 1;
+}
+
+void check_length(std::string_view text, std::string_view whole, Place place, std::size_t longest) {
     if (text.size() > longest) {
+        place.column = whole.find('$') == std::string_view::npos ? column_beyond(whole, place, longest) : 1;
         fail(place,
              fmt::format("the line has {} characters and Grbl takes {}", text.size(), longest),
              "write it in two lines");
     }
-    return {.text = std::move(text), .line = place.line};
 }
 
 } // namespace
@@ -182,7 +193,8 @@ program_lines(const gcode::Listing& listing, const std::filesystem::path& file, 
         if (text.empty()) {
             continue;
         }
-        ProgramLine line = line_of(std::move(text), place, longest);
+        check_length(text, listing.line(number), place, longest);
+        ProgramLine line{.text = std::move(text), .line = number};
         line.block = listing.block_at_line(number);
         if (const auto words = words_of(line.text)) {
             line.surely_moves = sure.surely_moves(*words);
@@ -208,7 +220,8 @@ ProgramLines command_lines(std::string_view text, std::size_t longest) {
             fail(place, fmt::format("{} is not taken as a line", bare), std::string(why));
         }
         if (!bare.empty()) {
-            result.lines.push_back(line_of(std::move(bare), place, longest));
+            check_length(bare, line, place, longest);
+            result.lines.push_back({.text = std::move(bare), .line = place.line});
             result.lines.back().block = result.blocks++;
         }
     }

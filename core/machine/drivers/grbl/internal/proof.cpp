@@ -28,17 +28,37 @@ int Proof::before(int line, int sure_moves) const {
     return line;
 }
 
-int Proof::bound(const StatusMessage& report) const {
-    int used = planner_blocks_;
-    if (report.free_blocks) {
-        used = std::clamp(planner_blocks_ - *report.free_blocks, 0, planner_blocks_);
+std::optional<int> Proof::used_blocks(const StatusMessage& report) const {
+    return report.free_blocks
+               ? std::optional(std::clamp(planner_blocks_ - *report.free_blocks, 0, planner_blocks_))
+               : std::nullopt;
+}
+
+int Proof::reported_line(int number) const {
+    const auto& lines = program_->lines;
+    const auto found =
+        std::ranges::lower_bound(lines, number - 1, {}, [](const ProgramLine& line) { return line.block; });
+    return static_cast<int>(found - lines.begin());
+}
+
+int Proof::at_hand(const StatusMessage& report) const {
+    if (report.line && *report.line > 0) {
+        return std::min(reported_line(*report.line), acknowledged_);
     }
-    int result = before(acknowledged_, used + segment_blocks);
+    const std::optional<int> used = used_blocks(report);
+    return used ? before(acknowledged_, *used) : 0;
+}
+
+int Proof::bound(const StatusMessage& report) const {
+    const std::optional<int> used = used_blocks(report);
+    constexpr int at_rest = 0; // of Hold: nothing is on its way from the planner to the motors any more
+    if (report.state == MachineState::hold && report.sub_state == at_rest && used == 0) {
+        return acknowledged_; // the program pauses: a hold in the middle of a block leaves that in the
+                              // planner
+    }
+    int result = before(acknowledged_, used.value_or(planner_blocks_) + segment_blocks);
     if (report.line) {
-        const auto& lines = program_->lines;
-        const auto found = std::ranges::lower_bound(
-            lines, *report.line - 1, {}, [](const ProgramLine& line) { return line.block; });
-        const int at = static_cast<int>(found - lines.begin());
+        const int at = reported_line(*report.line);
         // A line that is being planned may be in motion before it is acknowledged; none after it can be.
         const int by_line = at <= acknowledged_ ? before(at, segment_blocks) : 0;
         result = report.free_blocks ? std::min(result, by_line) : std::max(result, by_line);
@@ -52,6 +72,7 @@ void Proof::reported(const StatusMessage& report, bool all_answered) {
     }
     idle_reports_ = report.state == MachineState::idle && all_answered ? idle_reports_ + 1 : 0;
     const int now = bound(report);
+    at_hand_ = at_hand(report);
     executed_ = std::max(executed_, std::min(now, last_bound_)); // one report could be a changed one
     last_bound_ = now;
     if (settled()) {

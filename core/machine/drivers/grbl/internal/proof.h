@@ -6,6 +6,9 @@
 #include "core/machine/drivers/grbl/internal/messages.h"
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace millwright::machine::grbl {
 
 class Proof {
@@ -23,17 +26,26 @@ public:
 
     [[nodiscard]] int acknowledged_lines() const { return acknowledged_; }
     [[nodiscard]] int executed_lines() const { return executed_; }
+    /// The line that seems to be in execution, by the last report; where that tells nothing of it, the first
+    /// that is not executed for certain. Proves nothing.
+    [[nodiscard]] int line_at_hand() const { return std::max(executed_, at_hand_); }
     /// Whether the machine was at rest in the last two reports with every acknowledged line done.
     [[nodiscard]] bool settled() const { return idle_reports_ >= 2; }
 
 private:
     [[nodiscard]] int before(int line, int sure_moves) const;
     [[nodiscard]] int bound(const StatusMessage& report) const;
+    /// Where in the program the line with that number of Ln stands.
+    [[nodiscard]] int reported_line(int number) const;
+    [[nodiscard]] int at_hand(const StatusMessage& report) const;
+    /// Blocks of the planner that are taken; nothing: the report does not say.
+    [[nodiscard]] std::optional<int> used_blocks(const StatusMessage& report) const;
 
     const ProgramLines* program_ = nullptr;
     int planner_blocks_ = 0;
     int acknowledged_ = 0;
     int executed_ = 0;
+    int at_hand_ = 0;
     int last_bound_ = 0;
     int idle_reports_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "core/machine/drivers/grbl/internal/session.h"
 
 #include "core/base/error.h"
+#include "core/machine/links/link.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +49,7 @@ void Session::lost(const std::string& why) {
     const bool moving = active() || stage_ == Stage::braking;
     link_lost_ = true;
     stage_ = Stage::alarm;
-    message_ = "the link was lost: " + why;
+    message_ = loss_sentence(why);
     if (moving) {
         message_ += fmt::format("; the controller may still execute up to {} lines that it has",
                                 readout_.planner_blocks + static_cast<int>(window_.lines().size()));

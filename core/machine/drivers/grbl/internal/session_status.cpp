@@ -108,7 +108,7 @@ void Session::show_program(DriverStatus& status) const {
     status.sent_blocks =
         next_line_ > 0 ? program_.lines[static_cast<std::size_t>(next_line_ - 1)].block + 1 : 0;
     status.executed_blocks = executed > 0 || program_.lines.empty() ? program_.blocks_before(executed) : 0;
-    status.block = std::min(program_.blocks_before(executed), program_.blocks - 1);
+    status.block = std::min(program_.blocks_before(proof_.line_at_hand()), program_.blocks - 1);
     if (waits_between_blocks() && status.message.empty()) {
         status.message = fmt::format("single block: line {} comes next",
                                      program_.lines[static_cast<std::size_t>(next_line_)].line);

@@ -1,5 +1,7 @@
 #include "core/machine/drivers/linuxcnc/internal/shell_session.h"
 
+#include "core/machine/links/link.h"
+
 #include <string_view>
 #include <utility>
 
@@ -60,7 +62,7 @@ void ShellSession::lost(const std::string& why) {
         : stage_ == Stage::stopping
             ? "; nobody knows whether LinuxCNC was told to stop, so look at the machine"
             : "";
-    finish(Stage::alarm, "the link was lost: " + why + std::string(then));
+    finish(Stage::alarm, loss_sentence(why) + std::string(then));
     output_.clear();
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
+#include "core/machine/links/link.h"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ void PmacSession::opened(double now) {
 }
 
 void PmacSession::lost(const std::string& why) {
-    finish(Stage::alarm, "the link was lost: " + why + "; the card stops its motors by itself");
+    finish(Stage::alarm, loss_sentence(why) + "; the card stops its motors by itself");
     link_lost_ = true;
     talk_.forget();
     queue_.clear();

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/machine/drivers/internal/pause.h"
+#include "core/machine/links/link.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,7 @@ void RecordSession::opened(double /*now*/) {
 
 void RecordSession::lost(const std::string& why) {
     status_.link_lost = true;
-    alarm("the link was lost: " + why);
+    alarm(loss_sentence(why));
 }
 
 void RecordSession::closed() {

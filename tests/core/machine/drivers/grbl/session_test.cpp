@@ -194,6 +194,69 @@ TEST(GrblSession, ShowsAPauseOfTheProgramAsAHold) {
     EXPECT_EQ(wire.grbl.position()[0], 2.0);
 }
 
+TEST(GrblSession, KnowsAllBeforeAPauseThatFindsThePlannerEmpty) {
+    GrblWire wire;
+    wire.grbl.receive("$10=3\n");
+    wire.run_until([] { return false; }, 0.2);
+    wire.start("G21 G90 F600\nG1 X1\nX2\nX3\nM0\nX4\nX5\nX6\n");
+    wire.run_until([&] { return wire.session.status().executed_blocks == 4; }, 20.0);
+    EXPECT_EQ(wire.session.status().executed_blocks, 4);
+    EXPECT_EQ(executed_lines(wire.grbl), 4);
+    wire.session.resume(wire.now);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(wire.session.status().executed_blocks, 8);
+}
+
+TEST(GrblSession, ClaimsNothingOfWhatAHoldHasInterrupted) {
+    for (int n = 1; n < 12; ++n) {
+        GrblWire wire;
+        wire.grbl.receive("$10=3\n");
+        wire.run_until([] { return false; }, 0.2);
+        wire.start("G21 G90 F600\nG1 X1\nX2\nX3\nM0\nX4\n");
+        wire.run_until([] { return false; }, 0.03 * n);
+        wire.session.hold(wire.now);
+        wire.run_until([] { return false; }, 1.0);
+        EXPECT_LE(wire.session.status().executed_blocks, executed_lines(wire.grbl)) << n;
+    }
+}
+
+TEST(GrblSession, ShowsTheBlockAtHandWhereReportsTellIt) {
+    GrblWire wire;
+    wire.grbl.receive("$10=3\n");
+    wire.run_until([] { return false; }, 0.2);
+    wire.start("G21 G90 F600\nG1 X5\nX10\nX15\nX20\nX25\n");
+    int shown = 0;
+    wire.run_until(
+        [&] {
+            const DriverStatus now = wire.session.status();
+            EXPECT_GE(now.block, std::min(now.executed_blocks, 5));
+            shown = std::max(shown, now.executed_blocks < 2 ? now.block : 0);
+            return now.state != DriverState::running;
+        },
+        60.0);
+    EXPECT_GE(shown, 4); // long before that is certain
+}
+
+TEST(GrblSession, RefusesALineThatIsTooLongWhereItIsTooLong) {
+    GrblWire wire;
+    const std::string before = "G1 (a) X1 Y0.";
+    const std::string digits(80, '1'); // behind 7 characters that count
+    for (const std::string head : {"", "N10 "}) {
+        try {
+            wire.start("G21\n" + head + before + digits + "\n");
+            ADD_FAILURE() << "it was taken";
+        } catch (const Error& error) {
+            const Place& place = error.diagnostic().place;
+            EXPECT_EQ(place.line, 2);
+            constexpr int counted_before = 7;
+            constexpr int longest = 79;
+            EXPECT_EQ(place.column,
+                      static_cast<int>(head.size() + before.size()) + longest - counted_before + 1);
+        }
+    }
+}
+
 TEST(GrblSession, WaitsForALongDwell) {
     GrblWire wire;
     wire.start("G0 X1\nG4 P20\nG0 X2\n");

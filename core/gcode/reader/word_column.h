@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace millwright::gcode::internal {
+namespace millwright::gcode {
 
 /// Column, from 1, of the first word `letter` (a capital) outside of comments, brackets and names; with a
 /// `code`, of the one with that number, as G2 or M30. 0: there is none.
@@ -14,4 +14,4 @@ column_of_word(std::string_view line, char letter, std::optional<double> code = 
 /// Column of the first character that is no blank; 0 in an empty line.
 [[nodiscard]] int first_column(std::string_view line);
 
-} // namespace millwright::gcode::internal
+} // namespace millwright::gcode

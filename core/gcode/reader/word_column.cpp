@@ -1,4 +1,4 @@
-#include "core/gcode/reader/internal/word_column.h"
+#include "core/gcode/reader/word_column.h"
 
 #include "core/base/numbers.h"
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <system_error>
 
-namespace millwright::gcode::internal {
+namespace millwright::gcode {
 namespace {
 
 char capital(char c) {
@@ -64,4 +64,4 @@ int first_column(std::string_view line) {
     return at == std::string_view::npos ? 0 : static_cast<int>(at) + 1;
 }
 
-} // namespace millwright::gcode::internal
+} // namespace millwright::gcode
