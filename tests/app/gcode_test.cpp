@@ -161,7 +161,7 @@ TEST(Gcode, TimeNeedsAMachineWithTheAxes) {
     write_content(file, "G21\nG0 C90\nM2\n");
     const Ended turning = run({"gcode", "time", file.string(), "--machine", "router-xyz"});
     EXPECT_EQ(turning.exit_code, 1);
-    EXPECT_THAT(turning.err, HasSubstr("turn.ngc:2: the machine 'XYZ router' has no axis C"));
+    EXPECT_THAT(turning.err, HasSubstr("turn.ngc:2:4: the machine 'XYZ router' has no axis C"));
     EXPECT_EQ(run({"gcode", "time", file.string(), "--machine", "ac-table"}).exit_code, 0);
     const Ended unknown = run({"gcode", "time", file.string(), "--machine", "lathe"});
     EXPECT_EQ(unknown.exit_code, 1);

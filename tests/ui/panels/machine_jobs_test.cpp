@@ -36,7 +36,7 @@ constexpr const char* far_first = "G21 G90 G94 G17\n"
                                   "X2 Y0\n"
                                   "G0 Z5\n"
                                   "M2\n";
-constexpr int middle = 11;
+constexpr int middle = 12;
 
 class MachineJobs : public ::testing::Test {
 protected:

@@ -191,9 +191,9 @@ TEST(MachineProgram, PausesForToolsAndStops) {
 
 TEST(MachineProgram, SaysWhereItLeavesTheTravelAndGoesThere) {
     const MachineProgram made = read(
-        "G21 G90 F100\nG0 X1\n\n  G1 Y1 X5000\nX6000 (again)\nG2 X0 Y9000 R8000\nA9\nM2\n", "router-xyz");
+        "G21 G90 F100\nG0 X1\n\n  G1 Y1 X5000\nX6000 (again)\nG2 X0 Y9000 R8000\nG1 A9\nM2\n", "router-xyz");
     ASSERT_EQ(made.faults.size(), 1U);
-    EXPECT_EQ(to_text(made.faults[0]), "part.ngc:7:1: the machine 'XYZ router' has no axis A");
+    EXPECT_EQ(to_text(made.faults[0]), "part.ngc:7:4: the machine 'XYZ router' has no axis A");
     ASSERT_EQ(made.beyond_travel.size(), 2U);
     EXPECT_THAT(to_text(made.beyond_travel[0]),
                 HasSubstr("part.ngc:4:9: axis X would go to 5000.000, outside "));
