@@ -44,9 +44,11 @@ void SerialLink::open() {
             (void)::tcflush(port.native_handle(), TCIFLUSH);
         });
     } catch (const boost::system::system_error& failure) {
-        throw Error("cannot open the serial port: " + failure.code().message(),
+        const bool held = failure.code() == boost::system::errc::device_or_resource_busy;
+        throw Error(held ? "another program holds the serial port"
+                         : "cannot open the serial port: " + failure.code().message(),
                     path_,
-                    "is it plugged in, and may you use it (group dialout)?");
+                    held ? "end that first" : "is it plugged in, and may you use it (group dialout)?");
     }
 }
 

@@ -86,7 +86,7 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     const auto approach = person.workshop().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
     EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("G0 Z5")));
-    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("X6 Y3")));
+    EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("X4 Y3")));
     person.keep("machine-from-line");
     EXPECT_FALSE(grbl.moving());
 

@@ -1,5 +1,7 @@
 #include "core/machine/drivers/grbl/internal/proof.h"
 
+#include "core/machine/internal/bare_line.h"
+
 #include <algorithm>
 
 namespace millwright::machine::grbl {
@@ -7,7 +9,8 @@ namespace millwright::machine::grbl {
 namespace {
 
 constexpr int segment_blocks =
-    6; // that may have left the planner and still be under way: Grbl's segment buffer
+    6;                     // that may have left the planner and still be under way: Grbl's segment buffer
+constexpr int at_rest = 0; // of Hold: nothing is on its way from the planner to the motors any more
 
 } // namespace
 
@@ -41,6 +44,15 @@ int Proof::reported_line(int number) const {
     return static_cast<int>(found - lines.begin());
 }
 
+/// Grbl acknowledges M0 when it is resumed. An acknowledgement that came twice would have led behind it.
+bool Proof::pauses_next() const {
+    if (acknowledged_ >= std::ssize(program_->lines)) {
+        return false;
+    }
+    const std::string& text = program_->lines[static_cast<std::size_t>(acknowledged_)].text;
+    return machine::internal::has_code(text, "M0") || machine::internal::has_code(text, "M00");
+}
+
 int Proof::at_hand(const StatusMessage& report) const {
     if (report.line && *report.line > 0) {
         return std::min(reported_line(*report.line), acknowledged_);
@@ -51,10 +63,8 @@ int Proof::at_hand(const StatusMessage& report) const {
 
 int Proof::bound(const StatusMessage& report) const {
     const std::optional<int> used = used_blocks(report);
-    constexpr int at_rest = 0; // of Hold: nothing is on its way from the planner to the motors any more
-    if (report.state == MachineState::hold && report.sub_state == at_rest && used == 0) {
-        return acknowledged_; // the program pauses: a hold in the middle of a block leaves that in the
-                              // planner
+    if (report.state == MachineState::hold && report.sub_state == at_rest && used == 0 && pauses_next()) {
+        return acknowledged_; // a hold in the middle of a block would leave that in the planner
     }
     int result = before(acknowledged_, used.value_or(planner_blocks_) + segment_blocks);
     if (report.line) {

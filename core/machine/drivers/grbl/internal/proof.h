@@ -35,6 +35,7 @@ public:
 private:
     [[nodiscard]] int before(int line, int sure_moves) const;
     [[nodiscard]] int bound(const StatusMessage& report) const;
+    [[nodiscard]] bool pauses_next() const;
     /// Where in the program the line with that number of Ln stands.
     [[nodiscard]] int reported_line(int number) const;
     [[nodiscard]] int at_hand(const StatusMessage& report) const;

@@ -33,7 +33,7 @@ std::string Session::take_output() {
 void Session::opened(double now) {
     *this = Session(settings_);
     stage_ = Stage::greeting;
-    last_heard_ = ending_since_ = now;
+    last_heard_ = ending_since_ = last_tick_ = now;
     next_poll_ = now;
 }
 
@@ -82,6 +82,7 @@ void Session::tick(double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
+    leave_out_own_pause(now);
     watch_silence(now);
     watch_ending(now);
     watch_hold(now);
@@ -90,6 +91,16 @@ void Session::tick(double now) {
     poll(now);
     pump();
     pump_jog();
+}
+
+/// Silence is that of the controller: while this program was kept from its work (a full disk cache, a
+/// computer that was put to sleep) it has asked nothing.
+void Session::leave_out_own_pause(double now) {
+    constexpr double pause = 0.25; // s, many times what lies between two ticks
+    const double gap = now - std::exchange(last_tick_, now);
+    if (gap > pause) {
+        last_heard_ = std::min(now, last_heard_ + gap);
+    }
 }
 
 void Session::poll(double now) {

@@ -106,6 +106,7 @@ private:
     [[nodiscard]] bool may_send(int block);
     void pump_jog();
     void cancel_jog(double now);
+    void leave_out_own_pause(double now);
     void poll(double now);
     void watch_silence(double now);
     void watch_ending(double now);
@@ -180,7 +181,8 @@ private:
     CommandAnswer answer_;
 
     std::optional<StatusMessage> report_; ///< the last
-    double last_heard_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0, last_brake_ = 0.0;
+    double last_heard_ = 0.0, last_tick_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0,
+           last_brake_ = 0.0;
     Overrides overrides_;
 };
 

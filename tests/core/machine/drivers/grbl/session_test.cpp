@@ -257,6 +257,19 @@ TEST(GrblSession, RefusesALineThatIsTooLongWhereItIsTooLong) {
     }
 }
 
+// As when the disk or the whole computer stood still: then it was not the controller that said nothing.
+TEST(GrblSession, DoesNotTakeItsOwnPauseForTheControllersSilence) {
+    for (int n = 0; n < 30; ++n) {
+        GrblWire wire;
+        wire.start("G21 G90 F300\nG1 X10\nX20\nX30\nX40\n");
+        wire.run_until([] { return false; }, 0.5 + 0.005 * n);
+        wire.step(3.0);
+        wire.run_to_end();
+        EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+        EXPECT_EQ(wire.session.status().executed_blocks, 5);
+    }
+}
+
 TEST(GrblSession, WaitsForALongDwell) {
     GrblWire wire;
     wire.start("G0 X1\nG4 P20\nG0 X2\n");
