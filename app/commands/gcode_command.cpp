@@ -52,6 +52,7 @@ struct Options {
     double path_tolerance = 0.0;              ///< mm; 0: exact path
     std::optional<double> junction_deviation; ///< mm; 0: corners by small steps
     std::optional<int> look_ahead;            ///< moves; 0: all
+    std::optional<double> chord_length;       ///< mm; not given: arcs by tolerance
     std::string out;
     PostChoice post;
     bool block_delete = false;
@@ -183,7 +184,9 @@ struct MachineRun {
 MachineRun machine_run(const Options& options) {
     auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
-    gcode::MachineProgramBuilder builder(machine, options.file);
+    gcode::MachineProgramSettings making;
+    making.chord_length = options.chord_length;
+    gcode::MachineProgramBuilder builder(machine, options.file, making);
     gcode::Interpreter program(options.file, settings_of(options), builder);
     program.run();
     throw_first(program.errors());
@@ -366,6 +369,13 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
         group, "convert", "Write it for another control; read back before it is released", options);
     converting.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
     converting.add_option("--out", options->out, "File; without it standard output")->type_name("FILE");
+    constexpr double shortest_chord = 1e-3;
+    constexpr double longest_chord = 1e3;
+    converting
+        .add_option("--chord-length",
+                    options->chord_length,
+                    "Cut arcs into equal parts no longer than so many mm, as the thesis of 2006")
+        ->check(CLI::Range(shortest_chord, longest_chord));
     add_post_options(converting, options->post).required();
     converting.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });

@@ -57,6 +57,7 @@ public:
           const MachineProgramSettings& settings)
         : machine_(machine), file_(std::move(file)), settings_(settings) {
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
+        expects(!settings.chord_length || *settings.chord_length > 0.0, "a chord has a length");
         Program& program = result_.program;
         program.machine = machine.name();
         expects(!settings.start ||
@@ -82,12 +83,19 @@ public:
         case MoveKind::probe:
             return go(BlockKind::feed, move.target, move.source);
         case MoveKind::arc:
-            return internal::arc_chords(start, move, tolerance(), [&](const AxisValues& end) {
-                go(BlockKind::feed, end, move.source);
-            });
+            return arc(start, move);
         case MoveKind::rigid_tap:
             go(BlockKind::feed, move.target, move.source);
             return go(BlockKind::feed, start, move.source);
+        }
+    }
+
+    void arc(const AxisValues& start, const Move& move) {
+        const auto cut = [&](const AxisValues& end) { go(BlockKind::feed, end, move.source); };
+        if (settings_.chord_length) {
+            internal::arc_chords_of_length(start, move, *settings_.chord_length / frame_.unit(), cut);
+        } else {
+            internal::arc_chords(start, move, tolerance(), cut);
         }
     }
 

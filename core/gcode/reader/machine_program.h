@@ -20,6 +20,9 @@ namespace millwright::gcode {
 
 struct MachineProgramSettings {
     double chord_tolerance = 0.002; ///< mm: of arcs and splines
+    /// mm: arcs are cut into equal parts of at most this length along the arc, whatever the tolerance, as in
+    /// the KMITL thesis of 2006 on forming software; not given: by the tolerance.
+    std::optional<double> chord_length{};
     std::size_t most_faults = 100;
     std::size_t most_blocks = 8'000'000; ///< more are an Error: a few lines can ask for any number
     /// Where the axes stand at the start, in machine coordinates; none: at zero, or at their nearest limit.

@@ -31,6 +31,37 @@ double longest_step(double radius, double tolerance) {
     return std::min(most, 2.0 * std::acos(1.0 - height));
 }
 
+struct Radii {
+    double start = 0.0, end = 0.0;
+};
+
+Radii radii_of(const AxisValues& start, const Move& arc) {
+    const auto [first, second] = axes_of(arc.plane);
+    return {std::hypot(start[first] - arc.centre_1, start[second] - arc.centre_2),
+            std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2)};
+}
+
+void equal_chords(const AxisValues& start, const Move& arc, double wanted, const ChordSink& sink) {
+    constexpr double most = 1e7; // of one arc
+    expects(wanted <= most, "an arc has a finite number of chords");
+    const auto [first, second] = axes_of(arc.plane);
+    const Radii radii = radii_of(start, arc);
+    const double angle = std::atan2(start[second] - arc.centre_2, start[first] - arc.centre_1);
+    const int chords = std::max(1, static_cast<int>(wanted));
+    for (int k = 1; k < chords; ++k) {
+        const double share = static_cast<double>(k) / chords;
+        AxisValues at;
+        for (std::size_t n = 0; n < axis_count; ++n) {
+            at[n] = mix(start[n], arc.target[n], share);
+        }
+        const double here = mix(radii.start, radii.end, share);
+        at[first] = arc.centre_1 + here * std::cos(angle + share * arc.sweep);
+        at[second] = arc.centre_2 + here * std::sin(angle + share * arc.sweep);
+        sink(at);
+    }
+    sink(arc.target);
+}
+
 /// A rational B-spline, clamped and uniform.
 class Spline {
 public:
@@ -121,36 +152,21 @@ private:
 } // namespace
 
 double arc_radius(const AxisValues& start, const Move& arc) {
-    const auto [first, second] = axes_of(arc.plane);
-    return std::max(std::hypot(start[first] - arc.centre_1, start[second] - arc.centre_2),
-                    std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2));
+    const Radii radii = radii_of(start, arc);
+    return std::max(radii.start, radii.end);
 }
 
 void arc_chords(const AxisValues& start, const Move& arc, double tolerance, const ChordSink& sink) {
     expects(tolerance > 0.0, "a chord tolerance is positive");
-    const auto [first, second] = axes_of(arc.plane);
-    const double x = start[first] - arc.centre_1;
-    const double y = start[second] - arc.centre_2;
-    const double radius = std::hypot(x, y);
-    const double end_radius = std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2);
-    const double angle = std::atan2(y, x);
     const double step = longest_step(std::max(arc_radius(start, arc), tolerance), tolerance);
-    const double wanted = std::ceil(std::abs(arc.sweep) / step);
-    constexpr double most = 1e7; // of one arc
-    expects(wanted <= most, "an arc has a finite number of chords");
-    const int chords = std::max(1, static_cast<int>(wanted));
-    for (int k = 1; k < chords; ++k) {
-        const double share = static_cast<double>(k) / chords;
-        AxisValues at;
-        for (std::size_t n = 0; n < axis_count; ++n) {
-            at[n] = mix(start[n], arc.target[n], share);
-        }
-        const double here = mix(radius, end_radius, share);
-        at[first] = arc.centre_1 + here * std::cos(angle + share * arc.sweep);
-        at[second] = arc.centre_2 + here * std::sin(angle + share * arc.sweep);
-        sink(at);
-    }
-    sink(arc.target);
+    equal_chords(start, arc, std::ceil(std::abs(arc.sweep) / step), sink);
+}
+
+void arc_chords_of_length(const AxisValues& start, const Move& arc, double length, const ChordSink& sink) {
+    expects(length > 0.0, "a chord has a length");
+    constexpr double rounding = 1e-9; // of an arc that is a whole number of chords long
+    equal_chords(
+        start, arc, std::ceil(std::abs(arc.sweep) * radii_of(start, arc).start / length - rounding), sink);
 }
 
 void curve_chords(const AxisValues& start, const Curve& curve, double tolerance, const ChordSink& sink) {

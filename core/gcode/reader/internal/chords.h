@@ -17,6 +17,10 @@ using ChordSink = std::function<void(const AxisValues& end)>;
 /// linearly with the angle; so does the radius where start and end have not the same.
 void arc_chords(const AxisValues& start, const Move& arc, double tolerance, const ChordSink& sink);
 
+/// The same by the rule of the KMITL thesis of 2006 on forming software: n = ceil(phi R / length) equal parts
+/// of the angle phi (rad), R at the start (eqs 2.1 and 2.2).
+void arc_chords_of_length(const AxisValues& start, const Move& arc, double length, const ChordSink& sink);
+
 /// The same of a spline, whose first control point is `start`. Halved until the chords are near enough.
 void curve_chords(const AxisValues& start, const Curve& curve, double tolerance, const ChordSink& sink);
 
