@@ -32,6 +32,16 @@ public:
     }
 
     Program build(const plot::CutPath& path) {
+        if (path.size() > most_program_points) {
+            throw Error(
+                fmt::format(
+                    "a program of {} points; more than {} million would take more memory than is kept "
+                    "for it",
+                    path.size(),
+                    most_program_points / 1'000'000),
+                {},
+                "take a larger step-over or pitch, fewer pixels or passes, or a part of the drawing");
+        }
         if (!path.empty()) {
             // Up first: nobody knows what stands between the tool and the first stroke.
             move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));

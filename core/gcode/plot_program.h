@@ -4,10 +4,14 @@
 #include "core/gcode/program.h"
 #include "core/plot/cut_path.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace millwright::gcode {
+
+/// A point takes about 0.8 kB while its program is written, read back and planned.
+inline constexpr std::size_t most_program_points = 4'000'000;
 
 struct PlotProgramSettings {
     std::string machine = "XYZ";          ///< the name that the program carries
@@ -22,7 +26,8 @@ struct PlotProgramSettings {
 
 /// Each block tells the point of the path where it ends, from 0. Rapids go where the path travels, up before
 /// across; each change of tool stops the spindle and waits for a person. Points that rounding makes equal are
-/// left out. Throws Defect if a point is not finite, or for other axes.
+/// left out. Throws Error for a path longer than most_program_points, Defect if a point is not finite, or for
+/// other axes.
 [[nodiscard]] Program plot_program(const plot::CutPath& path, const PlotProgramSettings& settings = {});
 
 } // namespace millwright::gcode

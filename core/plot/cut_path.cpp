@@ -1,6 +1,7 @@
 #include "core/plot/cut_path.h"
 
 #include "core/base/error.h"
+#include "core/plot/path_bound.h"
 
 #include <fmt/format.h>
 
@@ -74,6 +75,16 @@ public:
             }
         }
         add({last().x(), last().y(), settings_.safe_height}, 0.0, CutMove::retract);
+    }
+
+    /// Before so many passes are made that they fill the memory.
+    void expect_room(const Strokes& strokes, const Level& level) const {
+        std::size_t points = 0; // a pass
+        for (const Stroke& stroke : strokes) {
+            constexpr std::size_t in_the_air = 3;
+            points += stroke.pen == level.pen ? stroke.points.size() + in_the_air : 0;
+        }
+        expect_not_too_long(path_.size() + points * static_cast<std::size_t>(level.passes));
     }
 
     void along(const Vec2& to, double z, const Level& level) {
@@ -177,6 +188,7 @@ CutPath cut_path(const Strokes& strokes, const CutSettings& settings) {
         if (!level.enabled || std::ranges::none_of(strokes, drawn)) {
             continue;
         }
+        builder.expect_room(strokes, level);
         builder.take(level.tool);
         for (int pass = 1; pass <= level.passes; ++pass) {
             const double z = -level.depth * pass / level.passes;

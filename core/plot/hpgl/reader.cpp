@@ -24,6 +24,9 @@ public:
         while (const auto command = lexer_.next()) {
             execute(*command);
         }
+        if (run_.pen.in_polygon()) {
+            problems_.add(size_, "the file ends in the middle of a polygon", "it is ended by PM2");
+        }
         run_.pen.finish(plot_, size_);
         for (const Stroke& stroke : plot_.strokes) {
             plot_.pens.try_emplace(stroke.pen);

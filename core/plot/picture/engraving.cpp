@@ -1,6 +1,8 @@
 #include "core/plot/picture/engraving.h"
 
 #include "core/base/units.h"
+#include "core/plot/path_bound.h"
+#include "core/plot/picture/internal/checks.h"
 
 #include <fmt/format.h>
 
@@ -10,13 +12,9 @@
 namespace millwright::plot {
 namespace {
 
-constexpr double most_dots = 1e7;
+using internal::check_above_zero;
 
-void check_above_zero(const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) {
-        throw Error(fmt::format("{} of {}; it has to be above 0", name, value));
-    }
-}
+constexpr double most_dots = 1e7;
 
 void check_dots(double count, double pitch) {
     if (!(count <= most_dots)) {
@@ -134,6 +132,7 @@ CutPath halftone(const Picture& picture, double pixel, const HalftoneSettings& s
             const Vec2 at = middle + column * along + row * across;
             const bool inside =
                 at.x() >= 0.0 && at.y() >= 0.0 && at.x() <= darkness.width() && at.y() <= darkness.height();
+            expect_not_too_long(path.size());
             const double dark = inside ? darkness.around(at, settings.pitch) : 0.0;
             if (!(dark > 0.0)) {
                 continue;

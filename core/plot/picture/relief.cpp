@@ -1,6 +1,8 @@
 #include "core/plot/picture/relief.h"
 
 #include "core/base/parallel.h"
+#include "core/plot/path_bound.h"
+#include "core/plot/picture/internal/checks.h"
 #include "core/plot/picture/internal/row_moves.h"
 #include "core/plot/picture/internal/tip_surface.h"
 
@@ -12,22 +14,12 @@
 namespace millwright::plot {
 namespace {
 
+using internal::check_above_zero;
+using internal::check_not_below_zero;
 using internal::Node;
 using internal::TipSurface;
 
 constexpr double most_points = 1e8;
-
-void check_above_zero(const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) {
-        throw Error(fmt::format("{} of {}; it has to be above 0", name, value));
-    }
-}
-
-void check_not_below_zero(const char* name, double value) {
-    if (!(value >= 0.0) || !std::isfinite(value)) {
-        throw Error(fmt::format("{} of {} mm; it has to be 0 or more", name, value));
-    }
-}
 
 void check(const ReliefSettings& settings) {
     check_above_zero("a cutting speed", settings.cutting);
@@ -130,6 +122,7 @@ public:
 
 private:
     void add(const Vec3& at, double speed, CutMove move) {
+        expect_not_too_long(path_.size() + 1);
         path_.push_back({.at = at, .speed = speed, .move = move, .tool = 1});
     }
 

@@ -71,5 +71,15 @@ TEST(PlotProgram, OfNothingMovesNothing) {
     }
 }
 
+TEST(PlotProgram, OfMorePointsThanMemoryIsKeptForIsRefused) {
+    const plot::CutPath path(most_program_points + 1);
+    try {
+        static_cast<void>(plot_program(path));
+        FAIL() << "nothing was refused";
+    } catch (const Error& error) {
+        EXPECT_NE(error.diagnostic().message.find("more than 4 million"), std::string::npos);
+    }
+}
+
 } // namespace
 } // namespace millwright::gcode

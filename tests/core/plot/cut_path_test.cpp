@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/plot/hpgl/reader.h"
+#include "core/plot/path_bound.h"
 #include "tests/core/plot/thesis_drawings.h"
 #include "tests/support/without_traps.h"
 
@@ -150,6 +151,20 @@ TEST(Levels, RefuseWhatCannotBeCut) {
     EXPECT_THROW(cut({.plunging = std::nan("")}), Error);
     EXPECT_THROW(static_cast<void>(cut_path(strokes, {.safe_height = 0.0})), Error);
     EXPECT_THROW(static_cast<void>(cut_path(strokes, {.safe_height = 50.0})), Error);
+}
+
+TEST(Levels, OfMorePointsThanMemoryIsKeptForAreRefusedBeforeTheyAreMade) {
+    const Strokes stroke{{.pen = 1, .points = std::vector<Vec2>(most_path_points / 1000)}};
+    EXPECT_NO_THROW(expect_not_too_long(most_path_points));
+    EXPECT_THROW(expect_not_too_long(most_path_points + 1), Error);
+    EXPECT_NO_THROW(static_cast<void>(cut_path(stroke, {.levels = {{.pen = 1, .passes = 2}}})));
+    try {
+        static_cast<void>(cut_path(stroke, {.levels = {{.pen = 1, .passes = 1000}}}));
+        FAIL() << "nothing was refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.diagnostic().message, "the path has more than 20 million points");
+        EXPECT_NE(error.diagnostic().hint, "");
+    }
 }
 
 } // namespace

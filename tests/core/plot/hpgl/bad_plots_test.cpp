@@ -41,6 +41,7 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
         {"SP1;CI0;", 4, "an arc without a radius"},
         {"SP1;FP;", 4, "there is no polygon"},
         {"SP1;PM1;", 4, "without PM0"},
+        {"SP1;PM0;PD9,9;", 14, "in the middle of a polygon"},
         {"SP1;PE<=abc;", 4, "PE: "},
         {"SP1;PD100,100;PD200,20", 14, "the file ends in the middle of PD"},
         {"SP1;LT55;", 4, "none of the line types"},
