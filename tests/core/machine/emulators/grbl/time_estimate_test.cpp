@@ -1,8 +1,11 @@
 // The planner, told the settings of a Grbl, against the time that the emulated Grbl takes: two programs that
 // share nothing but the settings.
 #include "core/base/units.h"
+#include "core/gcode/plot_program.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
 #include "core/motion/planner.h"
+#include "core/plot/hpgl/reader.h"
+#include "core/plot/stroke_plan.h"
 #include "tests/support/programs.h"
 #include "tests/support/samples.h"
 
@@ -120,6 +123,20 @@ TEST(TimeEstimate, IsWhatTheEmulatedGrblTakesForEverySample) {
 
 TEST(TimeEstimate, IsWhatTheEmulatedGrblTakesForManyShortBlocks) {
     expect_same_time(dense_program(), "flower");
+}
+
+TEST(TimeEstimate, OfAPlotIsWhatTheEmulatedGrblTakesForItLinkedOrNot) {
+    const plot::Strokes drawn = plot::read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
+    double as_drawn = 0.0;
+    for (const double link : {0.0, 3.0}) {
+        const plot::Strokes strokes = plot::planned(drawn, {.link = link}).strokes;
+        const plot::CutPath path = plot::cut_path(strokes, {.levels = plot::levels_for(strokes)});
+        const gcode::Program program = gcode::plot_program(path, {.machine = emulated_machine().name()});
+        expect_same_time(program, fmt::format("sign, links of {} mm", link));
+        const double seconds = motion::plan(program, emulated_machine(), {}, {}).duration();
+        EXPECT_TRUE(link == 0.0 || seconds < 0.95 * as_drawn);
+        as_drawn = seconds;
+    }
 }
 
 } // namespace
