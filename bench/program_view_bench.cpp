@@ -1,17 +1,13 @@
 // What it is like to open a long G-code program in the workbench: how long until its path can be turned, the
 // longest frame while it loads, and the memory that a move takes. In memory, so no display is needed; where
 // no graphics card is, Mesa's llvmpipe draws on the processor.
+#include "bench/visitor.h"
 #include "core/base/files.h"
-#include "ui/panels/desktop.h"
 
 #include <benchmark/benchmark.h>
-#include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -20,23 +16,12 @@
 namespace millwright::panels {
 namespace {
 
+using bench::Clock;
+using bench::processor_time;
+using bench::seconds_since;
+using bench::Visitor;
+
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-constexpr render::PixelSize window{1280, 800};
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Processor time of this thread, or of the whole program, s: what a frame costs however many others use the
-/// machine.
-double processor_time(clockid_t whose) {
-    timespec now{};
-    clock_gettime(whose, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Finishing passes over a wavy surface, as a CAM program writes them; gone when the benchmark is over.
 class ProgramFile {
 public:
@@ -65,47 +50,6 @@ public:
 
 private:
     fs::path file_;
-};
-
-/// A person who opens a file and keeps on turning the view.
-class Visitor {
-public:
-    Visitor()
-        : context_(window),
-          workshop_({.assets = "assets", .log_folder = {}, .settings = {}, .recovery = {}, .wake = [] {}}),
-          desktop_(context_, workshop_) {
-        workshop_.wait_idle();
-        for (int n = 0; n < 3; ++n) {
-            turn();
-        }
-        longest_ = longest_cpu_ = 0.0;
-    }
-
-    void open(const fs::path& file) { workshop_.open(file); }
-
-    /// One frame with the camera a little further.
-    void turn() {
-        const Clock::time_point start = Clock::now();
-        const double cpu = processor_time(CLOCK_THREAD_CPUTIME_ID);
-        viewport::Viewport& view = desktop_.window().view().viewport();
-        view.set_camera(view.camera().orbited(0.01, 0.0));
-        (void)workshop_.advance(1.0 / 60.0);
-        desktop_.frame(render::InputState{});
-        context_.present();
-        glFinish();
-        longest_ = std::max(longest_, seconds_since(start));
-        longest_cpu_ = std::max(longest_cpu_, processor_time(CLOCK_THREAD_CPUTIME_ID) - cpu);
-    }
-
-    [[nodiscard]] std::shared_ptr<const project::OpenedProgram> opened() { return workshop_.look().opened; }
-    [[nodiscard]] double longest() const { return longest_; }
-    [[nodiscard]] double longest_cpu() const { return longest_cpu_; }
-
-private:
-    render::OffscreenContext context_;
-    actions::Workshop workshop_;
-    Desktop desktop_;
-    double longest_ = 0.0, longest_cpu_ = 0.0; ///< s
 };
 
 /// Of text index, path in memory and on the graphics processor, and what is in force when.
