@@ -1,36 +1,12 @@
 #include "core/project/pipeline.h"
 
-#include "core/base/error.h"
 #include "core/project/internal/background.h"
+#include "core/project/internal/failure.h"
 #include "core/project/internal/plan_stages.h"
 
-#include <fmt/format.h>
-
-#include <exception>
 #include <utility>
 
 namespace millwright::project {
-
-namespace {
-
-/// What a person is told about a failure that is ours, not theirs.
-Diagnostic internal_failure(const std::exception& failure) {
-    return {{}, fmt::format("internal error: {}", failure.what()), "please report it with the project file"};
-}
-
-/// Runs `work`; gives what went wrong, if anything did.
-template <class Work> std::optional<Diagnostic> failure_of(Work work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        return error.diagnostic();
-    } catch (const std::exception& failure) {
-        return internal_failure(failure);
-    }
-    return std::nullopt;
-}
-
-} // namespace
 
 /// The plan's worker, with what it published last.
 class Pipeline::Planner {

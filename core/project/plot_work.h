@@ -1,17 +1,15 @@
-// A plot or a picture that a person opened to cut it: what is set for it, and what comes of that, derived in
-// the background. Lengths mm, angles rad, speeds mm/s.
+// What comes of a plot or a picture that is to be cut, derived in the background. Lengths mm, angles rad,
+// speeds mm/s.
 #pragma once
 
 #include "core/base/error.h"
 #include "core/gcode/reader/preview_path.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/height_field.h"
-#include "core/plot/picture/picture.h"
 #include "core/plot/picture/png_writer.h"
-#include "core/plot/picture/tool_tip.h"
-#include "core/plot/stroke_plan.h"
 #include "core/plot/work_time.h"
 #include "core/project/pipeline.h"
+#include "core/project/plot_input.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,40 +21,10 @@
 
 namespace millwright::project {
 
-/// What becomes of a picture.
-enum class PictureUse { relief, outlines, halftone, dots };
-
-struct PlotSettings {
-    double plotter_unit = 0.025; ///< of HPGL
-    PictureUse use = PictureUse::relief;
-    double picture_width = 0.0; ///< 0: as the file says, else 0.26 mm a pixel
-    plot::GrayRule gray = plot::GrayRule::mean;
-    bool invert = false;
-    double depth = 1.0;                   ///< of white, or of engraved dots
-    double dot_pitch = 1.0;               ///< of halftone and dots
-    double threshold = 0.5;               ///< of outlines
-    plot::ToolTip tip = {};               ///< of reliefs, halftone and dots; strokes are cut by an end mill
-    std::optional<double> step_over = {}; ///< between rows of a relief; not given: a tenth of the tool
-    std::optional<double> depth_per_pass = {}; ///< roughing of a relief; not given: none
-    std::optional<double> frame = {};          ///< the relief is cut out of a plate so thick
-    plot::StrokePlan strokes = {};
-    plot::Level level = {}; ///< what pens have that are not in `levels`; feed and plunge of pictures, too
-    std::vector<plot::Level> levels = {}; ///< a pen each or several times
-    double safe_height = 5.0;
-    double plate = 0.0; ///< thickness that the path must not go through; 0: not known
-    double spindle_rpm = 10'000.0;
-    Vec2 origin = Vec2::Zero(); ///< where that of the drawing lies on the machine
-    std::string machine = "forming-table";
-    std::string post = "linuxcnc-xyz";
-
-    friend bool operator==(const PlotSettings&, const PlotSettings&) = default;
-};
-
 /// Everything known of an opened plot at one moment. Immutable once published; parts that are not there yet
 /// are null or empty.
 struct PlotResult {
-    std::filesystem::path file;
-    PlotSettings settings;
+    PlotInput input;
     bool picture = false;
     std::vector<Diagnostic> notices; ///< of the reader
     std::optional<Diagnostic> failure;
@@ -95,7 +63,9 @@ public:
     ~PlotWorker();
 
     /// Derives everything anew; what is shown stays until something new is there.
-    void request(const std::filesystem::path& file, const PlotSettings& settings);
+    void request(const PlotInput& input);
+    /// Of a path that is too long to get one by itself; published as the rest.
+    void request_program();
     void cancel();
 
     /// Null while none is open.
@@ -107,9 +77,6 @@ private:
     class Worker;
     std::unique_ptr<Worker> worker_;
 };
-
-/// Whether the name is that of a plot or a picture: .plt, .hpgl, .hpg, .png, .jpg, .jpeg, .bmp, .path.
-[[nodiscard]] bool is_plot_file(const std::filesystem::path& file);
 
 /// The program of a path, posted and read back. Throws Error.
 [[nodiscard]] std::string plot_program_text(const PlotResult& result, const std::filesystem::path& assets);

@@ -1,7 +1,7 @@
 #include "core/project/project.h"
 
 #include "core/geometry/presets.h"
-#include "core/project/settings.h"
+#include "core/project/plot_settings.h"
 
 #include <fmt/format.h>
 
@@ -76,6 +76,22 @@ void check_machine(Faults& faults, const MachineInput& machine) {
     }
 }
 
+void check_plot(Faults& faults, const PlotSettings& set) {
+    check<PlotSettings>(faults, "plot", set, plot_numbers());
+    check<plot::Level>(faults, "plot/level", set.level, level_numbers());
+    if (set.levels.size() > static_cast<std::size_t>(most_levels)) {
+        faults.push_back(
+            fmt::format("plot/levels: there are {}, and {} at most", set.levels.size(), most_levels));
+    }
+    for (std::size_t n = 0; n < set.levels.size(); ++n) {
+        check<plot::Level>(faults, fmt::format("plot/levels[{}]", n), set.levels[n], level_numbers());
+    }
+    if (set.machine.empty() || set.post.empty()) {
+        faults.emplace_back(set.machine.empty() ? "plot/machine: no machine is named"
+                                                : "plot/post: no post is named");
+    }
+}
+
 } // namespace
 
 Project project_from_preset(std::string_view preset_id) {
@@ -99,6 +115,7 @@ std::vector<std::string> faults_of(const Project& project) {
     check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
     check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
     check<ProgramInput>(faults, "program", project.program, program_numbers());
+    check_plot(faults, project.plot.settings);
     return faults;
 }
 

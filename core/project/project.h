@@ -1,11 +1,12 @@
 // All that the user entered, as one plain value: copying it is the undo step, comparing two tells what is
-// stale, saving it is one JSON file. Everything else is derived from it (plan.h, pipeline.h) and can be
-// thrown away. People's units at this border: mm, deg, mm/min.
+// stale, saving it is one JSON file. Everything else is derived from it (plan.h, pipeline.h, plot_work.h) and
+// can be thrown away. People's units at this border: mm, deg, mm/min; only plots keep the core's.
 #pragma once
 
 #include "core/geometry/surface.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/rotary_tilt.h"
+#include "core/project/plot_input.h"
 
 #include <array>
 #include <optional>
@@ -103,6 +104,7 @@ struct Project {
     MachineInput machine;
     GridInput grid;
     ProgramInput program;
+    PlotInput plot; ///< beside the surface
 
     friend bool operator==(const Project&, const Project&) = default;
 };

@@ -2,80 +2,26 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/base/json.h"
 #include "core/base/numbers.h"
 #include "core/geometry/presets.h"
 #include "core/project/internal/json_text.h"
+#include "core/project/internal/plot_json.h"
+#include "core/project/internal/setting_json.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <initializer_list>
 #include <utility>
 
 namespace millwright::project {
 
-namespace {
+namespace fs = std::filesystem;
 
-using Json = nlohmann::ordered_json;
+namespace {
 
 constexpr std::string_view format_name = "millwright-project";
 constexpr int format_version = 1;
-
-template <class Value> Value choice(const JsonValue& value, std::span<const Choice<Value>> choices) {
-    const std::string text = value.text();
-    std::string known;
-    for (const Choice<Value>& row : choices) {
-        if (row.id == text) {
-            return row.value;
-        }
-        known += (known.empty() ? "known: " : ", ") + std::string(row.id);
-    }
-    value.fail(fmt::format("'{}' is none of the choices", text), known);
-}
-
-template <class Value>
-void read_choice(const JsonValue& from,
-                 std::string_view key,
-                 std::span<const Choice<Value>> choices,
-                 Value& to) {
-    if (const auto value = from.find(key)) {
-        to = choice(*value, choices);
-    }
-}
-
-void read_flag(const JsonValue& from, std::string_view key, bool& to) {
-    if (const auto value = from.find(key)) {
-        to = value->flag();
-    }
-}
-
-template <class Owner>
-void read_numbers(const JsonValue& from, std::span<const NumberSetting<Owner>> settings, Owner& to) {
-    for (const NumberSetting<Owner>& setting : settings) {
-        if (const auto value = from.find(setting.id)) {
-            const double number =
-                setting.whole() ? value->integer(static_cast<int>(setting.min), static_cast<int>(setting.max))
-                                : value->number(setting.min, setting.max);
-            setting.set(to, number);
-        }
-    }
-}
-
-/// Refuses fields that are neither a number of the table nor one of `others`.
-template <class Owner>
-void expect_fields(const JsonValue& value,
-                   std::span<const NumberSetting<Owner>> numbers,
-                   std::initializer_list<std::string_view> others) {
-    std::vector<std::string_view> keys;
-    for (const NumberSetting<Owner>& setting : numbers) {
-        keys.push_back(setting.id);
-    }
-    keys.insert(keys.end(), others);
-    value.expect_only(keys);
-}
 
 Vec3 point(const JsonValue& value) {
     const auto items = value.items(3);
@@ -222,8 +168,19 @@ ProgramInput program(const JsonValue& value) {
     return result;
 }
 
-Project project(const JsonValue& root) {
-    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program"});
+/// A name in a project file means a file beside it.
+fs::path from_folder(const fs::path& file, const fs::path& folder) {
+    return file.empty() ? file : (folder / file).lexically_normal();
+}
+
+/// What lies in the folder or below it is called from there, so that both can move together.
+fs::path to_folder(const fs::path& file, const fs::path& folder) {
+    const fs::path from_there = file.lexically_relative(folder);
+    return from_there.empty() || *from_there.begin() == ".." ? file : from_there;
+}
+
+Project project(const JsonValue& root, const fs::path& folder) {
+    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program", "plot"});
     if (root.at("format").text() != format_name) {
         root.at("format").fail("not a project file", fmt::format("expected \"{}\"", format_name));
     }
@@ -237,6 +194,10 @@ Project project(const JsonValue& root) {
     }
     if (const auto value = root.find("program")) {
         result.program = program(*value);
+    }
+    if (const auto value = root.find("plot")) {
+        result.plot = plot_of(*value);
+        result.plot.file = from_folder(result.plot.file, folder);
     }
     return result;
 }
@@ -265,18 +226,6 @@ Json json_of(const geometry::ControlNet& net) {
         json["weights"] = table_of(net, [&](int i, int j) { return net.weight(i, j); });
     }
     return json;
-}
-
-template <class Owner>
-void add_numbers(Json& json, std::span<const NumberSetting<Owner>> settings, const Owner& owner) {
-    for (const NumberSetting<Owner>& setting : settings) {
-        const double value = setting.value(owner);
-        if (setting.whole()) {
-            json[std::string(setting.id)] = static_cast<int>(value);
-        } else {
-            json[std::string(setting.id)] = value;
-        }
-    }
 }
 
 Json json_of(const SurfaceInput& surface) {
@@ -327,12 +276,12 @@ Json json_of(const ProgramInput& program) {
 
 } // namespace
 
-Project read_project(const std::filesystem::path& file) {
+Project read_project(const fs::path& file) {
     return project_from_text(read_file(file), file);
 }
 
-Project project_from_text(std::string_view text, const std::filesystem::path& named) {
-    return project(JsonValue::parse(text, named));
+Project project_from_text(std::string_view text, const fs::path& named) {
+    return project(JsonValue::parse(text, named), named.parent_path());
 }
 
 std::string project_text(const Project& project) {
@@ -347,11 +296,16 @@ std::string project_text(const Project& project) {
     json["machine"] = json_of(project.machine);
     json["grid"] = json_of(project.grid);
     json["program"] = json_of(project.program);
+    if (!(project.plot == PlotInput{})) {
+        json["plot"] = json_of(project.plot);
+    }
     return json_text(json);
 }
 
-void write_project(const Project& project, const std::filesystem::path& file) {
-    write_file(file, project_text(project));
+void write_project(const Project& project, const fs::path& file) {
+    Project near = project;
+    near.plot.file = to_folder(project.plot.file, file.parent_path());
+    write_file(file, project_text(near));
 }
 
 } // namespace millwright::project

@@ -9,16 +9,17 @@
 
 namespace millwright::project {
 
-/// Throws Error with file, line and field for anything wrong in it.
+/// Throws Error with file, line and field for anything wrong in it. The file of its plot is taken from beside
+/// `file`.
 [[nodiscard]] Project read_project(const std::filesystem::path& file);
 
-/// Deterministic bytes. Throws Error if it cannot be written or would not be read again (faults_of); the old
-/// file then stays as it was.
+/// Deterministic bytes. A plot beside `file` or below is named from there. Throws Error if it cannot be
+/// written or would not be read again (faults_of); the old file then stays as it was.
 void write_project(const Project& project, const std::filesystem::path& file);
 
 /// Throws Error with the first of faults_of(project) if there is one.
 [[nodiscard]] std::string project_text(const Project& project);
-/// `named` stands in diagnostics.
+/// `named` stands in diagnostics, and names of files start from its folder.
 [[nodiscard]] Project project_from_text(std::string_view text, const std::filesystem::path& named);
 
 } // namespace millwright::project

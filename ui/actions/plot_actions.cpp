@@ -75,10 +75,7 @@ void add_plot_actions(Actions& actions) {
          "",
          icons::save},
         has_path,
-        [](Hands& hands) {
-            const std::filesystem::path file = hands.workshop.plot().write_program();
-            tell(hands.session, widgets::Severity::good, "G-code written.", file.string());
-        });
+        [](Hands& hands) { hands.workshop.write_plot(false); });
     add(actions,
         {"plot.to_machine",
          menu,
@@ -87,7 +84,7 @@ void add_plot_actions(Actions& actions) {
          "",
          icons::machine},
         can_send,
-        [](Hands& hands) { hands.workshop.send_plot(); });
+        [](Hands& hands) { hands.workshop.write_plot(true); });
     add(actions,
         {"plot.play_table",
          menu,

@@ -44,7 +44,7 @@ Workshop::Workshop(WorkshopOptions options)
     processor_ = std::make_unique<ProcessorBench>();
     approach_ = std::make_unique<ApproachFinder>(wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
-    request_plan();
+    follow_project();
 }
 
 Workshop::~Workshop() = default;
@@ -77,11 +77,17 @@ Workbench Workshop::look() const {
             queue_.problem()};
 }
 
-void Workshop::request_plan() {
+void Workshop::follow_project() {
     drop_lost_selection(session_, history_.current());
     const auto& file = document().file;
     const auto folder = file.empty() ? std::filesystem::path{} : file.parent_path();
-    pipeline_->request(history_.current(), {folder, options_.assets});
+    project::Project design = history_.current();
+    const project::PlotInput plot = std::exchange(design.plot, {}); // the plan has no use for it
+    pipeline_->request(design, {folder, options_.assets});
+    if (!(plot_->input() == plot)) {
+        writes_plot_.reset();
+        guarded([&] { plot_->follow(plot); });
+    }
 }
 
 void Workshop::guarded(const std::function<void()>& action) {
@@ -112,7 +118,7 @@ void Workshop::run(std::string_view id) {
     if (history_.project_number() != number_before) { // undo and redo go from file to file, too
         look_at_another();
     } else if (!(before == history_.current())) {
-        request_plan();
+        follow_project();
     }
 }
 
@@ -234,7 +240,7 @@ void Workshop::edit(const std::string& title,
         return;
     }
     history_.commit(std::move(draft), title, merge_key);
-    request_plan();
+    follow_project();
 }
 
 void Workshop::wait_idle() {

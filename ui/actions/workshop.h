@@ -107,8 +107,8 @@ public:
     void end_step() { history_.close_step(); }
 
     [[nodiscard]] PlotBench& plot() { return *plot_; }
-    /// Writes the program of the plot beside it and opens it at the machine. Throws Error.
-    void send_plot();
+    /// Writes the program of the plot beside it as soon as there is one; `to_machine`: and opens it there.
+    void write_plot(bool to_machine);
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);
@@ -137,10 +137,11 @@ private:
     void follow_file();
     void open_plot(const std::filesystem::path& file);
     void follow_plot();
+    void finish_writing_plot();
     void remember(const std::filesystem::path& file);
     void start_autosave();
     void follow_autosave();
-    void request_plan();
+    void follow_project();
     void follow_job();
     void follow_begin();
     void follow_queue();
@@ -169,6 +170,7 @@ private:
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
+    std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
     std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
     bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;                    ///< a job was running when it was last looked at

@@ -41,9 +41,10 @@ void Workshop::open(const fs::path& file) {
         open_gcode(file);
         return;
     }
-    project::Project opened = project::read_project(file);
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    project::Project opened = project::read_project(whole);
     session_.shown = opened.grid.method;
-    begin(opened, "Open " + file.filename().string(), {fs::absolute(file).lexically_normal(), opened});
+    begin(opened, "Open " + file.filename().string(), {whole, opened});
     remember(file);
 }
 
@@ -67,7 +68,21 @@ void Workshop::open_plot(const fs::path& file) {
     if (jobs_->view().running) {
         throw Error("a job is running; a plot can be opened when it has ended", file);
     }
-    plot_->open(file);
+    if (!fs::is_regular_file(file)) {
+        throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
+    }
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    if (history_.current().plot.file == whole) {
+        plot_->read_again();
+    }
+    edit("Open " + file.filename().string(),
+         [&](project::Project& draft) {
+             if (draft.plot.file != whole) {
+                 draft.plot.file = whole;
+                 draft.plot.settings.levels.clear();
+             }
+         },
+         {});
     session_.flat_wanted = true; // drawings are read from above
     session_.workspace = Workspace::plot;
     session_.question = FileQuestion::none;
@@ -77,6 +92,7 @@ void Workshop::open_plot(const fs::path& file) {
 
 /// The program that was made of the plot takes the place of an opened one, while one looks at the plot.
 void Workshop::follow_plot() {
+    guarded([&] { finish_writing_plot(); });
     const auto made = plot_->latest();
     if (session_.workspace != Workspace::plot || !made || !made->finished || made->program.empty() ||
         made->revision == followed_plot_ || jobs_->view().running) {
@@ -84,7 +100,7 @@ void Workshop::follow_plot() {
     }
     followed_plot_ = made->revision;
     project::ReadingChoice reading;
-    reading.machine = made->settings.machine;
+    reading.machine = made->input.settings.machine;
     guarded([&] { reader_->open(made->program, reading, options_.assets); });
     session_.file.step.reset();
     session_.begin = {};
@@ -92,13 +108,29 @@ void Workshop::follow_plot() {
     tells_of_file_ = false;
 }
 
-void Workshop::send_plot() {
+void Workshop::write_plot(bool to_machine) {
+    writes_plot_ = to_machine;
+    plot_->make_program();
+    finish_writing_plot();
+}
+
+void Workshop::finish_writing_plot() {
+    const auto made = plot_->latest();
+    if (!writes_plot_ || !made || !made->finished || (made->program.empty() && !made->failure)) {
+        return;
+    }
+    const bool to_machine = *std::exchange(writes_plot_, std::nullopt);
+    if (made->failure) {
+        throw Error(*made->failure);
+    }
     const fs::path program = plot_->write_program();
-    session_.file.reading.machine = plot_->settings().machine;
-    open_gcode(program);
-    session_.workspace = Workspace::machine;
-    follow_file();
     tell(session_, widgets::Severity::good, "G-code written.", program.string());
+    if (to_machine) {
+        session_.file.reading.machine = plot_->settings().machine;
+        open_gcode(program);
+        session_.workspace = Workspace::machine;
+        follow_file();
+    }
 }
 
 void Workshop::read_again() {
@@ -118,6 +150,7 @@ void Workshop::cancel_work() {
     pipeline_->cancel();
     reader_->cancel();
     plot_->cancel();
+    writes_plot_.reset();
 }
 
 /// The file's motion and the project's each keep their time; and a person is told once what is wrong with the
@@ -146,8 +179,9 @@ void Workshop::follow_file() {
 
 void Workshop::save(const fs::path& file) {
     const auto leaving = std::exchange(leaving_, std::nullopt); // a failure ends the leaving, too
-    project::write_project(history_.current(), file);
-    document() = {fs::absolute(file).lexically_normal(), history_.current()};
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    project::write_project(history_.current(), whole);
+    document() = {whole, history_.current()};
     session_.question = FileQuestion::none;
     tell(session_, widgets::Severity::good, "Saved.", file.string());
     remember(file);
@@ -181,7 +215,7 @@ void Workshop::look_at_another() {
     session_.fit_wanted = true;
     session_.playback = {};
     session_.question = FileQuestion::none;
-    request_plan();
+    follow_project();
 }
 
 void Workshop::remember(const fs::path& file) {

@@ -1,12 +1,12 @@
-// The settings of a plot or picture as fields of the inspector. A change derives everything anew.
+// The settings of a plot or picture as fields of the inspector. Each change is a step of the project.
 #pragma once
 
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {
 
-/// Of the picture: what becomes of it, its size, brightness, tool. Nothing for a plot.
-void picture_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+/// Of a picture what becomes of it, its size, brightness, tool; of a plot its unit.
+void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 /// Of strokes: cutter compensation, filling, order and links.
 void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 /// Of the work: feeds, heights, spindle, machine.

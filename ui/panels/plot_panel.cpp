@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/plot/work_time.h"
+#include "core/project/plot_settings.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/plot_fields.h"
 #include "ui/viewport/pen_colors.h"
@@ -15,6 +16,8 @@
 #include <array>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -55,13 +58,55 @@ std::string level_cell(const Level& level, int column) {
     }
 }
 
-void set_level(ActionQueue& ask, std::size_t n, std::function<void(Level&)> what) {
-    ask.plot([n, what = std::move(what)](actions::PlotBench& bench) { bench.set_level(n, what); });
+/// A step that begins with the levels that are in force.
+void edit_levels(ActionQueue& ask,
+                 const Workbench& now,
+                 const std::string& title,
+                 std::function<void(std::vector<Level>&)> change) {
+    ask.edit(title, [levels = now.plot.levels(), change = std::move(change)](project::Project& draft) {
+        draft.plot.settings.levels = levels;
+        change(draft.plot.settings.levels);
+    });
+}
+
+void level_field(Ui& ui,
+                 const Workbench& now,
+                 ActionQueue& ask,
+                 std::size_t n,
+                 const project::NumberSetting<Level>& setting) {
+    const double value = setting.value(now.plot.levels()[n]);
+    const FieldInfo info{setting.id,
+                         setting.label,
+                         setting.unit,
+                         setting.tip,
+                         setting.min,
+                         setting.max,
+                         setting.value(now.plot.settings().level),
+                         setting.decimals};
+    const auto change = [&](double wanted) {
+        edit_levels(ask,
+                    now,
+                    "Change " + std::string(setting.label),
+                    [&setting, n, wanted](std::vector<Level>& levels) { setting.set(levels.at(n), wanted); });
+    };
+    if (setting.whole()) {
+        if (const auto chosen = ui.integer(static_cast<int>(value), info)) {
+            change(*chosen);
+        }
+    } else if (const auto chosen = ui.number(value, info)) {
+        change(*chosen);
+    }
 }
 
 std::string metres(double mm) {
     constexpr double m = 1e-3;
     return fmt::format("{:.3f}", m * mm);
+}
+
+/// Of plot::minutes_and_seconds.
+std::string_view time_unit(double seconds) {
+    constexpr double an_hour = 3599.5; // rounded
+    return seconds < an_hour ? "min" : "h";
 }
 
 std::string sources_of(const plot::CuttingValues& values) {
@@ -130,39 +175,24 @@ void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::
     const auto scope = ui.scope("level");
     ui.gap();
     if (const auto on = ui.toggle("enabled", "Cut it", level.enabled, "Else its strokes stay")) {
-        set_level(ask, n, [on = *on](Level& l) { l.enabled = on; });
+        edit_levels(ask, now, "Change what is cut", [n, on = *on](std::vector<Level>& levels) {
+            levels.at(n).enabled = on;
+        });
     }
-    const auto whole = [&](const FieldInfo& info, int Level::*member) {
-        if (const auto value = ui.integer(level.*member, info)) {
-            set_level(ask, n, [v = *value, member](Level& l) { l.*member = v; });
+    for (const auto& setting : project::level_numbers()) {
+        const bool of_tab = setting.id.starts_with("tab_");
+        if (!of_tab || level.tabs.count > 0) {
+            level_field(ui, now, ask, n, setting);
         }
-    };
-    const auto number = [&](const FieldInfo& info, double unit, double Level::*member) {
-        if (const auto value = ui.number(level.*member / unit, info)) {
-            set_level(ask, n, [v = *value * unit, member](Level& l) { l.*member = v; });
-        }
-    };
-    whole({"order", "Order", "", "Levels with a smaller one are cut first", -1000, 1000, 0, 0},
-          &Level::order);
-    number({"depth", "Depth", "mm", "Below the top", 0.0, 150.0, 1.0, 3}, 1.0, &Level::depth);
-    whole({"passes", "Passes", "", "Of equal depth, one below the other", 1, 1000, 1, 0}, &Level::passes);
-    const double unit = from_mm_per_min(1.0);
-    number({"cutting", "Feed", "mm/min", "Along the strokes", 1.0, 1e5, 480.0, 0}, unit, &Level::cutting);
-    number({"plunging", "Plunge", "mm/min", "Into the work", 1.0, 1e5, 120.0, 0}, unit, &Level::plunging);
-    whole({"tool", "Tool", "", "Where it differs the tool is changed by hand", 0, 1000, 1, 0}, &Level::tool);
-    const FieldInfo tabs{
-        "tabs", "Tabs", "", "Bridges on closed strokes, 6 mm wide and 1 mm high", 0, 1000, 0, 0};
-    if (const auto count = ui.integer(level.tabs.count, tabs)) {
-        set_level(ask, n, [v = *count](Level& l) { l.tabs.count = v; });
     }
     const auto line = ui.row(2);
     if (ui.button(
             "again", "Cut once more", {}, {{}, widgets::Rank::normal, 0.0F, "A second level of this pen"})) {
-        ask.plot([n](actions::PlotBench& bench) { bench.add_level(n); });
+        edit_levels(ask, now, "Cut a pen once more", [n](auto& levels) { project::repeat_level(levels, n); });
     }
     if (ui.button(
             "remove", "Remove", {}, {{}, widgets::Rank::quiet, 0.0F, "A pen's only level is switched off"})) {
-        ask.plot([n](actions::PlotBench& bench) { bench.remove_level(n); });
+        edit_levels(ask, now, "Remove a level", [n](auto& levels) { project::remove_level(levels, n); });
     }
 }
 
@@ -186,14 +216,17 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
                  fmt::format("{} (as drawn {})",
                              plot::minutes_and_seconds(made->as_planned.seconds),
                              plot::minutes_and_seconds(made->as_drawn.seconds)),
-                 "min");
+                 time_unit(made->as_planned.seconds));
     }
     const double planned = now.in_file() ? now.duration() : 0.0;
-    ui.value("planner", "Time, planner", planned > 0.0 ? plot::minutes_and_seconds(planned) : "...", "min");
+    ui.value("planner",
+             "Time, planner",
+             planned > 0.0 ? plot::minutes_and_seconds(planned) : "...",
+             time_unit(planned));
     ui.value("left",
              "Remaining",
              planned > 0.0 ? plot::minutes_and_seconds(std::max(planned - now.time(), 0.0)) : "...",
-             "min");
+             time_unit(planned - now.time()));
 }
 
 void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -218,7 +251,7 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ask.run("plot.light");
     }
     if (const auto section = ui.section("source", "Source")) {
-        picture_fields(ui, now, ask);
+        source_fields(ui, now, ask);
     }
     if (!cuts_brightness(now)) {
         stroke_fields(ui, now, ask);
@@ -256,7 +289,12 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
     view.chosen = now.plot.material() ? static_cast<std::ptrdiff_t>(*now.plot.material()) : -1;
     view.when_empty = "Open a plot or a picture first.";
     if (const auto row = widgets::table(ui, "materials", view)) {
-        ask.plot([n = static_cast<std::size_t>(*row)](actions::PlotBench& bench) { bench.use_material(n); });
+        const auto n = static_cast<std::size_t>(*row);
+        ask.plot([n](actions::PlotBench& bench) { bench.choose_material(n); });
+        ask.edit("Cut " + materials[n].name(),
+                 [levels = now.plot.levels(), taken = values[n]](project::Project& draft) {
+                     project::use_material(draft.plot.settings, levels, taken);
+                 });
     }
     if (now.plot.material()) {
         ui.note(

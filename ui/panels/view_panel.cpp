@@ -149,7 +149,7 @@ void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
 /// From above at first: a drawing is read that way.
 void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
-    const bool there = made && made->path && made->file == now.plot.file();
+    const bool there = made && made->path && made->input.file == now.plot.file();
     if (now.session.flat_wanted) {
         const bool flat = *now.session.flat_wanted;
         view_.look_from(flat ? render::StandardView::top : render::StandardView::iso);

@@ -1,8 +1,10 @@
-#include "core/project/settings.h"
+#include "core/base/error.h"
+#include "core/project/plot_settings.h"
 
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <random>
 #include <set>
 
 namespace millwright::project {
@@ -20,7 +22,7 @@ template <class Owner> void expect_sound(std::span<const NumberSetting<Owner>> s
         EXPECT_EQ(setting.whole(), setting.decimals == 0 && setting.id != "spindle_rpm") << setting.id;
         Owner owner;
         setting.set(owner, setting.max);
-        EXPECT_EQ(setting.value(owner), setting.max) << setting.id;
+        EXPECT_DOUBLE_EQ(setting.value(owner), setting.max) << setting.id;
     }
 }
 
@@ -30,6 +32,55 @@ TEST(Settings, EveryNumberHasARangeThatHoldsItsDefault) {
     expect_sound(tracks_numbers());
     expect_sound(chain_numbers());
     expect_sound(program_numbers());
+    expect_sound(plot_numbers());
+    expect_sound(level_numbers());
+}
+
+TEST(Settings, WhatAPersonTypedComesBackAsItWasTyped) {
+    plot::Level level;
+    const auto& feed = level_number("feed_mm_per_min");
+    for (int tenths = 10; tenths < 100'000; tenths += 7) {
+        const double typed = tenths / 10.0;
+        feed.set(level, typed);
+        EXPECT_EQ(feed.value(level), typed);
+        EXPECT_NEAR(level.cutting, typed / 60.0, 1e-12 * typed);
+    }
+    PlotSettings settings;
+    const auto& angle = plot_number("hatch_angle_deg");
+    for (int hundredths = -18'000; hundredths <= 18'000; ++hundredths) {
+        const double typed = hundredths / 100.0;
+        angle.set(settings, typed);
+        EXPECT_EQ(angle.value(settings), typed);
+    }
+}
+
+TEST(Settings, WhateverWasToldComesBackToTheLastBit) {
+    std::mt19937 random(2006);
+    std::uniform_real_distribution<double> told(1.0, 1e5);
+    plot::Level level;
+    const auto& feed = level_number("feed_mm_per_min");
+    PlotSettings settings;
+    const auto& angle = plot_number("hatch_angle_deg");
+    for (int n = 0; n < 10'000; ++n) {
+        feed.set(level, told(random));
+        const double speed = level.cutting;
+        feed.set(level, feed.value(level));
+        EXPECT_EQ(level.cutting, speed);
+        angle.set(settings, told(random) / 1000.0);
+        const double rad = settings.strokes.hatch_angle;
+        angle.set(settings, angle.value(settings));
+        EXPECT_EQ(settings.strokes.hatch_angle, rad);
+    }
+}
+
+TEST(Settings, OfPlotsSayNoneWithAZero) {
+    PlotSettings settings;
+    const auto& hatch = plot_number("hatch_mm");
+    hatch.set(settings, 1.5875);
+    EXPECT_EQ(settings.strokes.hatch_pitch, 1.5875);
+    hatch.set(settings, 0.0);
+    EXPECT_FALSE(settings.strokes.hatch_pitch);
+    EXPECT_THROW((void)plot_number("no such"), Defect);
 }
 
 TEST(Settings, WholeNumbersTakeTheNearest) {
@@ -52,6 +103,11 @@ TEST(Settings, EveryChoiceHasItsOwnRow) {
     expect_distinct(weight_sources());
     expect_distinct(links());
     expect_distinct(angle_modes());
+    expect_distinct(picture_uses());
+    expect_distinct(gray_rules());
+    expect_distinct(tip_kinds());
+    expect_distinct(cutter_sides());
+    expect_distinct(corner_kinds());
 }
 
 TEST(Settings, FaultyAnglesSayThatTheyAre) {

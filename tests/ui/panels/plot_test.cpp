@@ -63,11 +63,11 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
     ASSERT_FALSE(bench.made().failure);
     for (const char* path : {"layers/levels",
-                             "layers/level/depth",
+                             "layers/level/depth_mm",
                              "layers/figures/thesis",
-                             "inspector/cutter/tool",
-                             "inspector/fill/hatch",
-                             "inspector/travel/link",
+                             "inspector/cutter/tool_mm",
+                             "inspector/fill/hatch_mm",
+                             "inspector/travel/link_mm",
                              "lower/materials",
                              "timeline/timeline/play"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
@@ -80,7 +80,7 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
 TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
     Bench bench("assets/samples/plot/hatched-sign.plt");
     const plot::WorkTime before = bench.made().as_planned;
-    bench.person.fill_in("inspector/travel/link", "3");
+    bench.person.fill_in("inspector/travel/link_mm", "3");
     bench.settle();
     const plot::WorkTime linked = bench.made().as_planned;
     EXPECT_LT(linked.runs, before.runs);
@@ -95,7 +95,7 @@ TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
     Bench bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
     const auto levels = bench.plot().levels();
     ASSERT_GE(levels.size(), 2U);
-    bench.person.fill_in("layers/level/depth", "2.5");
+    bench.person.fill_in("layers/level/depth_mm", "2.5");
     bench.settle();
     EXPECT_DOUBLE_EQ(bench.made().levels.front().depth, 2.5);
     const double cut = bench.made().lengths.cut;
@@ -116,9 +116,9 @@ TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
     ASSERT_FALSE(bench.made().failure);
     EXPECT_TRUE(bench.made().picture);
     ASSERT_TRUE(bench.made().look);
-    bench.person.fill_in("inspector/source/width", "60");
+    bench.person.fill_in("inspector/source/width_mm", "60");
     bench.settle();
-    bench.person.fill_in("inspector/source/depth", "2");
+    bench.person.fill_in("inspector/source/depth_mm", "2");
     bench.settle();
     EXPECT_NEAR(static_cast<double>(std::ranges::min(bench.made().look->z)), -2.0, 0.3);
     bench.person.click("inspector/plot_space");
@@ -133,6 +133,39 @@ TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
     bench.settle();
     EXPECT_GT(gray(), 2 * lit + 1000);
     bench.person.keep("plot-light");
+}
+
+TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    const fs::path plot = bench.plot().file();
+    const double before = bench.made().as_planned.seconds;
+    bench.person.fill_in("inspector/travel/link_mm", "3");
+    bench.settle();
+    bench.person.fill_in("layers/level/depth_mm", "2.5");
+    bench.settle();
+    EXPECT_EQ(bench.person.workshop().look().undo_title, "Change Depth");
+    const project::PlotInput set = bench.person.project().plot;
+    EXPECT_TRUE(bench.person.workshop().look().changed());
+    bench.person.workshop().save(bench.folder / "sign.json");
+    EXPECT_FALSE(bench.person.workshop().look().changed());
+
+    bench.person.press_key(render::Key::z, true);
+    bench.settle();
+    EXPECT_DOUBLE_EQ(bench.made().levels.front().depth, 1.0);
+    EXPECT_LT(bench.made().as_planned.seconds, before);
+    bench.person.press_key(render::Key::z, true);
+    bench.settle();
+    EXPECT_DOUBLE_EQ(bench.made().as_planned.seconds, before);
+    EXPECT_EQ(bench.person.workshop().look().undo_title, "Open hatched-sign.plt");
+    bench.person.press_key(render::Key::z, true);
+    bench.settle();
+    EXPECT_TRUE(bench.plot().file().empty());
+
+    bench.person.open(bench.folder / "sign.json");
+    bench.settle();
+    EXPECT_EQ(bench.person.project().plot, set);
+    EXPECT_EQ(bench.plot().file(), plot);
+    EXPECT_DOUBLE_EQ(bench.made().levels.front().depth, 2.5);
 }
 
 TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {

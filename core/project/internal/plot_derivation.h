@@ -1,0 +1,40 @@
+// Deriving what comes of a plot, part by part.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/project/plot_work.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace millwright::project {
+
+class PlotDerivation {
+public:
+    /// All of them stay the caller's.
+    PlotDerivation(PlotResult& result, const std::filesystem::path& assets, const Progress& progress)
+        : result_(result), settings_(result.input.settings), assets_(assets), progress_(progress) {}
+
+    /// Each throws Error or Cancelled. The path comes first.
+    void make_path();
+    /// None where nothing is cut, or where a point cuts.
+    void make_look();
+    /// Into `folder`.
+    void make_program(const std::filesystem::path& folder);
+    [[nodiscard]] bool wants_program() const { return result_.path->size() <= most_points_at_once; }
+
+private:
+    void cut_picture();
+    void cut_relief(const plot::Picture& picture, double pitch);
+    void cut_strokes(const plot::Strokes& drawn);
+    void use(plot::CutPath path);
+    [[nodiscard]] plot::CutSettings cut_of(std::vector<plot::Level> levels) const;
+    [[nodiscard]] std::vector<plot::Level> levels_of(const plot::Strokes& strokes) const;
+
+    PlotResult& result_;
+    const PlotSettings& settings_;
+    const std::filesystem::path& assets_;
+    const Progress& progress_;
+};
+
+} // namespace millwright::project

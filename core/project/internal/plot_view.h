@@ -1,0 +1,16 @@
+// A cutting path as it is drawn: what is cut, and how the tool travels.
+#pragma once
+
+#include "core/gcode/reader/preview_path.h"
+#include "core/geometry/vectors.h"
+#include "core/plot/cut_path.h"
+
+namespace millwright::project {
+
+/// The moves in the work, nothing between them, `shift` across.
+[[nodiscard]] gcode::PreviewPath cuts_of(const plot::CutPath& path, const Vec2& shift);
+
+/// The moves in the air.
+[[nodiscard]] gcode::PreviewPath travel_of(const plot::CutPath& path);
+
+} // namespace millwright::project

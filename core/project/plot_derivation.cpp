@@ -1,0 +1,189 @@
+#include "core/project/internal/plot_derivation.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/plot/hpgl/reader.h"
+#include "core/plot/path_file.h"
+#include "core/plot/picture/engraving.h"
+#include "core/plot/picture/finished_look.h"
+#include "core/plot/picture/relief_plan.h"
+#include "core/plot/picture/trace.h"
+#include "core/project/internal/plot_view.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double thesis_pixel = 0.26; // mm: KMITL thesis of 2006
+constexpr double chord_tolerance = 0.005;
+constexpr double light_half = 0.3; // mm that halve the light: docs/reference/picture.md
+constexpr int look_squares = 160;
+
+} // namespace
+
+void PlotDerivation::make_path() {
+    result_.picture = is_picture_file(result_.input.file);
+    if (is_path_file(result_.input.file)) {
+        use(plot::read_path(read_file(result_.input.file), result_.input.file));
+    } else if (result_.picture) {
+        cut_picture();
+    } else {
+        plot::ReaderSettings reading;
+        reading.unit = {settings_.plotter_unit, settings_.plotter_unit};
+        plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
+        result_.notices = std::move(read.diagnostics);
+        cut_strokes(read.strokes);
+    }
+    if (result_.path->empty()) {
+        throw Error("there is nothing to cut", result_.input.file);
+    }
+    if (settings_.plate > 0.0) {
+        plot::expect_within_plate(*result_.path, settings_.plate);
+    }
+}
+
+void PlotDerivation::make_look() {
+    const bool strokes = !result_.picture || settings_.use == PictureUse::outlines;
+    const plot::ToolTip tip =
+        strokes ? plot::ToolTip{.kind = plot::TipKind::flat, .diameter = settings_.strokes.tool_diameter}
+                : settings_.tip;
+    const bool cuts =
+        std::ranges::any_of(*result_.path, [](const plot::CutPoint& point) { return point.at.z() < 0.0; });
+    if (!cuts || tip.kind == plot::TipKind::point) {
+        return;
+    }
+    auto look = std::make_shared<plot::HeightField>(
+        plot::finished(*result_.path, tip, look_squares, progress_.part(0.5, 0.7)));
+    constexpr double spare = 0.5;
+    result_.light =
+        plot::against_light(*look, spare - static_cast<double>(std::ranges::min(look->z)), light_half);
+    result_.look = std::move(look);
+}
+
+void PlotDerivation::make_program(const fs::path& folder) {
+    progress_.report(0.7, "Writing the program");
+    const fs::path file = folder / (result_.input.file.stem().string() + ".ngc");
+    write_file(file, plot_program_text(result_, assets_));
+    result_.program = file;
+}
+
+void PlotDerivation::cut_picture() {
+    plot::PictureSettings reading;
+    reading.gray = settings_.gray;
+    reading.invert = settings_.invert;
+    plot::ReadPicture read = plot::read_picture_file(result_.input.file, reading, progress_.part(0.0, 0.2));
+    result_.notices = std::move(read.notices);
+    const plot::Picture& picture = read.picture;
+    double pitch = picture.pixels_per_mm ? 1.0 / *picture.pixels_per_mm : thesis_pixel;
+    if (settings_.picture_width > 0.0) {
+        pitch = settings_.picture_width / picture.width;
+    }
+    switch (settings_.use) {
+    case PictureUse::relief:
+        return cut_relief(picture, pitch);
+    case PictureUse::outlines:
+        return cut_strokes(plot::strokes_of(
+            plot::trace(picture, {.threshold = settings_.threshold}), pitch, chord_tolerance));
+    case PictureUse::halftone:
+        return use(plot::halftone(picture,
+                                  pitch,
+                                  {.pitch = settings_.dot_pitch,
+                                   .tip = settings_.tip,
+                                   .plunging = settings_.level.plunging,
+                                   .safe_height = settings_.safe_height}));
+    case PictureUse::dots:
+        break;
+    }
+    plot::Level level = settings_.level;
+    level.depth = settings_.depth;
+    use(plot::cut_path(plot::dithered(picture, pitch, {.pitch = settings_.dot_pitch}), cut_of({level})));
+}
+
+void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
+    plot::ReliefPlan plan;
+    plan.relief.tip = settings_.tip;
+    plan.relief.step_over = settings_.step_over;
+    constexpr double merge = 0.005; // mm: as the command line has it
+    plan.relief.merge_tolerance = merge;
+    if (settings_.depth_per_pass) {
+        plan.relief.roughing = plot::Roughing{.depth_per_pass = *settings_.depth_per_pass};
+    }
+    plan.relief.cutting = settings_.level.cutting;
+    plan.relief.plunging = settings_.level.plunging;
+    plan.relief.safe_height = settings_.safe_height;
+    plan.plate = settings_.frame;
+    use(plot::relief_path(
+        plot::height_field(picture, pitch, settings_.depth), plan, progress_.part(0.2, 0.5)));
+}
+
+plot::CutSettings PlotDerivation::cut_of(std::vector<plot::Level> levels) const {
+    plot::CutSettings cut;
+    cut.levels = std::move(levels);
+    cut.safe_height = settings_.safe_height;
+    cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
+    return cut;
+}
+
+/// Those that are set, and one like `level` for each other pen.
+std::vector<plot::Level> PlotDerivation::levels_of(const plot::Strokes& strokes) const {
+    std::vector<plot::Level> levels;
+    for (const plot::Level& usual : plot::levels_for(strokes, settings_.level)) {
+        bool set = false;
+        for (const plot::Level& level : settings_.levels) {
+            if (level.pen == usual.pen) {
+                levels.push_back(level);
+                set = true;
+            }
+        }
+        if (!set) {
+            levels.push_back(usual);
+        }
+    }
+    return levels;
+}
+
+void PlotDerivation::cut_strokes(const plot::Strokes& drawn) {
+    const plot::Strokes planned = plot::planned(drawn, settings_.strokes, progress_.part(0.2, 0.4)).strokes;
+    result_.drawn_strokes = drawn.size();
+    const Vec2 home = Vec2::Zero();
+    result_.as_drawn = plot::work_time(drawn, {}, home, home);
+    result_.as_planned = plot::work_time(planned, {}, home, home);
+    result_.levels = levels_of(planned);
+    std::vector<plot::Level> in_order = result_.levels;
+    std::ranges::stable_sort(in_order, {}, &plot::Level::order);
+    result_.cuts.clear();
+    for (const plot::Level& level : in_order) {
+        if (level.enabled) {
+            result_.cuts.push_back(
+                {level.pen, cuts_of(plot::cut_path(planned, cut_of({level})), settings_.origin)});
+            progress_.check();
+        }
+    }
+    use(plot::cut_path(planned, cut_of(result_.levels)));
+    plot::Strokes placed = planned;
+    for (plot::Stroke& stroke : placed) {
+        for (Vec2& point : stroke.points) {
+            point += settings_.origin;
+        }
+    }
+    result_.strokes = std::make_shared<const plot::Strokes>(std::move(placed));
+}
+
+void PlotDerivation::use(plot::CutPath path) {
+    for (plot::CutPoint& point : path) {
+        point.at += Vec3(settings_.origin.x(), settings_.origin.y(), 0.0);
+    }
+    result_.lengths = plot::lengths(path);
+    if (result_.cuts.empty()) {
+        result_.cuts.push_back({1, cuts_of(path, Vec2::Zero())});
+    }
+    result_.air = travel_of(path);
+    result_.path = std::make_shared<const plot::CutPath>(std::move(path));
+}
+
+} // namespace millwright::project

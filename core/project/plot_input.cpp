@@ -1,0 +1,74 @@
+#include "core/project/plot_input.h"
+
+#include "core/base/units.h"
+#include "core/project/plot_settings.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+namespace millwright::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string ending_of(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(
+        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+} // namespace
+
+bool is_picture_file(const fs::path& file) {
+    constexpr std::array<std::string_view, 4> endings{".png", ".jpg", ".jpeg", ".bmp"};
+    return std::ranges::find(endings, ending_of(file)) != endings.end();
+}
+
+bool is_path_file(const fs::path& file) {
+    return ending_of(file) == ".path";
+}
+
+bool is_plot_file(const fs::path& file) {
+    constexpr std::array<std::string_view, 3> endings{".plt", ".hpgl", ".hpg"};
+    return is_picture_file(file) || is_path_file(file) ||
+           std::ranges::find(endings, ending_of(file)) != endings.end();
+}
+
+void repeat_level(std::vector<plot::Level>& levels, std::size_t n) {
+    const plot::Level again = levels.at(n);
+    levels.insert(levels.begin() + static_cast<std::ptrdiff_t>(n) + 1, again);
+}
+
+void remove_level(std::vector<plot::Level>& levels, std::size_t n) {
+    plot::Level& level = levels.at(n);
+    if (std::ranges::count(levels, level.pen, &plot::Level::pen) < 2) {
+        level.enabled = false;
+    } else {
+        levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(n));
+    }
+}
+
+void use_material(PlotSettings& settings,
+                  const std::vector<plot::Level>& levels,
+                  const plot::CuttingValues& values) {
+    const double deepest = values.depth_per_pass.value;
+    const auto take = [&](plot::Level& level) {
+        level_number("feed_mm_per_min").set(level, to_mm_per_min(values.feed.value));
+        level_number("plunge_mm_per_min").set(level, to_mm_per_min(values.plunge.value));
+        level.passes = std::max(1, static_cast<int>(std::ceil(level.depth / deepest - 1e-9)));
+    };
+    take(settings.level);
+    settings.levels = levels;
+    std::ranges::for_each(settings.levels, take);
+    if (settings.depth > deepest) {
+        settings.depth_per_pass = deepest;
+    }
+    settings.spindle_rpm = values.spindle_rpm.value;
+}
+
+} // namespace millwright::project
