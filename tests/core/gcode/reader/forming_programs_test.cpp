@@ -39,8 +39,11 @@ std::vector<double> lengths_of(const std::string& file) {
     std::vector<double> lengths;
     Vec3 at = Vec3::Zero();
     for (const Move& move : read.moves) {
-        lengths.push_back(length_of(at, move));
+        const double length = length_of(at, move);
         at = xyz(move.target);
+        if (length > 0.0) { // G00 in the head goes nowhere
+            lengths.push_back(length);
+        }
     }
     return lengths;
 }
