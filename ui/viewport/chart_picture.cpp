@@ -30,14 +30,18 @@ void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
 render::Picture
 chart_picture(const std::vector<Chart>& charts, const render::PixelSize& size, render::Theme theme) {
     expects(!charts.empty(), "a picture has a chart");
-    constexpr float heading = 44.0F;
-    const float height = static_cast<float>(size.height) / static_cast<float>(charts.size()) - heading;
+    constexpr float heading = 44.0F; // px
+    constexpr float margin = 20.0F;
+    const float height =
+        (static_cast<float>(size.height) - 2.0F * margin) / static_cast<float>(charts.size()) - heading;
     Desk desk(size, 1.0, theme);
-    return desk.picture([&](widgets::Ui& ui) {
-        for (const Chart& chart : charts) {
-            draw_chart(ui, chart, height);
-        }
-    });
+    return desk.picture(
+        [&](widgets::Ui& ui) {
+            for (const Chart& chart : charts) {
+                draw_chart(ui, chart, height);
+            }
+        },
+        margin);
 }
 
 } // namespace millwright::viewport

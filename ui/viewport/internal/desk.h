@@ -16,13 +16,17 @@ public:
     Desk(const render::PixelSize& size, double scale, render::Theme theme)
         : context_(size, scale), session_(context_), ui_(look(static_cast<float>(scale), theme)) {}
 
-    template <typename Draw> [[nodiscard]] render::Picture picture(const Draw& draw) {
+    /// `margin`: px that stay free at each side.
+    template <typename Draw> [[nodiscard]] render::Picture picture(const Draw& draw, float margin = 0.0F) {
         session_.begin_frame();
         ui_.begin_frame();
         const render::PixelSize size = context_.framebuffer_size();
         {
-            const auto pane = ui_.bare_pane(
-                "picture", {0.0F, 0.0F, static_cast<float>(size.width), static_cast<float>(size.height)});
+            const auto pane = ui_.bare_pane("picture",
+                                            {margin,
+                                             margin,
+                                             static_cast<float>(size.width) - 2.0F * margin,
+                                             static_cast<float>(size.height) - 2.0F * margin});
             draw(ui_);
         }
         ui_.end_frame();
