@@ -104,7 +104,9 @@ int rtl(const NumberOptions& options) {
         files.push_back({std::move(file.name), std::move(file.text)});
     }
     write_outputs(options.out, files);
-    fmt::print("{} files; try: cd {} && iverilog -g2001 -o sim *.v && ./sim\n", files.size(), options.out);
+    fmt::print("{} files; try: cd {} && iverilog -g2001 -o sim cordic_core.v cordic_core_tb.v && ./sim\n",
+               files.size(),
+               options.out);
     return 0;
 }
 
@@ -139,7 +141,7 @@ void add_rtl(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<NumberOptions>();
     options->format = "q2.22";
     CLI::App& command =
-        add_command(group, "rtl", "Write the iteration as Verilog, with a test bench", options);
+        add_command(group, "rtl", "Write the iteration as Verilog, with test benches", options);
     command.add_option("--out", options->out, "Folder for the Verilog files and their test vectors")
         ->required()
         ->type_name("DIR");

@@ -19,7 +19,8 @@ std::vector<RtlFile> make_rtl(const NumberFormat& format,
     const internal::Verilog verilog(format, sequence);
     return {{"cordic_core.v", internal::core_module(verilog)},
             {"cordic_pipeline.v", internal::pipeline_module(verilog)},
-            {"cordic_tb.v", internal::test_bench(verilog, vector_count)},
+            {"cordic_core_tb.v", internal::core_bench(verilog, vector_count)},
+            {"cordic_pipeline_tb.v", internal::pipeline_bench(verilog, vector_count)},
             {"vectors.hex", internal::test_vectors(verilog, vector_count, seed)}};
 }
 

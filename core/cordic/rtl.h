@@ -1,6 +1,6 @@
 // The iteration as synthesizable Verilog (IEEE 1364-2001), generated from the tables that the model uses: one
-// core that does a step in each clock, one pipeline that takes a vector in each clock, and a test bench that
-// compares both with vectors of the model.
+// core that does a step in each clock, one pipeline that takes a vector in each clock, and for each a test
+// bench that compares it with vectors of the model.
 #pragma once
 
 #include "core/cordic/number_format.h"
@@ -13,7 +13,7 @@
 namespace millwright::cordic {
 
 struct RtlFile {
-    std::string name; ///< cordic_core.v, cordic_pipeline.v, cordic_tb.v, vectors.hex
+    std::string name; ///< cordic_core.v, cordic_pipeline.v, a bench of each as cordic_core_tb.v, vectors.hex
     std::string text;
 };
 

@@ -275,7 +275,8 @@ TEST(Cordic, WritesHardwareForFixedPoint) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(folder.path() / "cordic_core.v"), HasSubstr("module cordic_core"));
     EXPECT_THAT(content_of(folder.path() / "cordic_pipeline.v"), HasSubstr("module cordic_pipeline"));
-    EXPECT_THAT(content_of(folder.path() / "cordic_tb.v"), HasSubstr("vectors.hex"));
+    EXPECT_THAT(content_of(folder.path() / "cordic_core_tb.v"), HasSubstr("vectors.hex"));
+    EXPECT_THAT(content_of(folder.path() / "cordic_pipeline_tb.v"), HasSubstr("vectors.hex"));
     const Ended floating = run({"cordic", "rtl", "--format", "f32", "--out", folder.path().string()});
     EXPECT_EQ(floating.exit_code, 1);
     EXPECT_THAT(floating.err, HasSubstr("hardware is made for fixed point"));

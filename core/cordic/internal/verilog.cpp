@@ -83,15 +83,13 @@ std::string Verilog::functions() const {
     localparam signed [W-1:0] MOST = {{1'b0, {{(W-1){{1'b1}}}}}};
     localparam signed [W-1:0] LEAST = {{1'b1, {{(W-1){{1'b0}}}}}};
 
-    // Sum and difference: {{overflow, result}}, held at the ends of the range.
-    function [W:0] held(input signed [W:0] s);
-        held = (s[W] != s[W-1]) ? {{1'b1, s[W] ? LEAST : MOST}} : {{1'b0, s[W-1:0]}};
-    endfunction
-    function [W:0] add(input signed [W-1:0] a, input signed [W-1:0] b);
-        add = held({{a[W-1], a}} + {{b[W-1], b}});
-    endfunction
-    function [W:0] sub(input signed [W-1:0] a, input signed [W-1:0] b);
-        sub = held({{a[W-1], a}} - {{b[W-1], b}});
+    // Sum or difference, by one adder: {{overflow, result}}, held at the ends of the range.
+    function [W:0] add_sub(input subtract, input signed [W-1:0] a, input signed [W-1:0] b);
+        reg [W:0] s;
+        begin
+            s = {{a[W-1], a}} + ({{b[W-1], b}} ^ {{(W+1){{subtract}}}}) + subtract;
+            add_sub = (s[W] != s[W-1]) ? {{1'b1, s[W] ? LEAST : MOST}} : {{1'b0, s[W-1:0]}};
+        end
     endfunction
 
     // v times 2^-s.
@@ -137,21 +135,15 @@ std::string Verilog::turned(const VerilogStep& s) const {
         text = fmt::format("    wire [W:0] {} = {{1'b0, {}}};\n", s.next_x, s.x);
     } else {
         const bool circular = sequence_.m == CoordinateSystem::circular;
-        text = fmt::format("    wire [W:0] {} = {} ? {}({}, {}) : {}({}, {});\n",
+        text = fmt::format("    wire [W:0] {} = add_sub({}{}, {}, {});\n",
                            s.next_x,
+                           circular ? "" : "!",
                            s.plus,
-                           circular ? "sub" : "add",
-                           s.x,
-                           s.shifted_y,
-                           circular ? "add" : "sub",
                            s.x,
                            s.shifted_y);
     }
-    text += fmt::format(
-        "    wire [W:0] {0} = {1} ? add({2}, {3}) : sub({2}, {3});\n", s.next_y, s.plus, s.y, s.shifted_x);
-    return text +
-           fmt::format(
-               "    wire [W:0] {0} = {1} ? sub({2}, {3}) : add({2}, {3});\n", s.next_z, s.plus, s.z, s.angle);
+    text += fmt::format("    wire [W:0] {} = add_sub(!{}, {}, {});\n", s.next_y, s.plus, s.y, s.shifted_x);
+    return text + fmt::format("    wire [W:0] {} = add_sub({}, {}, {});\n", s.next_z, s.plus, s.z, s.angle);
 }
 
 } // namespace millwright::cordic::internal

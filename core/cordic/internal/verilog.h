@@ -55,7 +55,8 @@ private:
 /// The modules of a file each. Where `count` vectors are asked for, some overflow; `seed` chooses them.
 [[nodiscard]] std::string core_module(const Verilog& verilog);
 [[nodiscard]] std::string pipeline_module(const Verilog& verilog);
-[[nodiscard]] std::string test_bench(const Verilog& verilog, std::int64_t count);
+[[nodiscard]] std::string core_bench(const Verilog& verilog, std::int64_t count);
+[[nodiscard]] std::string pipeline_bench(const Verilog& verilog, std::int64_t count);
 [[nodiscard]] std::string test_vectors(const Verilog& verilog, std::int64_t count, std::uint64_t seed);
 
 } // namespace millwright::cordic::internal

@@ -5,31 +5,42 @@
 
 #include <iterator>
 #include <random>
+#include <string_view>
 
 namespace millwright::cordic::internal {
 
-std::string test_bench(const Verilog& verilog, std::int64_t count) {
-    std::string text =
-        verilog.head("Compares core and pipeline with the vectors of the model; prints PASS or FAIL.");
-    text += fmt::format(R"(module cordic_tb;
-    localparam W = {0};
-    localparam F = {1};        // bits of a field in vectors.hex
-    localparam CLOCKS = {2};
-    localparam COUNT = {3};
-    localparam ITERATIVE = COUNT < 2000 ? COUNT : 2000;
+namespace {
+
+/// What differs between the benches.
+struct Bench {
+    std::string_view module;
+    std::string_view wires;    ///< declarations, with the instance of the module
+    std::string_view compares; ///< drives every vector and checks every result
+};
+
+std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& bench) {
+    std::string text = verilog.head(
+        fmt::format("Compares {} with the vectors of the model; prints PASS or FAIL.", bench.module));
+    text += fmt::format(R"(module {}_tb;
+    localparam W = {};
+    localparam F = {};         // bits of a field in vectors.hex
+    localparam CLOCKS = {};
+    localparam COUNT = {};
 
     reg [6*F+7:0] vectors [0:COUNT-1];
-    reg clk, reset, start, vectoring, valid_in;
+    reg clk, vectoring;
     reg signed [W-1:0] x_in, y_in, z_in;
-    wire signed [W-1:0] xc, yc, zc, xp, yp, zp;
-    wire oc, busy, op, valid;
+    wire signed [W-1:0] x, y, z;
+    wire overflow;
     integer n, wrong;
-
-    cordic_core core (.clk(clk), .reset(reset), .start(start), .vectoring(vectoring), .x_in(x_in), .y_in(y_in),
-                      .z_in(z_in), .x(xc), .y(yc), .z(zc), .overflow(oc), .busy(busy));
-    cordic_pipeline pipeline (.clk(clk), .valid_in(valid_in), .vectoring(vectoring), .x_in(x_in), .y_in(y_in),
-                              .z_in(z_in), .x(xp), .y(yp), .z(zp), .overflow(op), .valid(valid));
-
+)",
+                        bench.module,
+                        verilog.word(),
+                        4 * verilog.digits(),
+                        verilog.sequence().clock_count(),
+                        count);
+    text += bench.wires;
+    text += R"(
     task drive(input integer k);
         begin
             vectoring = vectors[k][6*F+4];
@@ -38,15 +49,15 @@ std::string test_bench(const Verilog& verilog, std::int64_t count) {
             z_in = vectors[k][4*F-1 -: F];
         end
     endtask
-    task check(input integer k, input [W-1:0] x, input [W-1:0] y, input [W-1:0] z, input o);
+    task check(input integer k);
         reg [W-1:0] ex, ey, ez;
         begin
             ex = vectors[k][3*F-1 -: F];
             ey = vectors[k][2*F-1 -: F];
             ez = vectors[k][F-1 -: F];
-            if (x !== ex || y !== ey || z !== ez || o !== vectors[k][6*F]) begin
+            if (x !== ex || y !== ey || z !== ez || overflow !== vectors[k][6*F]) begin
                 wrong = wrong + 1;
-                if (wrong < 10) $display("vector %0d: %h %h %h %b", k, x, y, z, o);
+                if (wrong < 10) $display("vector %0d: %h %h %h %b", k, x, y, z, overflow);
             end
         end
     endtask
@@ -61,40 +72,66 @@ std::string test_bench(const Verilog& verilog, std::int64_t count) {
         $readmemh("vectors.hex", vectors);
         clk = 0;
         wrong = 0;
-        valid_in = 0;
-        start = 0;
+)";
+    text += bench.compares;
+    return text + R"(        if (wrong == 0) $display("PASS %0d vectors", COUNT);
+        else $display("FAIL %0d", wrong);
+        $finish;
+    end
+endmodule
+)";
+}
+
+} // namespace
+
+std::string core_bench(const Verilog& verilog, std::int64_t count) {
+    return bench_of(verilog,
+                    count,
+                    {.module = "cordic_core",
+                     .wires = R"(    reg reset, start;
+    wire busy;
+
+    cordic_core core (.clk(clk), .reset(reset), .start(start), .vectoring(vectoring), .x_in(x_in), .y_in(y_in),
+                      .z_in(z_in), .x(x), .y(y), .z(z), .overflow(overflow), .busy(busy));
+)",
+                     .compares = R"(        start = 0;
         reset = 1;
         tick;
         reset = 0;
-        for (n = 0; n < ITERATIVE; n = n + 1) begin
+        for (n = 0; n < COUNT; n = n + 1) begin
             drive(n);
             start = 1;
             tick;
             start = 0;
-            repeat (CLOCKS) tick;
+            repeat (CLOCKS - 1) tick;
+            if (!busy) wrong = wrong + 1;
+            tick;
             if (busy) wrong = wrong + 1;
-            check(n, xc, yc, zc, oc);
+            check(n);
         end
-        for (n = 0; n < COUNT + CLOCKS - 1; n = n + 1) begin
+)"});
+}
+
+std::string pipeline_bench(const Verilog& verilog, std::int64_t count) {
+    return bench_of(verilog,
+                    count,
+                    {.module = "cordic_pipeline",
+                     .wires = R"(    reg valid_in;
+    wire valid;
+
+    cordic_pipeline pipeline (.clk(clk), .valid_in(valid_in), .vectoring(vectoring), .x_in(x_in), .y_in(y_in),
+                              .z_in(z_in), .x(x), .y(y), .z(z), .overflow(overflow), .valid(valid));
+)",
+                     .compares = R"(        for (n = 0; n < COUNT + CLOCKS - 1; n = n + 1) begin
             valid_in = n < COUNT;
             if (n < COUNT) drive(n);
             tick;
             if (n >= CLOCKS - 1) begin
                 if (!valid) wrong = wrong + 1;
-                check(n - CLOCKS + 1, xp, yp, zp, op);
+                check(n - CLOCKS + 1);
             end
         end
-        if (wrong == 0) $display("PASS %0d iterative %0d pipelined", ITERATIVE, COUNT);
-        else $display("FAIL %0d", wrong);
-        $finish;
-    end
-endmodule
-)",
-                        verilog.word(),
-                        4 * verilog.digits(),
-                        verilog.sequence().clock_count(),
-                        count);
-    return text;
+)"});
 }
 
 std::string test_vectors(const Verilog& verilog, std::int64_t count, std::uint64_t seed) {

@@ -81,10 +81,9 @@ std::string core_module(const Verilog& verilog) {
                             .next_x = "xt",
                             .next_y = "yt",
                             .next_z = "zt"});
-    text += sequence.multiplies
-                ? "    wire [W:0] xc = scaled(x);\n    wire [W:0] yc = scaled(y);\n"
-                : "    wire [W:0] xc = !corrects ? {1'b0, x} : subtracts ? sub(x, xs) : add(x, xs);\n"
-                  "    wire [W:0] yc = !corrects ? {1'b0, y} : subtracts ? sub(y, ys) : add(y, ys);\n";
+    text += sequence.multiplies ? "    wire [W:0] xc = scaled(x);\n    wire [W:0] yc = scaled(y);\n"
+                                : "    wire [W:0] xc = !corrects ? {1'b0, x} : add_sub(subtracts, x, xs);\n"
+                                  "    wire [W:0] yc = !corrects ? {1'b0, y} : add_sub(subtracts, y, ys);\n";
     text += R"(
     always @(posedge clk) begin
         if (reset) begin

@@ -33,8 +33,11 @@ std::string corrected(const Verilog& verilog, int n, char axis) {
     }
     const int a = verilog.correction(n - verilog.sequence().step_count);
     return a == 0 ? fmt::format("{{1'b0, {}{}}}", axis, n)
-                  : fmt::format(
-                        "{0}({1}{2}, shifted({1}{2}, {3}))", a < 0 ? "sub" : "add", axis, n, std::abs(a));
+                  : fmt::format("add_sub({0}, {1}{2}, shifted({1}{2}, {3}))",
+                                a < 0 ? "1'b1" : "1'b0",
+                                axis,
+                                n,
+                                std::abs(a));
 }
 
 std::string correction(const Verilog& verilog, int n) {
