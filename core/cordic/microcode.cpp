@@ -39,6 +39,7 @@ bool has_branch(MicroOp op) {
     switch (op) {
     case MicroOp::CJS:
     case MicroOp::CJP:
+    case MicroOp::CJV: // where its table begins
     case MicroOp::PUSH:
     case MicroOp::JSRP:
     case MicroOp::JRP:

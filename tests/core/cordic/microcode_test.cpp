@@ -1,6 +1,7 @@
 #include "core/cordic/microcode.h"
 
 #include "core/cordic/microprogram.h"
+#include "core/cordic/processor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -74,6 +75,23 @@ TEST(MicroAssembler, NamesLineAndColumnOfEveryMistake) {
         EXPECT_EQ(errors[0].place.column, wrong.column) << wrong.text;
         EXPECT_THAT(errors[0].message, HasSubstr(wrong.message)) << wrong.text;
     }
+}
+
+// Without a mapping ROM: the low four bits of the opcode choose among the words of a table.
+TEST(MicroAssembler, GivesTheVectorJumpTheStartOfItsTable) {
+    const auto [program, errors] = assemble_microprogram("FETCH: CONT | read_program\n"
+                                                         "WAIT:  CJP bus_busy WAIT\n"
+                                                         "       CONT | load_opcode\n"
+                                                         "       CJV always TABLE\n"
+                                                         "TABLE: JZ\n"
+                                                         "       JZ | next_page\n"
+                                                         "       JZ | halt\n",
+                                                         "vector.mic");
+    ASSERT_TRUE(errors.empty());
+    Processor processor({}, Image{.format = binary32, .code = {0x00, 0xf0, 0x02, 0x00}}, program);
+    processor.run(1000);
+    EXPECT_EQ(processor.state().stop, Stop::halted);
+    EXPECT_EQ(processor.state().opcode, 0x02);
 }
 
 TEST(MicroAssembler, RefusesMoreThanTheRomHolds) {
