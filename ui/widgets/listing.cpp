@@ -6,6 +6,8 @@
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,19 +65,29 @@ void underline(const Ui& ui, const Rect& place, std::string_view text, const Lin
     fill({from, place.bottom() - ui.px(3.0F), to - from, ui.px(2.0F)}, ui.colours().danger);
 }
 
-void draw_code(const Ui& ui, const Rect& place, std::string_view text, bool coloured) {
+/// True if the line is too long for its place: it ends in an ellipsis.
+bool draw_code(const Ui& ui, const Rect& place, std::string_view text, bool coloured) {
     const ImFont* font = ui.look().fonts.mono;
+    const bool cut = start_of(font, text, place.w + 0.5F).size() < text.size();
+    std::size_t left = cut ? start_of(font, text, place.w - text_width(font, ellipsis)).size() : text.size();
     float x = place.x;
     const float y = std::round(place.y + 0.5F * (place.h - font->FontSize));
-    while (!text.empty() && x < place.right()) {
-        const CodeToken token = first_token(text);
-        const std::string_view word = text.substr(0, token.length);
-        const Colour colour = coloured ? colour_of(ui.colours(), token.kind) : ui.colours().text;
+    const auto put = [&](std::string_view part, Colour colour) {
         ImGui::GetWindowDrawList()->AddText(
-            font, font->FontSize, {std::round(x), y}, colour, word.data(), word.data() + word.size());
-        x += text_width(font, word);
-        text.remove_prefix(token.length);
+            font, font->FontSize, {std::round(x), y}, colour, part.data(), part.data() + part.size());
+        x += text_width(font, part);
+    };
+    while (left > 0) {
+        const CodeToken token = first_token(text);
+        const std::string_view word = text.substr(0, std::min(token.length, left));
+        put(word, coloured ? colour_of(ui.colours(), token.kind) : ui.colours().text);
+        left -= word.size();
+        text.remove_prefix(word.size());
     }
+    if (cut) {
+        put(ellipsis, ui.colours().muted);
+    }
+    return cut;
 }
 
 /// Brings `line` into sight when it is another one than in the last frame.
@@ -113,12 +125,12 @@ void draw_line(Ui& ui,
     const std::string text = view.line(index);
     const Rect code{row.x + gutter, row.y, row.w - gutter, row.h};
     mark_found(ui, code, text, view.found);
-    draw_code(ui, code, text, view.coloured);
+    const bool cut = draw_code(ui, code, text, view.coloured);
     if (fault) {
         underline(ui, code, text, *fault);
-        if (hovered) {
-            offer_tip(ui, path + "/fault", row, fault->message);
-        }
+    }
+    if (hovered && (fault || cut)) {
+        offer_tip(ui, fmt::format("{}/{}", path, index), row, fault ? fault->message : text);
     }
 }
 

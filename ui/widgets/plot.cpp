@@ -217,6 +217,13 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
     const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_height));
     const Slot slot(ui, 0.0F, height);
     const Rect& all = slot.rect();
+    auto mapping = mapping_of(view);
+    if (!mapping) {
+        fill(all, ui.colours().field, ui.px(2.0F));
+        record_at(ui, own, all);
+        draw_text(ui, ui.look().fonts.text, all, ui.colours().muted, view.when_empty, Align::centre);
+        return std::nullopt;
+    }
     const float line = ui.look().fonts.small->FontSize;
     const float left = ui.px(52.0F);
     draw_key(ui, {all.x, all.y, all.w, line}, view);
@@ -224,11 +231,6 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
     const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
     fill(box, ui.colours().field, ui.px(2.0F));
     const Press now = press(ui, own, box);
-    auto mapping = mapping_of(view);
-    if (!mapping) {
-        draw_text(ui, ui.look().fonts.text, box, ui.colours().muted, view.when_empty, Align::centre);
-        return std::nullopt;
-    }
     mapping->box = box;
     draw_axes(ui, *mapping, all.x, view);
     draw_series(ui, *mapping, view);

@@ -88,6 +88,29 @@ TEST_F(Listing, AShorterProgramIsShownFromItsEnd) {
     EXPECT_NO_THROW(stage.frames(2));
 }
 
+TEST(LongLine, IsToldWholeByItsTip) {
+    std::string line = "G1 X1 (short)";
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.bare_pane("program", {0.0F, 0.0F, 300.0F, 100.0F});
+        (void)listing(ui, "lines", {.lines = 1, .line = [&](std::ptrdiff_t) { return line; }});
+    });
+    stage.frames(2);
+    const auto rests_on_the_line = [&] {
+        const Rect box = stage.place("program/lines");
+        stage.move({box.x + 100.0F, box.y + 5.0F});
+        stage.frames(2);
+        stage.wait(1.0);
+        stage.frames();
+    };
+    rests_on_the_line();
+    EXPECT_FALSE(stage.ui().place("tip"));
+    for (const char* end : {")", "\u00e4\u00b0)"}) {
+        line = "G1 X1 (a comment that does not end where the pane does" + std::string(end);
+        rests_on_the_line();
+        EXPECT_GT(stage.place("tip").w, 300.0F);
+    }
+}
+
 class Table : public testing::Test {
 protected:
     std::ptrdiff_t rows = 100'000;

@@ -66,6 +66,18 @@ TEST_F(Plot, ValuesThatAreNotNumbersLeaveGaps) {
     EXPECT_NO_THROW(stage.frames(2));
 }
 
+TEST_F(Plot, WithoutPointsItHasNoAxes) {
+    stage.frames(2);
+    const Rect with_axes = stage.place("plots/error");
+    x.clear();
+    y.clear();
+    stage.frames(2);
+    const Rect sentence = stage.place("plots/error");
+    EXPECT_FLOAT_EQ(sentence.h, 200.0F);
+    EXPECT_LT(with_axes.h, sentence.h);
+    EXPECT_LT(sentence.x, with_axes.x);
+}
+
 TEST_F(Plot, ManyPointsStayDrawable) {
     x.clear();
     y.clear();

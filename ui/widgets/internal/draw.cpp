@@ -11,15 +11,6 @@ namespace millwright::widgets {
 namespace {
 
 constexpr float default_label_share = 0.42F;
-constexpr std::string_view ellipsis = "…";
-
-/// The longest start of `text`, cut between characters, that is at most `width` wide.
-std::string_view start_of(const ImFont* font, std::string_view text, float width) {
-    const char* end = text.data();
-    font->CalcTextSizeA(
-        font->FontSize, std::max(width, 1.0F), 0.0F, text.data(), text.data() + text.size(), &end);
-    return text.substr(0, static_cast<std::size_t>(end - text.data()));
-}
 
 Rect next_cell(Ui& ui, float height) {
     Ui::State::Cells& cells = ui.state().cells.back();
@@ -139,6 +130,13 @@ float text_width(const ImFont* font, std::string_view text) {
         return 0.0F; // ImGui takes a null end for "up to the zero byte"
     }
     return font->CalcTextSizeA(font->FontSize, 1e9F, 0.0F, text.data(), text.data() + text.size()).x;
+}
+
+std::string_view start_of(const ImFont* font, std::string_view text, float width) {
+    const char* end = text.data();
+    font->CalcTextSizeA(
+        font->FontSize, std::max(width, 1.0F), 0.0F, text.data(), text.data() + text.size(), &end);
+    return text.substr(0, static_cast<std::size_t>(end - text.data()));
 }
 
 bool draw_text(

@@ -68,6 +68,11 @@ void show_at_mouse(Ui& ui, const std::string& path, std::string text);
 
 [[nodiscard]] float text_width(const ImFont* font, std::string_view text);
 
+inline constexpr std::string_view ellipsis = "…";
+
+/// The longest start of `text`, cut between characters, that is at most `width` wide.
+[[nodiscard]] std::string_view start_of(const ImFont* font, std::string_view text, float width);
+
 enum class Align { left, centre, right };
 
 /// One line of text in the middle of `rect`'s height; what does not fit ends in an ellipsis.
