@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 namespace millwright::app {
@@ -25,7 +26,7 @@ struct Options {
 int compare(const Options& options) {
     const cordic::LineTime mcs51 = cordic::line_time(cordic::mcs51_line_clocks, cordic::mcs51_clock_hz);
     const cordic::LineTime line =
-        cordic::line_time(cordic::thesis_sequence().clock_count() * 2, options.clock_hz);
+        cordic::line_time(std::int64_t{2} * cordic::thesis_sequence().clock_count(), options.clock_hz);
     const cordic::StitchTimes slow = cordic::stitch_times({}, mcs51.seconds);
     const cordic::StitchTimes fast = cordic::stitch_times({}, line.seconds);
     if (options.json) {

@@ -43,7 +43,7 @@ std::vector<Step> steps_of(const NumberFormat& format, const Sequence& sequence)
     for (int i = 0; i < sequence.step_count; ++i) {
         const int shift = sequence.shifts[static_cast<std::size_t>(i)];
         const Int128 wide = wide_angle(sequence.m, shift);
-        const double exact = to_floating<double>(wide);
+        const auto exact = to_floating<double>(wide);
         const double error = with_arithmetic(format, [&](const auto& arithmetic) {
             return std::abs(arithmetic.to_double(arithmetic.angle(sequence.m, shift)) - exact);
         });
@@ -209,9 +209,11 @@ Accuracy measure_accuracy(const NumberFormat& format,
     const bool exhaustive = !sampling.random;
     expects(!exhaustive || (is_fixed(format) && format.word() <= most_exhaustive_bits),
             "every word is tried for short fixed-point words only");
-    const std::int64_t count = exhaustive ? std::int64_t{1} << format.word() : *sampling.random;
+    const std::int64_t count =
+        exhaustive ? std::int64_t{1} << std::min(format.word(), most_exhaustive_bits) : *sampling.random;
     expects(!is_fixed(format) || format.integer_bits >= 2, "a unit vector and its gain fit the format");
     const double widest = is_fixed(format) ? std::min(std::ldexp(1.0, format.integer_bits - 1), 4.0) : 4.0;
+    const std::int64_t half = count / 2;
     const std::int64_t chunks = (count + chunk - 1) / chunk;
     std::vector<Accuracy> found(static_cast<std::size_t>(chunks));
     with_arithmetic(format, [&](const auto& arithmetic) {
@@ -220,9 +222,8 @@ Accuracy measure_accuracy(const NumberFormat& format,
             const double turn = exhaustive ? static_cast<double>(n) / static_cast<double>(count)
                                            : random_fraction(sampling.seed, index);
             const double theta = 2.0 * std::numbers::pi * turn;
-            const double angle = exhaustive
-                                     ? std::ldexp(static_cast<double>(n - count / 2), -format.fraction_bits)
-                                     : widest * 0.999 * random_fraction(sampling.seed, index + 1);
+            const double angle = exhaustive ? std::ldexp(static_cast<double>(n - half), -format.fraction_bits)
+                                            : widest * 0.999 * random_fraction(sampling.seed, index + 1);
             meter.rotate(exhaustive ? 0.0 : theta, meter.number(angle), worst);
             meter.vector(theta, worst);
         };

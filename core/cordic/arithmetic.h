@@ -146,7 +146,7 @@ public:
 
     /// The nearest number, halves to even.
     [[nodiscard]] constexpr Number from_double(double value, bool& overflow) const {
-        const double unit = power_of_two<double>(-fraction_);
+        const auto unit = power_of_two<double>(-fraction_);
         const double limit = -static_cast<double>(-largest_ - 1) * unit;
         const bool above = __builtin_isfinite(value) && (value >= -limit || value > -limit - unit);
         if (!above || !(value < limit)) {

@@ -254,7 +254,7 @@ private:
 
 /// The shortest number that assembles to these bits, else the bits.
 std::string immediate_text(const Instruction& instruction, const NumberFormat& format) {
-    const std::string bits = fmt::format("{:#x}", instruction.immediate);
+    std::string bits = fmt::format("{:#x}", instruction.immediate);
     if (is_whole(instruction.target)) {
         const Word most = instruction.target == Register::PC ? 0xffffU : 0xffffffffU;
         return instruction.immediate <= most ? fmt::format("{}", instruction.immediate) : bits;

@@ -20,7 +20,7 @@ public:
     /// Rotates (x[n], y[n]) by z[n], in place; z becomes what is left. All three have one length. Where a
     /// value of the iteration might not fit the word, the vector is computed by the kernel. Returns how many
     /// overflowed: these are held at the end of the range.
-    std::int64_t
+    [[nodiscard]] std::int64_t
     rotate(std::span<std::int32_t> x, std::span<std::int32_t> y, std::span<std::int32_t> z) const;
 
 private:

@@ -48,7 +48,7 @@ public:
         for (int i = 0; i < sequence.step_count; ++i) {
             const int shift = shift_of(i);
             const Number angle = arithmetic.angle(sequence.m, shift);
-            const double tangent = power_of_two<double>(-shift);
+            const auto tangent = power_of_two<double>(-shift);
             const double x = limit_x_ - sign_of(sequence.m) * tangent * limit_y_;
             limit_y_ += tangent * limit_x_;
             limit_x_ = x;

@@ -309,7 +309,9 @@ std::string listing(const Microprogram& program) {
         const MicroWord& word = program.words[static_cast<std::size_t>(address)];
         std::string label;
         for (const auto& [name, at] : program.labels) {
-            label = at == address ? name + ":" : label;
+            if (at == address) {
+                label = fmt::format("{}:", name);
+            }
         }
         text += fmt::format("{:02x}  {:<10} {:<5}{:<15}{:<4}",
                             address,

@@ -82,6 +82,34 @@ bool plc_is_input(PlcBit bit) {
     return is_in(bit, 'I');
 }
 
+namespace {
+
+/// What the instructions without memory make of the result so far and a bit.
+bool combined(PlcOp op, bool result, bool bit) {
+    switch (op) {
+    case PlcOp::load:
+        return bit;
+    case PlcOp::load_not:
+        return !bit;
+    case PlcOp::and_:
+        return result && bit;
+    case PlcOp::and_not:
+        return result && !bit;
+    case PlcOp::or_:
+        return result || bit;
+    case PlcOp::or_not:
+        return result || !bit;
+    case PlcOp::xor_:
+        return result != bit;
+    case PlcOp::not_:
+        return !result;
+    default:
+        return result;
+    }
+}
+
+} // namespace
+
 Plc::Plc(PlcProgram program) : program_(std::move(program)) {
     expects(program_.errors.empty(), "logic that is executed has no errors");
 }
@@ -119,27 +147,6 @@ void Plc::scan(std::int64_t now_us) {
     for (const PlcInstruction& at : program_.instructions) {
         const bool bit = get(at.bit);
         switch (at.op) {
-        case PlcOp::load:
-            result = bit;
-            break;
-        case PlcOp::load_not:
-            result = !bit;
-            break;
-        case PlcOp::and_:
-            result = result && bit;
-            break;
-        case PlcOp::and_not:
-            result = result && !bit;
-            break;
-        case PlcOp::or_:
-            result = result || bit;
-            break;
-        case PlcOp::or_not:
-            result = result || !bit;
-            break;
-        case PlcOp::xor_:
-            result = result != bit;
-            break;
         case PlcOp::and_open:
         case PlcOp::or_open:
             waiting[depth++] = {result, at.op};
@@ -150,9 +157,6 @@ void Plc::scan(std::int64_t now_us) {
             result = op == PlcOp::and_open ? before && result : before || result;
             break;
         }
-        case PlcOp::not_:
-            result = !result;
-            break;
         case PlcOp::store:
         case PlcOp::store_not:
             set(at.bit, result == (at.op == PlcOp::store));
@@ -171,6 +175,8 @@ void Plc::scan(std::int64_t now_us) {
             result = timed(at, result, now_us);
             set(at.bit, result);
             break;
+        default:
+            result = combined(at.op, result, bit);
         }
     }
 }

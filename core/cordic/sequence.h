@@ -21,10 +21,10 @@ inline constexpr int most_corrections = 8;
 struct Sequence {
     CoordinateSystem m = CoordinateSystem::circular;
     int step_count = 0;
-    std::array<std::int8_t, most_steps> shifts{}; ///< S: one step for each
+    std::array<int, most_steps> shifts{}; ///< S: one step for each
     int correction_count = 0;
     /// a: x' = x + sign(a) 2^-|a| x, the same for y; 0 does nothing.
-    std::array<std::int8_t, most_corrections> corrections{};
+    std::array<int, most_corrections> corrections{};
     bool multiplies = false; ///< the gain is taken out by one multiplication instead
 
     /// Steps and corrections, or the multiplication: one clock each.
@@ -40,8 +40,8 @@ struct Sequence {
     Sequence made;
     made.m = m;
     made.step_count = 29;
-    constexpr std::array<std::int8_t, 29> S = {1,  2,  2,  2,  2,  3,  4,  5,  6,  6,  7,  8,  9,  10, 11,
-                                               12, 13, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24};
+    constexpr std::array<int, 29> S = {1,  2,  2,  2,  2,  3,  4,  5,  6,  6,  7,  8,  9,  10, 11,
+                                       12, 13, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24};
     for (std::size_t i = 0; i < S.size(); ++i) {
         made.shifts[i] = S[i];
     }
@@ -65,7 +65,7 @@ struct Sequence {
     int shift = hyperbolic ? 1 : 0;
     bool repeated = false;
     for (int i = 0; i < count; ++i) {
-        made.shifts[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(shift);
+        made.shifts[static_cast<std::size_t>(i)] = shift;
         const bool again = hyperbolic && !repeated && (shift == 4 || shift == 13 || shift == 40);
         shift += again ? 0 : 1;
         repeated = again;

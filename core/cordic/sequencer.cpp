@@ -32,10 +32,24 @@ struct Plan {
     Counter counter = Counter::keep;
 };
 
+/// The rows that ask the counter.
+Plan counted_plan_of(
+    const SequencerState& state, MicroOp op, const SequencerInputs& in, std::uint8_t next, std::uint8_t top) {
+    if (state.counter != 0) {
+        const bool passes = op == MicroOp::TWB && in.pass;
+        return op == MicroOp::RPCT ? Plan{in.branch, Stack::keep, Counter::count}
+               : passes            ? Plan{next, Stack::pop, Counter::count}
+                                   : Plan{top, Stack::peek, Counter::count};
+    }
+    if (op == MicroOp::RPCT) {
+        return {next};
+    }
+    return {op == MicroOp::TWB && !in.pass ? in.branch : next, Stack::pop};
+}
+
 /// The rows of the truth table. `top` is what the stack shows; `next` is the address behind this one.
 Plan plan_of(
     const SequencerState& state, MicroOp op, const SequencerInputs& in, std::uint8_t next, std::uint8_t top) {
-    const bool more = state.counter != 0;
     switch (op) {
     case MicroOp::JZ:
         return {0, Stack::clear};
@@ -54,9 +68,9 @@ Plan plan_of(
     case MicroOp::JRP:
         return {in.pass ? in.branch : state.counter};
     case MicroOp::RFCT:
-        return more ? Plan{top, Stack::peek, Counter::count} : Plan{next, Stack::pop};
     case MicroOp::RPCT:
-        return more ? Plan{in.branch, Stack::keep, Counter::count} : Plan{next};
+    case MicroOp::TWB:
+        return counted_plan_of(state, op, in, next, top);
     case MicroOp::CRTN:
         return in.pass ? Plan{top, Stack::pop} : Plan{next};
     case MicroOp::CJPP:
@@ -67,11 +81,6 @@ Plan plan_of(
         return in.pass ? Plan{next, Stack::pop} : Plan{top, Stack::peek};
     case MicroOp::CONT:
         return {next};
-    case MicroOp::TWB:
-        if (in.pass) {
-            return {next, Stack::pop, more ? Counter::count : Counter::keep};
-        }
-        return more ? Plan{top, Stack::peek, Counter::count} : Plan{in.branch, Stack::pop};
     }
     return {next};
 }

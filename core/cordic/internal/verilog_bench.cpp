@@ -18,29 +18,8 @@ struct Bench {
     std::string_view compares; ///< drives every vector and checks every result
 };
 
-std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& bench) {
-    std::string text = verilog.head(
-        fmt::format("Compares {} with the vectors of the model; prints PASS or FAIL.", bench.module));
-    text += fmt::format(R"(module {}_tb;
-    localparam W = {};
-    localparam F = {};         // bits of a field in vectors.hex
-    localparam CLOCKS = {};
-    localparam COUNT = {};
-
-    reg [6*F+7:0] vectors [0:COUNT-1];
-    reg clk, vectoring;
-    reg signed [W-1:0] x_in, y_in, z_in;
-    wire signed [W-1:0] x, y, z;
-    wire overflow;
-    integer n, wrong;
-)",
-                        bench.module,
-                        verilog.word(),
-                        4 * verilog.digits(),
-                        verilog.sequence().clock_count(),
-                        count);
-    text += bench.wires;
-    text += R"(
+/// Sets the inputs, compares the outputs with what a vector expects, gives a clock.
+constexpr std::string_view tasks = R"(
     task drive(input integer k);
         begin
             vectoring = vectors[k][6*F+4];
@@ -67,7 +46,32 @@ std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& be
             #1 clk = 0;
         end
     endtask
+)";
 
+std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& bench) {
+    std::string text = verilog.head(
+        fmt::format("Compares {} with the vectors of the model; prints PASS or FAIL.", bench.module));
+    text += fmt::format(R"(module {}_tb;
+    localparam W = {};
+    localparam F = {};         // bits of a field in vectors.hex
+    localparam CLOCKS = {};
+    localparam COUNT = {};
+
+    reg [6*F+7:0] vectors [0:COUNT-1];
+    reg clk, vectoring;
+    reg signed [W-1:0] x_in, y_in, z_in;
+    wire signed [W-1:0] x, y, z;
+    wire overflow;
+    integer n, wrong;
+)",
+                        bench.module,
+                        verilog.word(),
+                        4 * verilog.digits(),
+                        verilog.sequence().clock_count(),
+                        count);
+    text += bench.wires;
+    text += tasks;
+    text += R"(
     initial begin
         $readmemh("vectors.hex", vectors);
         clk = 0;

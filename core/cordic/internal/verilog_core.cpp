@@ -26,23 +26,9 @@ std::string steps_of(const Verilog& verilog) {
     return text;
 }
 
-} // namespace
-
-std::string core_module(const Verilog& verilog) {
-    const Sequence& sequence = verilog.sequence();
-    const int clocks = sequence.clock_count();
-    std::string text = verilog.head("CORDIC, one step or correction a clock.");
-    text += R"(module cordic_core (
-    input wire clk,
-    input wire reset,
-    input wire start,
-    input wire vectoring,
-)" + verilog.inputs() +
-            verilog.outputs("reg") + R"(    output reg overflow,
-    output wire busy
-);
-)" + verilog.functions();
-    text += fmt::format(R"(
+/// Shift, angle and kind of each step and correction, by the counter.
+std::string selection(const Verilog& verilog) {
+    return fmt::format(R"(
     localparam STEPS = {};
     localparam CLOCKS = {};
 
@@ -59,14 +45,32 @@ std::string core_module(const Verilog& verilog) {
         corrects = 0;
         subtracts = 0;
         case (n)
-)",
-                        sequence.step_count,
-                        clocks);
-    text += steps_of(verilog);
-    text += R"(            default: ;
+{}            default: ;
         endcase
     end
+)",
+                       verilog.sequence().step_count,
+                       verilog.sequence().clock_count(),
+                       steps_of(verilog));
+}
 
+} // namespace
+
+std::string core_module(const Verilog& verilog) {
+    const Sequence& sequence = verilog.sequence();
+    std::string text = verilog.head("CORDIC, one step or correction a clock.");
+    text += R"(module cordic_core (
+    input wire clk,
+    input wire reset,
+    input wire start,
+    input wire vectoring,
+)" + verilog.inputs() +
+            verilog.outputs("reg") + R"(    output reg overflow,
+    output wire busy
+);
+)" + verilog.functions();
+    text += selection(verilog);
+    text += R"(
     wire signed [W-1:0] xs = shifted(x, s);
     wire signed [W-1:0] ys = shifted(y, s);
     wire plus = vectors ? y[W-1] : !z[W-1]; // turns counter-clockwise

@@ -50,7 +50,7 @@ struct CordicProgram {
 class CordicProgramBuilder final : public CanonSink {
 public:
     /// For diagnostics the program is called `file`.
-    CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings = {});
+    CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings);
     CordicProgramBuilder(const CordicProgramBuilder&) = delete;
     CordicProgramBuilder& operator=(const CordicProgramBuilder&) = delete;
     ~CordicProgramBuilder() override;
