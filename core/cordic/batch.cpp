@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace millwright::cordic {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr int chunk = 256; // three arrays of it stay in the first-level cache
 constexpr double most_word = 2147483647.0;
 constexpr double spare = 64.0; // units that roundings of all steps may add
+constexpr int sign_alone = 31; // a shift by more leaves the sign, as in the kernel's longer word
 
 } // namespace
 
@@ -78,7 +80,7 @@ void BatchRotator::rotate_chunk(std::int32_t* __restrict x,
                                 int count) const {
     const std::int32_t turns_x = sequence_.m == CoordinateSystem::circular ? -1 : 0;
     for (int i = 0; i < sequence_.step_count; ++i) {
-        const int shift = sequence_.shifts[static_cast<std::size_t>(i)];
+        const int shift = std::min<int>(sequence_.shifts[static_cast<std::size_t>(i)], sign_alone);
         const std::int32_t angle = angles_[static_cast<std::size_t>(i)];
         for (int n = 0; n < count; ++n) {
             const std::int32_t m = z[n] >> 31; // -1 for a negative angle
@@ -103,7 +105,7 @@ void BatchRotator::rotate_chunk(std::int32_t* __restrict x,
         if (a == 0) {
             continue;
         }
-        const int shift = a < 0 ? -a : a;
+        const int shift = std::min(std::abs(a), sign_alone);
         const std::int32_t m = a < 0 ? -1 : 0;
         for (int n = 0; n < count; ++n) {
             x[n] += ((x[n] >> shift) ^ m) - m;

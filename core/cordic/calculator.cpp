@@ -95,8 +95,16 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, double x, doub
         bool overflow = false;
         const auto folded =
             pre(arithmetic, entered(arithmetic, format, x), entered(arithmetic, format, y), overflow);
-        if (kernel.reach_of_vectoring(folded.x, folded.y) == Reach::zero_vector) {
+        const Reach reach = kernel.reach_of_vectoring(folded.x, folded.y);
+        if (reach == Reach::zero_vector) {
             throw Error(fmt::format("({}, {}) has no direction in {}", x, y, to_text(format)));
+        }
+        if (reach == Reach::outside) {
+            throw Error(
+                fmt::format(
+                    "({}, {}) lies beyond what {} steps turn to the x axis", x, y, sequence.step_count),
+                {},
+                "take more iterations");
         }
         const int shift = normalising_shift(arithmetic, folded.x, folded.y);
         const auto found = kernel.vectored(

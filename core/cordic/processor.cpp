@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace millwright::cordic {
@@ -186,7 +187,8 @@ void Processor::write_byte() {
     if (byte >= command_port && !commanded_.empty()) {
         const Commanded& last = commanded_.back();
         const Word record = Word{last.parameter} << 8U | static_cast<Word>(last.opcode);
-        data = record >> (8 * (byte - command_port));
+        const int place = 8 * (byte - command_port);
+        data = place < std::numeric_limits<Word>::digits ? record >> place : 0; // behind the record nothing
     } else if (!published_.empty()) {
         data = published_.back().words[static_cast<std::size_t>((byte / size) % 9)] >> (8 * (byte % size));
     }

@@ -22,6 +22,8 @@ std::string_view to_text(Stop stop) {
         return "a page behind the last one of the program ROM";
     case Stop::arc_too_coarse:
         return "an arc with a step angle beyond the convergence range, or with no chord";
+    case Stop::out_of_reach:
+        return "a move in a direction beyond the convergence range: too few iterations";
     }
     return {};
 }

@@ -41,6 +41,7 @@ enum class Stop : std::uint8_t {
     rom_write,
     no_page,        ///< PAGE behind the last page of the program ROM
     arc_too_coarse, ///< |Dz| beyond the convergence range, or no chord at all
+    out_of_reach,   ///< a direction that the steps cannot turn to the x axis
 };
 
 /// A sentence for people.

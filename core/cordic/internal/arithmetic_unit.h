@@ -140,10 +140,14 @@ private:
                 overflow_);
         take(folded, normalising_shift(arithmetic(), folded.x, folded.y));
         path_.z = zero();
-        path_.standing = kernel_.reach_of_vectoring(folded.x, folded.y) == Reach::zero_vector;
+        const Reach reach = kernel_.reach_of_vectoring(folded.x, folded.y);
+        path_.standing = reach == Reach::zero_vector;
         path_.upright = path_.standing;
         register_of(state_, Register::Vz) = path_.z;
         register_of(state_, Register::Az) = path_.z;
+        if (reach == Reach::outside) {
+            stop(state_, Stop::out_of_reach);
+        }
     }
     void take(const Folded<Number>& folded, int shift) {
         path_.x = word(normalised(arithmetic(), folded.x, shift));

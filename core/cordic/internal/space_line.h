@@ -44,8 +44,12 @@ void fold_space(const Kernel<Arithmetic>& kernel, ProcessorState& state, bool& o
     path.f1 = folded.f1;
     path.f2 = folded.f2;
     path.z = arithmetic.to_word(Number{});
-    path.upright = kernel.reach_of_vectoring(folded.x, folded.y) == Reach::zero_vector;
+    const Reach reach = kernel.reach_of_vectoring(folded.x, folded.y);
+    path.upright = reach == Reach::zero_vector;
     path.standing = path.upright && kernel.reach_of_vectoring(rise, Number{}) == Reach::zero_vector;
+    if (reach == Reach::outside) {
+        stop(state, Stop::out_of_reach);
+    }
 }
 
 template <class Arithmetic> void fold_rise(const Kernel<Arithmetic>& kernel, ProcessorState& state) {
@@ -55,6 +59,10 @@ template <class Arithmetic> void fold_rise(const Kernel<Arithmetic>& kernel, Pro
     path.x = path.upright ? zero : path.x; // of no length there is nothing but what rounding made of it
     path.y = path.rise;
     path.z = zero;
+    const auto across = kernel.arithmetic().from_word(path.x);
+    if (kernel.reach_of_vectoring(across, kernel.arithmetic().from_word(path.y)) == Reach::outside) {
+        stop(state, Stop::out_of_reach);
+    }
 }
 
 template <class Arithmetic> void unfold_rise(const Kernel<Arithmetic>& kernel, ProcessorState& state) {

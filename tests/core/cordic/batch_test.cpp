@@ -26,6 +26,8 @@ TEST(BatchRotator, HasTheBitsOfTheKernel) {
     constexpr int count = 5000;
     for (const Sequence& sequence : {thesis_sequence(),
                                      classic_sequence(CoordinateSystem::circular, 32),
+                                     classic_sequence(CoordinateSystem::circular, 40),
+                                     classic_sequence(CoordinateSystem::circular, 62),
                                      thesis_sequence(CoordinateSystem::linear)}) {
         for (const NumberFormat& format : {fixed_format(3, 29), fixed_format(8, 24)}) {
             const Kernel<FixedArithmetic> kernel(FixedArithmetic(format), sequence);

@@ -57,6 +57,11 @@ TEST(Calculator, RefusesWhatDoesNotFit) {
     EXPECT_THROW(static_cast<void>(rotate(binary32, thesis_sequence(), 1e300, 0.0, 1.0)), Error);
     EXPECT_THROW(static_cast<void>(polar(binary64, thesis_sequence(), 0.0, 0.0)), Error);
     EXPECT_THROW(static_cast<void>(polar(fixed_format(2, 14), thesis_sequence(), 1e-9, 0.0)), Error);
+    for (const int steps : {1, 2, 3}) { // they reach 45, 71.6 and 85.6 degrees of the 90 that folding leaves
+        const Sequence few = classic_sequence(CoordinateSystem::circular, steps);
+        EXPECT_THROW(static_cast<void>(polar(binary64, few, -1.0, 0.0)), Error) << steps;
+        EXPECT_NO_THROW(static_cast<void>(polar(binary64, few, 1.0, 0.1))) << steps;
+    }
 }
 
 } // namespace

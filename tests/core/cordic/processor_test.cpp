@@ -364,6 +364,16 @@ TEST(Stop, ArcsBeyondConvergenceAndWithoutChordsAreRefused) {
     EXPECT_EQ(run_to_end({}, none.image()).state().stop, Stop::arc_too_coarse);
 }
 
+TEST(Stop, DirectionsBeyondWhatTheStepsReachAreRefused) {
+    ProcessorSettings few;
+    few.sequence = classic_sequence(CoordinateSystem::circular, 2);
+    Code backwards(binary64);
+    backwards.mov(Register::Vmax, 1.0).mov(Register::XI, -1.0).op(Opcode::g01);
+    EXPECT_EQ(run_to_end(few, backwards.image()).state().stop, Stop::out_of_reach);
+    EXPECT_EQ(run_to_end({}, backwards.image()).state().stop, Stop::illegal_instruction)
+        << "what follows the move";
+}
+
 TEST(Stop, AMicroprogramThatCallsTooDeepOrReturnsFromNothingIsStopped) {
     const auto run = [](const char* text) {
         auto [program, errors] = assemble_microprogram(text, "deep");
