@@ -116,15 +116,28 @@ void ShellSession::refused(const std::string& request, double now) {
     fail("LinuxCNC refuses '" + request + "'", now);
 }
 
+/// It may still hear what it does not answer, so a motion is told to end.
+void ShellSession::fall_silent() {
+    const bool moves = active() || stage_ == Stage::stopping;
+    if (moves) {
+        set("abort");
+    }
+    finish(
+        Stage::alarm,
+        stage_ == Stage::greeting ? "no linuxcncrsh answers at this port"
+        : moves
+            ? "LinuxCNC does not answer any more; it was told to stop, but nobody knows whether it did, so "
+              "look at the machine"
+            : "LinuxCNC does not answer any more, so look at the machine");
+    outstanding_.clear();
+}
+
 void ShellSession::tick(double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
     if (now - last_heard_ > settings_.patience && !outstanding_.empty()) {
-        finish(Stage::alarm,
-               stage_ == Stage::greeting ? "no linuxcncrsh answers at this port"
-                                         : "LinuxCNC does not answer any more, so look at the machine");
-        outstanding_.clear();
+        fall_silent();
         in_round_ = false;
     }
     if (jog_until_ && now > *jog_until_) {

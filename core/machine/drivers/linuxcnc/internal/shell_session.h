@@ -95,6 +95,7 @@ private:
     // shell_requests.cpp: what a person wants
     void finish(Stage stage, std::string why = {});
     void fail(std::string why, double now);
+    void fall_silent();
     void require_rest(std::string_view what) const;
     [[nodiscard]] bool active() const;
 

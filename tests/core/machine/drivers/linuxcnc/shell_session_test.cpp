@@ -90,6 +90,19 @@ TEST(ShellSession, TellsOneThatEndedFromOneThatWasEndedAtTheMachine) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("ended at the machine"));
 }
 
+TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {
+    LinuxCncWire wire;
+    wire.start(square);
+    wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0);
+    (void)wire.session.take_output();
+    constexpr double a_minute = 60.0; // longer than it is waited for, and nothing was heard
+    wire.session.tick(wire.now + a_minute);
+    wire.session.tick(wire.now + a_minute + 1.0);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.take_output(), HasSubstr("set abort"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("was told to stop"));
+}
+
 TEST(ShellSession, EndsInAnAlarmWithLinuxCncsOwnWords) {
     LinuxCncWire wire;
     wire.start("G21 G90 G94\nG1 X10 F1200\nG1 X900\nM2\n");
