@@ -72,6 +72,7 @@ public:
     void take(std::string_view bare_line, bool incremental) {
         if (goes_by_the_machine(bare_line)) {
             known_.fill(false);
+            left_ = true;
             return;
         }
         for (std::size_t n = 0; n < known_.size() && !incremental; ++n) {
@@ -85,9 +86,12 @@ public:
                                      : gcode::axis_letters[static_cast<std::size_t>(found - known_.begin())];
     }
 
+    /// Whether the lines went to a machine position.
+    [[nodiscard]] bool left() const { return left_; }
+
 private:
-    std::array<bool, 3> known_{
-        true, true, true}; ///< X Y Z: at the start a program is where it takes itself to be
+    std::array<bool, 3> known_{}; ///< X Y Z: where the machine stood at the start, nobody wrote down
+    bool left_ = false;
 };
 
 /// Watches the lines that are left out.
@@ -146,12 +150,17 @@ ModalState state_before(
         }
     }
     if (const char axis = known.unknown(); axis != '\0') {
-        refuse(
-            file,
-            line,
-            fmt::format("the lines before go to a machine position (G53, G28, G30), and none tells {} since",
-                        axis),
-            "begin a few lines later");
+        refuse(file,
+               line,
+               known.left()
+                   ? fmt::format(
+                         "the lines before go to a machine position (G53, G28, G30), and none tells {} since",
+                         axis)
+                   : fmt::format(
+                         "none of the lines before tells where {} is (by G90), so nobody knows where the "
+                         "machine would be here",
+                         axis),
+               "begin a few lines later, or run it from its beginning");
     }
     return reader.state();
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 std::string zigzag(int lines) {
-    std::string text = "G21 G90 G94\nG1 F3000\n";
+    std::string text = "G21 G90 G94\nG1 Z0 F3000\n";
     for (int n = 0; n < lines; ++n) {
         text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
     }

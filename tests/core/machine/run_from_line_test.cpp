@@ -182,7 +182,7 @@ TEST(RunFromLine, DoesTheRestOfAnyProgramAsTheWholeWouldAndComesFromAbove) {
 }
 
 std::string with_head(const std::string& middle, const std::string& rest = "G1 X9\nM2\n") {
-    return "G21 G90 G94\nG0 Z20\nM3 S100\nF100\n\n\n\n\n\n\n\n\n" + middle + rest;
+    return "G21 G90 G94\nG0 X0 Y0 Z20\nM3 S100\nF100\n\n\n\n\n\n\n\n\n" + middle + rest;
 }
 
 std::string refusal(const std::string& text, int line, RunFromSettings settings = {}) {
@@ -204,6 +204,12 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
     EXPECT_THAT(refusal(with_head("G10 L2 P2 X5\n"), 14), HasSubstr("offsets"));
     EXPECT_THAT(refusal(with_head("G53 G0 Z0\n"), 14), HasSubstr("machine position"));
     EXPECT_THAT(refusal(with_head("G28\nG0 X1 Y1\n"), 15), HasSubstr("tells Z since"));
+    const std::string blank(9, '\n');
+    EXPECT_THAT(refusal("G21 G90\nF600\nG0 X60 Y50\n" + blank + "G1 X61\nG1 X62\n", 14),
+                HasSubstr("tells where Z is"));
+    EXPECT_THAT(refusal("G21 G90\nF600\nG0 Z5\nG91\n" + blank + "G1 X1 Y1\nG1 X1\n", 15),
+                HasSubstr("tells where X is"))
+        << "ways alone lead from nowhere";
     EXPECT_THAT(refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("line 3 is among the first 11"));
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 11), HasSubstr("line 11 is among the first 11"));
@@ -227,7 +233,7 @@ TEST(RunFromLine, NamesTheToolAndChangesItWhereTheProgramDoes) {
 
 TEST(RunFromLine, TheLongestApproachHasItsRoom) {
     const std::string text =
-        "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 Z20\n\n\n\n\nG0 Z30\nG1 X1 Y2 F4\nM2\n";
+        "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 X0 Y0 Z20\n\n\n\n\nG0 Z30\nG1 X1 Y2 F4\nM2\n";
     const RunFrom rest = run_from_line(text, "test.ngc", 12, {});
     EXPECT_THAT(rest.text, HasSubstr("G93\nG1 X1 Y2 F4\n"));
 }
