@@ -4,6 +4,9 @@
 #include "ui/viewport/internal/desk.h"
 #include "ui/widgets/plot.h"
 
+#include <cstddef>
+#include <string>
+
 namespace millwright::viewport {
 
 namespace {
@@ -22,7 +25,7 @@ void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
     view.y_is_log = chart.y_is_log;
     view.y_from_zero = !chart.y_is_log;
     view.height = height;
-    (void)widgets::line_plot(ui, chart.title, view);
+    (void)widgets::line_plot(ui, "lines", view);
 }
 
 } // namespace
@@ -37,8 +40,9 @@ chart_picture(const std::vector<Chart>& charts, const render::PixelSize& size, r
     Desk desk(size, 1.0, theme);
     return desk.picture(
         [&](widgets::Ui& ui) {
-            for (const Chart& chart : charts) {
-                draw_chart(ui, chart, height);
+            for (std::size_t n = 0; n < charts.size(); ++n) {
+                const auto scope = ui.scope("chart" + std::to_string(n));
+                draw_chart(ui, charts[n], height);
             }
         },
         margin);
