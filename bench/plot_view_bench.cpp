@@ -1,14 +1,12 @@
 // What it is like to have a large plot open in the workbench: how long until it is drawn, the longest frame
 // while it is derived, and what a frame costs while the view is panned and zoomed.
 #include "bench/visitor.h"
-#include "core/base/files.h"
+#include "bench/written_file.h"
 #include "ui/actions/plot_bench.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <iterator>
 #include <random>
 #include <string>
@@ -20,38 +18,24 @@ using bench::Clock;
 using bench::processor_time;
 using bench::seconds_since;
 using bench::Visitor;
-namespace fs = std::filesystem;
 
-/// Short strokes all over a sheet, of six pens; gone when the benchmark is over.
-class PlotFile {
-public:
-    explicit PlotFile(int strokes)
-        : file_(fs::temp_directory_path() / fmt::format("plot_view_bench_{}.plt", ::getpid())) {
-        std::mt19937 random(7475);
-        std::uniform_int_distribution<int> place(0, 16'000);
-        std::uniform_int_distribution<int> way(-200, 200);
-        std::string text = "IN;";
-        constexpr int pens = 6;
-        for (int n = 0; n < strokes; ++n) {
-            if (n % (strokes / pens + 1) == 0) {
-                fmt::format_to(std::back_inserter(text), "SP{};", 1 + n / (strokes / pens + 1));
-            }
-            const int x = place(random);
-            const int y = place(random);
-            fmt::format_to(
-                std::back_inserter(text), "PU{},{};PD{},{};", x, y, x + way(random), y + way(random));
+/// Short strokes all over a sheet, of six pens.
+std::string strokes_text(int strokes) {
+    std::mt19937 random(7475);
+    std::uniform_int_distribution<int> place(0, 16'000);
+    std::uniform_int_distribution<int> way(-200, 200);
+    std::string text = "IN;";
+    constexpr int pens = 6;
+    for (int n = 0; n < strokes; ++n) {
+        if (n % (strokes / pens + 1) == 0) {
+            fmt::format_to(std::back_inserter(text), "SP{};", 1 + n / (strokes / pens + 1));
         }
-        write_file(file_, text);
+        const int x = place(random);
+        const int y = place(random);
+        fmt::format_to(std::back_inserter(text), "PU{},{};PD{},{};", x, y, x + way(random), y + way(random));
     }
-    PlotFile(const PlotFile&) = delete;
-    PlotFile& operator=(const PlotFile&) = delete;
-    ~PlotFile() { fs::remove(file_); }
-
-    [[nodiscard]] const fs::path& path() const { return file_; }
-
-private:
-    fs::path file_;
-};
+    return text;
+}
 
 /// Of the window's thread and of the whole program, ms a frame; and the longest of the thread.
 struct FrameCost {
@@ -72,7 +56,7 @@ template <class Next> FrameCost cost_of(Visitor& visitor, const Next& next) {
 }
 
 void open_plot(benchmark::State& state) {
-    const PlotFile file(static_cast<int>(state.range(0)));
+    const bench::WrittenFile file("strokes.plt", strokes_text(static_cast<int>(state.range(0))));
     for (auto _ : state) {
         Visitor visitor;
         const Clock::time_point start = Clock::now();

@@ -2,14 +2,12 @@
 // longest frame while it loads, and the memory that a move takes. In memory, so no display is needed; where
 // no graphics card is, Mesa's llvmpipe draws on the processor.
 #include "bench/visitor.h"
-#include "core/base/files.h"
+#include "bench/written_file.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <string>
 
@@ -21,36 +19,23 @@ using bench::processor_time;
 using bench::seconds_since;
 using bench::Visitor;
 
-namespace fs = std::filesystem;
-/// Finishing passes over a wavy surface, as a CAM program writes them; gone when the benchmark is over.
-class ProgramFile {
-public:
-    explicit ProgramFile(int lines)
-        : file_(fs::temp_directory_path() / fmt::format("program_view_bench_{}.ngc", ::getpid())) {
-        constexpr int moves_a_pass = 1000;
-        std::string text = "G21 G90 G94 G54\nM3 S12000\nG0 Z30\nG1 F1500\n";
-        for (int n = 0; n < lines; ++n) {
-            const int pass = n / moves_a_pass;
-            const int along = pass % 2 == 0 ? n % moves_a_pass : moves_a_pass - 1 - n % moves_a_pass;
-            const double x = 0.2 * along;
-            const double y = 0.2 * (pass % moves_a_pass) + 0.0002 * (pass / moves_a_pass);
-            fmt::format_to(std::back_inserter(text),
-                           "X{:.4f} Y{:.4f} Z{:.4f}\n",
-                           x,
-                           y,
-                           10.0 + 6.0 * std::sin(0.06 * x) * std::cos(0.05 * y));
-        }
-        write_file(file_, text + "M2\n");
+/// Finishing passes over a wavy surface, as a CAM program writes them.
+std::string program_text(int lines) {
+    constexpr int moves_a_pass = 1000;
+    std::string text = "G21 G90 G94 G54\nM3 S12000\nG0 Z30\nG1 F1500\n";
+    for (int n = 0; n < lines; ++n) {
+        const int pass = n / moves_a_pass;
+        const int along = pass % 2 == 0 ? n % moves_a_pass : moves_a_pass - 1 - n % moves_a_pass;
+        const double x = 0.2 * along;
+        const double y = 0.2 * (pass % moves_a_pass) + 0.0002 * (pass / moves_a_pass);
+        fmt::format_to(std::back_inserter(text),
+                       "X{:.4f} Y{:.4f} Z{:.4f}\n",
+                       x,
+                       y,
+                       10.0 + 6.0 * std::sin(0.06 * x) * std::cos(0.05 * y));
     }
-    ProgramFile(const ProgramFile&) = delete;
-    ProgramFile& operator=(const ProgramFile&) = delete;
-    ~ProgramFile() { fs::remove(file_); }
-
-    [[nodiscard]] const fs::path& path() const { return file_; }
-
-private:
-    fs::path file_;
-};
+    return text + "M2\n";
+}
 
 /// Of text index, path in memory and on the graphics processor, and what is in force when.
 double bytes_a_move(const project::OpenedProgram& opened) {
@@ -60,7 +45,7 @@ double bytes_a_move(const project::OpenedProgram& opened) {
 }
 
 void open_program(benchmark::State& state) {
-    const ProgramFile file(static_cast<int>(state.range(0)));
+    const bench::WrittenFile file("passes.ngc", program_text(static_cast<int>(state.range(0))));
     for (auto _ : state) {
         Visitor visitor;
         const Clock::time_point start = Clock::now();

@@ -31,6 +31,11 @@ template <project::GridMethod method> widgets::Permission is_there(const Workben
                                   : widgets::Permission::refused("This grid has not been computed yet.");
 }
 
+template <project::GridMethod method>
+void add_show(Actions& actions, std::string_view id, std::string_view title, std::string_view tip) {
+    add(actions, {id, "View", title, tip, "", ""}, is_there<method>, show<method>, is_shown<method>);
+}
+
 template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
     hands.session.panes.*pane = !(hands.session.panes.*pane);
 }
@@ -79,46 +84,18 @@ void add_view_actions(Actions& actions) {
         always,
         go<Workspace::processor>,
         is_in<Workspace::processor>);
-    add(actions,
-        {"view.show_uniform",
-         "View",
-         "Show the uniform grid",
-         "Draws path and error of the uniform grid.",
-         "",
-         ""},
-        is_there<GridMethod::uniform>,
-        show<GridMethod::uniform>,
-        is_shown<GridMethod::uniform>);
-    add(actions,
-        {"view.show_elliptic",
-         "View",
-         "Show the elliptic grid",
-         "Draws path and error of the adapted grid.",
-         "",
-         ""},
-        is_there<GridMethod::elliptic>,
-        show<GridMethod::elliptic>,
-        is_shown<GridMethod::elliptic>);
-    add(actions,
-        {"view.show_tracks",
-         "View",
-         "Show the optimised tracks",
-         "Draws path and error of the grid whose tracks stay straight.",
-         "",
-         ""},
-        is_there<GridMethod::tracks>,
-        show<GridMethod::tracks>,
-        is_shown<GridMethod::tracks>);
-    add(actions,
-        {"view.show_chain",
-         "View",
-         "Show the whole chain's grid",
-         "Draws path and error of the best grid, once it was chosen for the program.",
-         "",
-         ""},
-        is_there<GridMethod::chain>,
-        show<GridMethod::chain>,
-        is_shown<GridMethod::chain>);
+    add_show<GridMethod::uniform>(
+        actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");
+    add_show<GridMethod::elliptic>(
+        actions, "view.show_elliptic", "Show the elliptic grid", "Draws path and error of the adapted grid.");
+    add_show<GridMethod::tracks>(actions,
+                                 "view.show_tracks",
+                                 "Show the optimised tracks",
+                                 "Draws path and error of the grid whose tracks stay straight.");
+    add_show<GridMethod::chain>(actions,
+                                "view.show_chain",
+                                "Show the whole chain's grid",
+                                "Draws path and error of the best grid, once it was chosen for the program.");
     add(actions,
         {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
         always,
