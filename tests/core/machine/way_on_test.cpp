@@ -32,7 +32,7 @@ struct Way : testing::Test {
     static std::string program(const std::string& head, int lines) {
         std::string text = head;
         for (int n = 0; n < lines; ++n) {
-            text += "G1 X" + std::to_string(n) + " F100\n";
+            text += "G1 X" + std::to_string(n) + " Y0 F100\n";
         }
         return text + "M2\n";
     }
@@ -54,7 +54,7 @@ TEST_F(Way, LeadsToTheLineWhereThatCanBeBegun) {
 }
 
 TEST_F(Way, AsksForTheClearanceThatNoLineTells) {
-    const WayOn way = way_on(story(program("G21 G90\n", 30), 20, "grbl"));
+    const WayOn way = way_on(story(program("G21 G90\nG1 Z-1 F50\n", 30), 20, "grbl"));
     EXPECT_EQ(way.line, 20);
     EXPECT_TRUE(way.needs_clearance);
 }
