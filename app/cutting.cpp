@@ -119,9 +119,9 @@ void write_program(const plot::CutPath& path,
     }
     print_notes(text);
     const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
-    fmt::print("{} lines, {} min on {}\n",
+    fmt::print("{} lines, {} on {}\n",
                text.text.listing.line_count(),
-               plot::minutes_and_seconds(seconds),
+               plot::time_for_people(seconds),
                machine.name());
 }
 

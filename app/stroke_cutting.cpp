@@ -57,13 +57,13 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
 
 void say(const char* what, const Strokes& strokes, const StrokeCutting& options) {
     const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), Vec2::Zero());
-    fmt::print("{}: {:.3f} m, {} times down, {} min by the thesis, {} min by the planner\n",
+    fmt::print("{}: {:.3f} m, {} times down, {} by the thesis, {} by the planner\n",
                what,
                time.distance() / 1000.0,
                time.runs,
-               plot::minutes_and_seconds(time.seconds),
-               plot::minutes_and_seconds(planned_seconds(
-                   plot::cut_path(strokes, cut_settings(strokes, options)), options.cutting)));
+               plot::time_for_people(time.seconds),
+               plot::time_for_people(planned_seconds(plot::cut_path(strokes, cut_settings(strokes, options)),
+                                                     options.cutting)));
 }
 
 } // namespace

@@ -74,22 +74,16 @@ Plot read(const Options& options) {
     return plot::read_hpgl_file(options.file, settings);
 }
 
-void print_diagnostics(const Plot& plot) {
-    for (const Diagnostic& diagnostic : plot.diagnostics) {
-        fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));
-    }
-    if (plot.more_diagnostics > 0) {
-        fmt::print(stderr, "millwright: and {} more\n", plot.more_diagnostics);
-    }
-    for (const plot::LeftOut& left_out : plot.left_out) {
-        fmt::print(stderr, "millwright: {} {} left out: {}\n", left_out.count, left_out.name, left_out.why);
+void print_notices(const Plot& plot, const std::string& file) {
+    for (const Diagnostic& notice : plot::notices(plot, file)) {
+        fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
 }
 
 /// A plot that is to become something else has to have strokes.
 Plot read_to_use(const Options& options) {
     Plot plot = read(options);
-    print_diagnostics(plot);
+    print_notices(plot, options.file);
     if (plot.strokes.empty()) {
         throw Error("there is nothing to draw in it", options.file);
     }
@@ -141,7 +135,7 @@ int info(const Options& options) {
                    json_of(plot).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return 0;
     }
-    print_diagnostics(plot);
+    print_notices(plot, options.file);
     const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
     fmt::print("{} commands, {} strokes of {} pens\n",
                plot.commands,
@@ -154,10 +148,10 @@ int info(const Options& options) {
                    box->lower.y(),
                    box->upper.y());
     }
-    fmt::print("draws {:.3f} m, {:.3f} m in the air, {} min\n",
+    fmt::print("draws {:.3f} m, {:.3f} m in the air, {}\n",
                time.cut_length / 1000.0,
                plot.air / 1000.0,
-               plot::minutes_and_seconds(time.seconds));
+               plot::time_for_people(time.seconds));
     return 0;
 }
 

@@ -94,8 +94,8 @@ int play(const Options& options) {
     const auto points = points_of(options);
     const kinematics::MachineModel model = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
-    if (const auto faults =
-            machine::check_points(*points, options.player.period / options.player.speed, model, options.file);
+    if (const auto faults = machine::check_points(
+            *points, machine::machine_period(options.player, !options.port.empty()), model, options.file);
         !faults.empty()) {
         throw Error(faults.front());
     }

@@ -43,6 +43,10 @@ PlayerOptions checked(const PlayerOptions& options) {
 
 } // namespace
 
+double machine_period(const PlayerOptions& options, bool linked) {
+    return linked ? options.period / options.speed : options.period;
+}
+
 std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
                                      double period,
                                      const MachineModel& model,

@@ -46,6 +46,10 @@ struct PlayStatus {
     std::string sentence; ///< why it ended early
 };
 
+/// What the machine itself does in a period: for the eyes alone it goes no faster, however fast they are
+/// shown.
+[[nodiscard]] double machine_period(const PlayerOptions& options, bool linked);
+
 /// The points that a machine must not be sent: outside of its limits, or faster than its axes go from one to
 /// the next. A sentence each, with the line in `file`; the first of each kind and axis. Throws Error if the
 /// machine has no X, Y, Z.

@@ -8,6 +8,12 @@
 
 namespace millwright::plot {
 
+namespace {
+
+constexpr long long an_hour = 3600; // s
+
+} // namespace
+
 WorkTime work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end) {
     const bool usable = model.cutting > 0.0 && model.travelling > 0.0 && model.lifting >= 0.0 &&
                         std::isfinite(model.cutting + model.travelling + model.lifting);
@@ -24,10 +30,18 @@ WorkTime work_time(const Strokes& strokes, const TimeModel& model, const Vec2& s
 }
 
 std::string minutes_and_seconds(double seconds) {
-    const auto whole = static_cast<long long>(std::llround(seconds));
-    const long long hours = whole / 3600;
+    const long long whole = std::llround(seconds);
+    const long long hours = whole / an_hour;
     return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, whole / 60 % 60, whole % 60)
                      : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::string_view minutes_or_hours(double seconds) {
+    return std::llround(seconds) < an_hour ? "min" : "h";
+}
+
+std::string time_for_people(double seconds) {
+    return fmt::format("{} {}", minutes_and_seconds(seconds), minutes_or_hours(seconds));
 }
 
 } // namespace millwright::plot

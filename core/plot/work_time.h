@@ -4,6 +4,7 @@
 #include "core/plot/strokes.h"
 
 #include <string>
+#include <string_view>
 
 namespace millwright::plot {
 
@@ -31,5 +32,9 @@ work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, con
 
 /// m:ss, or h:mm:ss from an hour on; seconds rounded.
 [[nodiscard]] std::string minutes_and_seconds(double seconds);
+/// What stands behind it: min, or h.
+[[nodiscard]] std::string_view minutes_or_hours(double seconds);
+/// Both, as "24:56 min" or "1:10:59 h".
+[[nodiscard]] std::string time_for_people(double seconds);
 
 } // namespace millwright::plot

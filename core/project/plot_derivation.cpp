@@ -35,8 +35,8 @@ void PlotDerivation::make_path() {
     } else {
         plot::ReaderSettings reading;
         reading.unit = {settings_.plotter_unit, settings_.plotter_unit};
-        plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
-        result_.notices = std::move(read.diagnostics);
+        const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
+        result_.notices = plot::notices(read, result_.input.file);
         cut_strokes(read.strokes);
     }
     if (result_.path->empty()) {

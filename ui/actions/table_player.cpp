@@ -22,14 +22,14 @@ std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
     constexpr std::int64_t most = 5'000'000;
     decoding.most_points = most;
     auto points = std::make_shared<const std::vector<Vec3>>(plot::decode(strokes, decoding));
-    if (const auto faults = machine::check_points(*points, choice.period / choice.speed, model, "the points");
-        !faults.empty()) {
-        throw Error(faults.front());
-    }
-    total = std::ssize(*points);
     machine::PlayerOptions options;
     options.period = choice.period;
     options.speed = choice.speed;
+    const double period = machine::machine_period(options, !choice.port.empty());
+    if (const auto faults = machine::check_points(*points, period, model, "the points"); !faults.empty()) {
+        throw Error(faults.front());
+    }
+    total = std::ssize(*points);
     return std::make_shared<machine::PointPlayer>(
         choice.port.empty() ? nullptr : machine::make_link(choice.port), clock, points, model, options);
 }

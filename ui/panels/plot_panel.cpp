@@ -103,12 +103,6 @@ std::string metres(double mm) {
     return fmt::format("{:.3f}", m * mm);
 }
 
-/// Of plot::minutes_and_seconds.
-std::string_view time_unit(double seconds) {
-    constexpr double an_hour = 3599.5; // rounded
-    return seconds < an_hour ? "min" : "h";
-}
-
 std::string sources_of(const plot::CuttingValues& values) {
     return "Feed: " + values.feed.source + ". Plunge: " + values.plunge.source +
            ". Depth a pass: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source +
@@ -216,17 +210,17 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
                  fmt::format("{} (as drawn {})",
                              plot::minutes_and_seconds(made->as_planned.seconds),
                              plot::minutes_and_seconds(made->as_drawn.seconds)),
-                 time_unit(made->as_planned.seconds));
+                 plot::minutes_or_hours(made->as_planned.seconds));
     }
     const double planned = now.in_file() ? now.duration() : 0.0;
     ui.value("planner",
              "Time, planner",
              planned > 0.0 ? plot::minutes_and_seconds(planned) : "...",
-             time_unit(planned));
+             plot::minutes_or_hours(planned));
     ui.value("left",
              "Remaining",
              planned > 0.0 ? plot::minutes_and_seconds(std::max(planned - now.time(), 0.0)) : "...",
-             time_unit(planned - now.time()));
+             plot::minutes_or_hours(planned - now.time()));
 }
 
 void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {

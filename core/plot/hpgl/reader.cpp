@@ -137,6 +137,22 @@ Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const 
     return internal::Reading(bytes, file, settings).read();
 }
 
+std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file) {
+    std::vector<Diagnostic> all = plot.diagnostics;
+    if (plot.more_diagnostics > 0) {
+        all.push_back({.place = {.file = file},
+                       .message = fmt::format("and {} more", plot.more_diagnostics),
+                       .hint = {}});
+    }
+    for (const LeftOut& left_out : plot.left_out) {
+        all.push_back(
+            {.place = {.file = file, .byte = left_out.byte},
+             .message = fmt::format("{} {} left out: {}", left_out.count, left_out.name, left_out.why),
+             .hint = {}});
+    }
+    return all;
+}
+
 Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings) {
     return read_hpgl(read_file(file), file, settings);
 }

@@ -52,6 +52,10 @@ struct Plot {
 [[nodiscard]] Plot
 read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings = {});
 
+/// What a person should know of a plot that was read from `file`: what is wrong, how much more of it there
+/// is, and each command that is left out, with how often and why.
+[[nodiscard]] std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file);
+
 /// Reads the file itself. Throws Error if it cannot be read, too.
 [[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings = {});
 

@@ -55,6 +55,8 @@ struct ReaderSettings {
     /// Arcs are drawn with chords as the file asks for, and with more where they would leave the arc by more
     /// than this; mm. Not given: as the file asks for.
     std::optional<double> arc_tolerance;
+    /// Of the origin on each axis, mm: where PA, PR, PU or PD leads farther two numbers have become one.
+    double farthest = 20'000.0;
     int highest_pen = 255;
     std::int64_t most_points = 20'000'000; ///< of all strokes; reading ends with an Error beyond
     int most_diagnostics = 100;            ///< kept; the others are counted

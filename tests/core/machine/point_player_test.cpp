@@ -157,6 +157,12 @@ TEST(PointPlayer, PlaysForTheEyesWithoutALink) {
     EXPECT_EQ(player.play({}).state, PlayState::done);
 }
 
+TEST(PointPlayer, ShownFasterAsksNoMoreOfAMachineThatDoesNotMove) {
+    const PlayerOptions options = {.period = 0.04, .speed = 8.0};
+    EXPECT_DOUBLE_EQ(machine_period(options, true), 0.005);
+    EXPECT_DOUBLE_EQ(machine_period(options, false), 0.04);
+}
+
 TEST(PointPlayer, RefusesWhatCannotBePlayed) {
     LateClock clock;
     const auto model = test::machine("forming-table");

@@ -42,6 +42,33 @@ TEST(Levels, AreCutInTheOrderOfTheUser) {
     EXPECT_EQ(pens_in_order(cut_path(six_colours(), settings)), (std::vector<int>{2, 4, 1, 5, 0, 3}));
 }
 
+// A drawing of two colours whose strokes alternate, read from its file: each pen is cut whole, in either
+// order.
+TEST(Levels, OfADrawingOfTwoColoursAreCutWholeInTheirOrder) {
+    std::string hpgl;
+    for (int n = 0; n < 6; ++n) {
+        hpgl += "SP" + std::to_string(1 + n % 2) + ";" + test::run({{400 * (1 + n % 2), 40 * n}, {400, 400}});
+    }
+    const Strokes strokes = read_hpgl(hpgl, "two.plt").strokes;
+    ASSERT_EQ(strokes.size(), 6U);
+    for (const int first : {1, 2}) {
+        CutSettings settings;
+        settings.levels = levels_for(strokes);
+        ASSERT_EQ(settings.levels.size(), 2U);
+        settings.levels[0].order = first == 1 ? 0 : 1;
+        settings.levels[1].order = first == 1 ? 1 : 0;
+        std::vector<double> begins; // x of where the tool goes down: 10 mm of pen 1, 20 mm of pen 2
+        for (const CutPoint& point : cut_path(strokes, settings)) {
+            if (point.move == CutMove::plunge) {
+                begins.push_back(point.at.x());
+            }
+        }
+        const double other = 30.0 - 10.0 * first;
+        EXPECT_EQ(begins,
+                  (std::vector<double>{10.0 * first, 10.0 * first, 10.0 * first, other, other, other}));
+    }
+}
+
 TEST(Levels, CanBeLeftOutAndRepeated) {
     CutSettings settings;
     settings.levels = {{.pen = 1, .order = 0, .depth = 1.0},

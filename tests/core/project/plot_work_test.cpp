@@ -66,6 +66,62 @@ TEST(PlotWork, TheProgramIsThatOfThePathAndGoesWithItsWorker) {
     EXPECT_FALSE(fs::exists(program));
 }
 
+/// Of so many points, back and forth over 100 mm.
+void write_zigzag(const fs::path& file, std::size_t points) {
+    std::ofstream out(file);
+    out << "IN;SP1;PU0,0;PD";
+    for (std::size_t n = 0; n < points; ++n) {
+        out << (n > 0 ? "," : "") << n % 4000 << "," << 40 + n % 7 * 40;
+    }
+    out << ";PU0,0;SP;";
+}
+
+TEST(PlotWork, TheProgramOfALongPathIsWrittenWhereItIsAskedFor) {
+    const test::ScratchFolder scratch;
+    write_zigzag(scratch / "long.plt", most_points_at_once);
+    PlotWorker worker("assets", [] {});
+    worker.request({scratch / "long.plt", {}});
+    worker.wait_idle();
+    ASSERT_FALSE(worker.latest()->failure);
+    EXPECT_TRUE(worker.latest()->finished);
+    EXPECT_GT(worker.latest()->path->size(), most_points_at_once);
+    EXPECT_TRUE(worker.latest()->program.empty());
+    const auto revision = worker.latest()->revision;
+
+    worker.request_program();
+    worker.wait_idle();
+    ASSERT_FALSE(worker.latest()->program.empty());
+    EXPECT_GT(worker.latest()->revision, revision);
+    EXPECT_EQ(read_file(worker.latest()->program), plot_program_text(*worker.latest(), "assets"));
+
+    worker.request_program(); // it is there
+    worker.wait_idle();
+    EXPECT_EQ(worker.latest()->revision, revision + 1);
+}
+
+TEST(PlotWork, TheProgramOfALongPathIsNotWrittenForAPathThatIsGone) {
+    const test::ScratchFolder scratch;
+    write_zigzag(scratch / "long.plt", most_points_at_once);
+    PlotWorker worker("assets", [] {});
+    worker.request({scratch / "long.plt", {}});
+    worker.wait_idle();
+    worker.request_program();
+    worker.request({everyday, {}}); // in its place
+    worker.wait_idle();
+    ASSERT_FALSE(worker.latest()->failure);
+    EXPECT_EQ(worker.latest()->input.file, everyday);
+    EXPECT_EQ(read_file(worker.latest()->program), plot_program_text(*worker.latest(), "assets"));
+}
+
+TEST(PlotWork, WhatCannotBeFollowedIsANotice) {
+    const test::ScratchFolder scratch;
+    std::ofstream(scratch / "pages.plt") << "IN;PC1;SP1;PU0,0;PD400,0;PG;";
+    const auto made = derived({scratch / "pages.plt", {}});
+    ASSERT_FALSE(made->failure);
+    ASSERT_EQ(made->notices.size(), 2U);
+    EXPECT_THAT(to_text(made->notices[0]), HasSubstr("1 PC left out"));
+}
+
 TEST(PlotWork, WhatCannotBeCutIsAFailureWithItsReason) {
     const test::ScratchFolder scratch;
     std::ofstream(scratch / "empty.plt") << "IN;SP1;PU0,0;";

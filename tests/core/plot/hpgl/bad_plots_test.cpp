@@ -66,7 +66,8 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
 
 // Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers.
 TEST(BadPlots, NothingIsCutFromADamagedToken) {
-    for (const char* damage : {"PA,,;", "...;", "PA15093365,19613365,7;", "PA1.5.3,7;", "PAPA;P;", "A,,,;"}) {
+    for (const char* damage :
+         {"PA,,;", "...;", "PA15093365,19613365,7;", "PA1.5.3,7;", "PAPA;P;", "A,,,;", "PA8931039,800;"}) {
         SCOPED_TRACE(damage);
         const std::string text = std::string("SP1;PU;PA1000,1000;PD;PA2000,1000;") + damage +
                                  "PA2000,2000;PA3000,2000;PU;PA0,0;SP;";
@@ -76,6 +77,20 @@ TEST(BadPlots, NothingIsCutFromADamagedToken) {
         EXPECT_EQ(plot.strokes[0].points, (std::vector<Vec2>{{25.0, 25.0}, {50.0, 25.0}}));
         EXPECT_EQ(plot.strokes[1].points, (std::vector<Vec2>{{50.0, 50.0}, {75.0, 50.0}}));
     }
+}
+
+TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {
+    for (const char* damage :
+         {"PD100,100,8931039,800;", "PR;PD100,100,8931039,800;PA;", "SC0,1,0,1;PD0.1,0.1,99999,0.2;SC;"}) {
+        SCOPED_TRACE(damage);
+        const Plot plot = read_hpgl(std::string("SP1;PU0,0;") + damage + "PU0,0;PD400,0;PU;", "bad.plt");
+        ASSERT_EQ(plot.diagnostics.size(), 1U);
+        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("two numbers may have become one"));
+        EXPECT_NEAR(draw_length(plot.strokes), 10.0, 1e-12);
+    }
+    ReaderSettings wide;
+    wide.farthest = 1e6;
+    EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD8931039,800;PU;", "wide.plt", wide).diagnostics.empty());
 }
 
 TEST(BadPlots, RelativeMovesAfterAFaultAreNotDrawn) {
@@ -98,6 +113,7 @@ TEST(BadPlots, APenThatIsNotThereDrawsNothing) {
 TEST(BadPlots, AGiganticPlotEndsWithAnError) {
     ReaderSettings settings;
     settings.most_points = 100'000;
+    settings.farthest = 1e9;
     for (const char* giant : {"SP1;LT2,0.0001;PU0,0;PD1000000000,0;",
                               "SP1;IW0,0,1,1;LT2,0.0001;PU10,10;PD1000000000,10;",
                               "SP1;FT3,0.001;PU0,0;RA1000000,1000000;"}) {

@@ -65,6 +65,21 @@ TEST(HpglReader, CommandsThatAMachineCannotFollowAreListed) {
     EXPECT_EQ(plot.commands, 8);
 }
 
+TEST(HpglReader, NoticesHaveWhatIsWrongAndWhatIsLeftOut) {
+    ReaderSettings settings;
+    settings.most_diagnostics = 1;
+    const Plot plot = read_hpgl("IN;QX;QY;PC1;PC2;SP1;PU0,0;PD1,1;", "a.plt", settings);
+    std::vector<std::string> lines;
+    for (const Diagnostic& notice : notices(plot, "a.plt")) {
+        lines.push_back(to_text(notice));
+    }
+    EXPECT_EQ(lines,
+              (std::vector<std::string>{
+                  "a.plt byte 3: QX is no command of HPGL",
+                  "a.plt: and 1 more",
+                  "a.plt byte 9: 2 PC left out: colours of pens and paper mean nothing to a cutter"}));
+}
+
 TEST(HpglReader, CommentsAreNoCommands) {
     EXPECT_TRUE(read("SP1;CO\"one; PD999,999;\";CO two PD5,5;PU;").strokes.empty());
 }

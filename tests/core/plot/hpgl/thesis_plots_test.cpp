@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <span>
+
 namespace millwright::plot {
 namespace {
 
@@ -17,10 +20,32 @@ Strokes strokes_of(const std::string& hpgl) {
     return plot.strokes;
 }
 
+/// Points of one run, as printed in plotter units.
+void expect_points(const Stroke& stroke, std::initializer_list<test::At> units) {
+    ASSERT_EQ(stroke.points.size(), units.size());
+    for (std::size_t n = 0; n < units.size(); ++n) {
+        const test::At at = *(units.begin() + n);
+        EXPECT_NEAR(stroke.points[n].x(), at.x / 40.0, printed) << n;
+        EXPECT_NEAR(stroke.points[n].y(), at.y / 40.0, printed) << n;
+    }
+}
+
+/// Hatch lines at the printed levels between two X; every other one runs backwards.
+void expect_levels(std::span<const Stroke> lines, std::initializer_list<int> levels) {
+    ASSERT_EQ(lines.size(), levels.size());
+    bool forwards = true;
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+        const int y = *(levels.begin() + n);
+        expect_points(lines[n], {{forwards ? 1509 : 1961, y}, {forwards ? 1961 : 1509, y}});
+        forwards = !forwards;
+    }
+}
+
 TEST(ThesisPlots, FirstExampleIsOneRunOfFourPoints) {
     const Plot plot = read_hpgl(test::first_example(), "thesis.plt");
     ASSERT_EQ(plot.strokes.size(), 1U);
-    EXPECT_EQ(plot.strokes.front().points.size(), 4U);
+    // As HPGL has it; the prose of the thesis lowers the pen a point later and ends at 4165.
+    expect_points(plot.strokes.front(), {{2994, 4197}, {3093, 4165}, {3047, 4144}, {3000, 4100}});
     EXPECT_NEAR(draw_length(plot.strokes), 5.4748, printed);
     const Vec2 end = plot.strokes.front().points.back();
     EXPECT_NEAR((plot.end - end).norm(), 2.4296, printed);
@@ -31,21 +56,31 @@ TEST(ThesisPlots, SecondExampleIsTwoPensWithOneRunEach) {
     ASSERT_EQ(strokes.size(), 2U);
     EXPECT_EQ(strokes[0].pen, 0);
     EXPECT_EQ(strokes[1].pen, 1);
+    expect_points(strokes[0], {{2994, 4197}, {3093, 4165}});
+    expect_points(strokes[1], {{3540, 4684}, {3200, 4505}});
 }
 
 TEST(ThesisPlots, OutlineOfTheEngravingHasItsLength) {
     const Strokes strokes = strokes_of(test::outline_fa());
     ASSERT_EQ(strokes.size(), 1U);
     EXPECT_NEAR(draw_length(strokes), 14.4582, printed);
+    expect_points(strokes[0],
+                  {{893, 692}, {893, 800}, {1039, 800}, {1154, 811}, {1254, 844}, {1340, 899}, {1341, 900}});
 }
 
 TEST(ThesisPlots, HatchesOfTheEngravingHaveTheirLengths) {
     const Strokes fb = strokes_of(test::hatch_fb());
     EXPECT_EQ(fb.size(), 6U);
     EXPECT_NEAR(draw_length(fb), 67.8, printed);
+    expect_levels(fb, {2984, 3048, 3111, 3175, 3238, 3302});
     const Strokes fcd = strokes_of(test::hatch_fc_fd());
-    EXPECT_EQ(fcd.size(), 13U);
+    ASSERT_EQ(fcd.size(), 13U);
     EXPECT_NEAR(draw_length(fcd), 230.35, printed);
+    expect_levels(std::span(fcd).first(9), {2095, 2159, 2222, 2286, 2349, 2413, 2476, 2540, 2603});
+    expect_points(fcd[9], {{1509, 2667}, {3393, 2667}});
+    expect_points(fcd[10], {{3496, 2730}, {1509, 2730}});
+    expect_points(fcd[11], {{2768, 4445}, {3461, 4445}});
+    expect_points(fcd[12], {{3634, 4381}, {3052, 4381}});
 }
 
 TEST(ThesisPlots, PlotListingHasItsLengths) {

@@ -142,6 +142,19 @@ TEST(Relief, OfTheThesisHas96PointsAnd24Point70Millimetres) {
     EXPECT_NEAR(path[9].at.z(), -137.0 / 255.0, 1e-6);
 }
 
+TEST(Relief, OfAnInvertedPictureMakesDarkDeep) {
+    Picture picture = thesis_picture();
+    for (std::uint16_t& level : picture.gray) {
+        level = static_cast<std::uint16_t>(65535 - level); // as the reader does it
+    }
+    ReliefSettings settings;
+    settings.tip.kind = TipKind::point;
+    settings.merge = false;
+    const CutPath path = relief(height_field(picture, 0.26, 1.0), settings);
+    EXPECT_NEAR(path[1].at.z(), -(255.0 - 92.0) / 255.0, 1e-6);
+    EXPECT_NEAR(path[2].at.z(), -(255.0 - 93.0) / 255.0, 1e-6);
+}
+
 TEST(Relief, OverCutsNoPixelWithAnyTip) {
     for (const HeightField& field : fields()) {
         for (const ToolTip& tip : tips()) {
