@@ -24,6 +24,9 @@ namespace millwright::app {
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice) {
     command.add_flag("--one-by-one", choice.one_by_one, "Wait for the answer to each line before the next");
     command.add_flag("--unlock", choice.unlock, "Unlock a locked controller without homing");
+    command.add_flag("--trust-position",
+                     choice.trust_position,
+                     "The machine stands where the controller says: somebody has looked");
     command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
     command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
     return *command
@@ -57,6 +60,7 @@ void Controller::connect() {
         }
         driver_->reset();
     }
+    settle_position();
     if (choice_.optional_stop) {
         driver_->set_optional_stop(true);
     }
@@ -64,6 +68,18 @@ void Controller::connect() {
     const std::string name = grbl != nullptr ? "Grbl " + grbl->readout().version : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
     std::fflush(stdout);
+}
+
+void Controller::settle_position() {
+    if (choice_.trust_position) {
+        driver_->trust_position();
+    }
+    if (const std::string why = driver_->status().position_doubt; !why.empty()) {
+        fmt::print(stderr,
+                   "millwright: {} A job that begins at a line needs that, or --trust-position if it stands "
+                   "where the controller says.\n",
+                   machine::doubt_sentence(why));
+    }
 }
 
 void Controller::show_warnings(const machine::Job& job) const {

@@ -18,13 +18,15 @@ class Option;
 
 namespace millwright::app {
 
-/// Which controller, and what the options --port, --one-by-one, --unlock, --keys and --optional-stop say.
+/// Which controller, and what the options --port, --one-by-one, --unlock, --trust-position, --keys and
+/// --optional-stop say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
     bool one_by_one = false;
     bool unlock = false;
-    bool keys = false; ///< of JobKeys also from an input that is no terminal
+    bool trust_position = false; ///< a person has looked: the machine stands where the controller says
+    bool keys = false;           ///< of JobKeys also from an input that is no terminal
     bool optional_stop = false;
     std::string axes = "XYZ"; ///< of a LinuxCNC
 };
@@ -52,6 +54,7 @@ public:
     run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop);
 
 private:
+    void settle_position();
     void show_warnings(const machine::Job& job) const;
 
     ControllerChoice choice_;

@@ -36,6 +36,7 @@ nlohmann::ordered_json as_json(const machine::JobStory& story) {
             {"executed_blocks", story.executed_blocks},
             {"allowed_blocks", story.allowed_blocks},
             {"next_line", story.next_line},
+            {"position_doubt", story.position_doubt},
             {"sentence", story.sentence}};
 }
 
@@ -52,6 +53,11 @@ void say_how_it_goes_on(const machine::JobStory& story) {
                from_line
                    ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
                    : std::string());
+    if (from_line && !story.position_doubt.empty()) {
+        fmt::print(
+            "    --trust-position belongs to it if you have brought the machine to where its controller "
+            "says.\n");
+    }
 }
 
 /// `told`: the programs of later jobs; what these have left is what counts.

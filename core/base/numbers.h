@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string_view>
 
 namespace millwright {
 
@@ -17,6 +18,12 @@ namespace millwright {
 /// The value between a and b at fraction t, exact at both ends.
 [[nodiscard]] constexpr double mix(double a, double b, double t) {
     return (1.0 - t) * a + t * b;
+}
+
+/// The text of a number without the plus in front of it, which people may write and std::from_chars refuses.
+[[nodiscard]] constexpr std::string_view without_plus(std::string_view text) {
+    const bool plus = text.starts_with('+') && !text.starts_with("+-");
+    return text.substr(plus ? 1 : 0);
 }
 
 } // namespace millwright

@@ -91,7 +91,7 @@ public:
           DriverStatus before)
         : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
           plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
-          last_(std::move(before)) {
+          last_(std::move(before)), doubt_before_(last_.position_doubt) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
         log_ = std::make_shared<internal::SharedLog>(
@@ -147,7 +147,8 @@ private:
     std::shared_ptr<const motion::Trajectory> trajectory_;
     bool plans_itself_ = false;
     double start_ = 0.0;
-    DriverStatus last_; ///< with the last known position where the link is gone
+    DriverStatus last_; ///< with the last known position where the link is gone, or the position is lost
+    std::string doubt_before_;
     std::shared_ptr<internal::SharedLog> log_;
     int logged_blocks_ = 0;
     bool cancelled_ = false;
@@ -158,8 +159,12 @@ private:
 
     void remember(const DriverStatus& status) {
         if (status.state != DriverState::disconnected) {
-            last_ = status;
+            const DriverStatus before = std::exchange(last_, status);
             last_.planned_time = plans_itself_ ? time_of_executed() : last_.planned_time;
+            if (status.position_doubt != doubt_before_) { // what a controller says now is no position
+                last_.position = before.position;
+                last_.work_offset = before.work_offset;
+            }
             return;
         }
         last_.state = status.state;
@@ -181,6 +186,7 @@ private:
         line.event = event;
         line.time = time;
         line.executed_blocks = status.executed_blocks;
+        line.position_doubt = status.position_doubt;
         const auto next = static_cast<std::size_t>(status.executed_blocks);
         const auto& lines = job_.listing->line_of_block;
         line.line = next < lines.size() ? lines[next] : job_.listing->line_count();
@@ -251,6 +257,9 @@ private:
         result.elapsed = elapsed();
         result.position = last_.position;
         result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed);
+        if (last_.position_doubt != doubt_before_ && !last_.position_doubt.empty()) {
+            result.sentence += " " + doubt_sentence(last_.position_doubt);
+        }
         result.log_file = file_;
         if (result.end == JobEnd::fault) {
             LogRecord fault = record(LogEvent::fault, result.elapsed, last_);
@@ -277,6 +286,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
         throw Error(
             fmt::format("the machine is {} and takes no job", to_text(before.state)), {}, before.message);
     }
+    check_position(job, before);
     constexpr double planning = 0.02; // of the progress
     const bool text_alone = job.program == nullptr;
     const Capabilities able = driver_.capabilities();
@@ -316,6 +326,18 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
         bring_to_rest();
         watch.log_failure();
         throw;
+    }
+}
+
+/// A line in the middle is gone to by what the controller takes for its position.
+void Dispatcher::check_position(const Job& job, const DriverStatus& status) {
+    if (job.from_line > 1 && !status.position_doubt.empty()) {
+        throw Error(fmt::format("{} Line {} could begin anywhere",
+                                doubt_sentence(status.position_doubt),
+                                job.from_line),
+                    {},
+                    "it begins there when the machine was homed, when every axis has a new zero, or when "
+                    "you confirm that it stands where it says");
     }
 }
 

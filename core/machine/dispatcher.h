@@ -58,6 +58,7 @@ private:
 
     void request(LogEvent event, std::string text, const std::function<void()>& command);
     void check(const Job& job) const;
+    static void check_position(const Job& job, const DriverStatus& status);
     [[nodiscard]] std::vector<Request> take_requests();
     void bring_to_rest();
 

@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 
+#include <fmt/format.h>
+
 namespace millwright::machine {
 
 namespace {
@@ -24,6 +26,8 @@ void Driver::jog(const Jog&) {
 
 void Driver::stop_jog() {}
 
+void Driver::trust_position() {}
+
 void Driver::home() {
     refuse(*this, "home");
 }
@@ -42,6 +46,10 @@ void Driver::set_optional_stop(bool on) {
     if (on) {
         refuse(*this, "stop at M1 by a switch of ours");
     }
+}
+
+std::string doubt_sentence(std::string_view why) {
+    return fmt::format("The position may be lost ({}): home the machine, or set its zero.", why);
 }
 
 std::string_view to_text(Activity activity) {

@@ -117,6 +117,8 @@ public:
     virtual void emergency_stop() = 0;
     /// After an alarm: a person has looked at the machine, it is idle again. Nothing moves.
     virtual void reset() = 0;
+    /// A person has looked: the machine stands where DriverStatus::position says.
+    virtual void trust_position();
     /// Stops and drops the link; waits until the machine is at rest. Never throws.
     virtual void close() noexcept = 0;
 

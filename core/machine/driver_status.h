@@ -66,6 +66,9 @@ struct DriverStatus {
     DriverState state = DriverState::disconnected;
     Activity activity = Activity::none;
     kinematics::AxisPositions position; ///< machine coordinates; empty while disconnected
+    /// Why the machine may no longer stand where `position` says, a part of a sentence; empty: nothing speaks
+    /// against it. Ended by homing, by a new zero of every axis, or by Driver::trust_position().
+    std::string position_doubt;
     kinematics::AxisPositions velocity;
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;
@@ -97,5 +100,8 @@ struct DriverStatus {
                                                      : position;
     }
 };
+
+/// What a person should know and do, from DriverStatus::position_doubt or what a log holds of it.
+[[nodiscard]] std::string doubt_sentence(std::string_view why);
 
 } // namespace millwright::machine

@@ -115,8 +115,15 @@ LogStart start_from(const JsonValue& value) {
 }
 
 LogRecord record_from(const JsonValue& value, const LogStart& start) {
-    value.expect_only(
-        {"record", "time_s", "executed_blocks", "line", "position", "end", "text", "allowed_blocks"});
+    value.expect_only({"record",
+                       "time_s",
+                       "executed_blocks",
+                       "line",
+                       "position",
+                       "end",
+                       "text",
+                       "allowed_blocks",
+                       "position_doubt"});
     LogRecord record;
     record.event = internal::named(value.at("record"), all_events);
     record.time = value.at("time_s").number(0.0);
@@ -137,6 +144,9 @@ LogRecord record_from(const JsonValue& value, const LogStart& start) {
     }
     if (const auto allowed = value.find("allowed_blocks")) {
         record.allowed_blocks = allowed->integer(0, start.blocks);
+    }
+    if (const auto doubt = value.find("position_doubt")) {
+        record.position_doubt = doubt->text();
     }
     return record;
 }
@@ -263,6 +273,9 @@ void JobLog::write(const LogRecord& record) {
     }
     if (record.event == LogEvent::ahead) {
         line["allowed_blocks"] = record.allowed_blocks;
+    }
+    if (!record.position_doubt.empty()) {
+        line["position_doubt"] = record.position_doubt;
     }
     append(one_line(line));
 }

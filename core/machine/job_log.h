@@ -50,6 +50,9 @@ struct LogRecord {
     std::optional<JobEnd> end; ///< of LogEvent::end
     std::string text;          ///< a sentence, may be empty
     int allowed_blocks = 0;    ///< of LogEvent::ahead
+    /// As DriverStatus::position_doubt. What arose during the job is not in `position`, the last that was
+    /// known before.
+    std::string position_doubt;
 
     friend bool operator==(const LogRecord&, const LogRecord&) = default;
 };

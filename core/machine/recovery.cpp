@@ -72,8 +72,12 @@ JobStory job_story(const fs::path& log_file) {
     if (!log.records.empty()) {
         story.time = log.records.back().time;
         story.position = log.records.back().position;
+        story.position_doubt = log.records.back().position_doubt;
     }
     story.sentence = sentence_of(story);
+    if (!story.position_doubt.empty() && story.executed_blocks < story.start.blocks) {
+        story.sentence += " " + doubt_sentence(story.position_doubt);
+    }
     return story;
 }
 

@@ -23,6 +23,7 @@ struct JobStory {
     int next_line =
         0; ///< of the file: where the first block stands that was not surely executed; 0: not known
     kinematics::AxisPositions position; ///< the last that is known
+    std::string position_doubt;         ///< as LogRecord has it, of the last record
     std::string sentence;               ///< what is known, for people
 
     /// Its program was killed, and nobody wrote how it ended.

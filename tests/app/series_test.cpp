@@ -92,7 +92,12 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     EXPECT_THAT(
         run({"jobs", logs}).out,
         AnyOf(HasSubstr("send " + a + " --driver grbl --from-line "), HasSubstr("from its beginning")));
-    ended = send({"--continue"}, "5\n20\ny\n"); // line 5 cannot be begun; from line 20, then the other
+    ended = send({"--continue"}, "20\n"); // it was switched on anew: nobody knows where the tool is
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("Line 20 could begin anywhere"));
+    EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
+    // Line 5 cannot be begun; from line 20, then the other.
+    ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
     EXPECT_THAT(ended.out, HasSubstr("line 5 is among the first 11"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));

@@ -75,6 +75,15 @@ Permission can_home(const Workbench& now) {
     return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");
 }
 
+Permission can_trust(const Workbench& now) {
+    if (const Permission connected = can_disconnect(now); !connected.allowed) {
+        return connected;
+    }
+    return now.controller.status.position_doubt.empty()
+               ? Permission::refused("Nothing speaks against the position.")
+               : Permission{};
+}
+
 Permission can_single(const Workbench& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
@@ -130,6 +139,17 @@ void add_controller_actions(Actions& actions) {
          icons::unlock},
         in_alarm,
         [](Hands& hands) { hands.workshop.controller().reset(); });
+    add(actions,
+        {"machine.trust_position",
+         "Machine",
+         "The position is right",
+         "You have looked: the machine stands where its controller says. Nothing moves.",
+         "",
+         icons::check},
+        can_trust,
+        [](Hands& hands) {
+            hands.workshop.controller().tell([](machine::Driver& driver) { driver.trust_position(); });
+        });
     add(actions,
         {"machine.home",
          "Machine",

@@ -40,12 +40,22 @@ Permission machine_ready(const Workbench& now) {
                : Permission::refused("The machine is moving.");
 }
 
+/// A line in the middle is gone to by what the controller takes for its position.
+Permission position_ready(const Workbench& now, int from_line) {
+    const std::string& doubt = now.controller.status.position_doubt;
+    const bool wrong = now.controller.connected() && from_line > 1 && !doubt.empty();
+    return wrong ? Permission::refused(machine::doubt_sentence(doubt) +
+                                       " Or say that it stands where the controller says.")
+                 : Permission{};
+}
+
 Permission can_run(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
     const Permission job = job_ready(now);
-    return job.allowed ? machine_ready(now) : job;
+    const Permission ready = job.allowed ? machine_ready(now) : job;
+    return ready.allowed ? position_ready(now, now.session.begin.on ? now.session.begin.line : 1) : ready;
 }
 
 template <DriverState state> Permission driver_is(const Workbench& now) {
@@ -128,7 +138,8 @@ Permission can_run_next(const Workbench& now) {
                                                 "then release or remove it.");
     }
     const Permission suits = suits_machine(now, *next);
-    return suits.allowed ? machine_ready(now) : suits;
+    const Permission ready = suits.allowed ? machine_ready(now) : suits;
+    return ready.allowed ? position_ready(now, next->from_line) : ready;
 }
 
 /// The queue hears how it ends; what keeps it from starting holds the queue, too.

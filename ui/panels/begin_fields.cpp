@@ -75,6 +75,22 @@ void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// Homing or a new zero take it away as well.
+void draw_doubt(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const std::string& doubt = now.controller.status.position_doubt;
+    if (!now.controller.connected() || doubt.empty()) {
+        return;
+    }
+    (void)widgets::banner(
+        ui, "doubt", {widgets::Severity::warning, machine::doubt_sentence(doubt), std::string()});
+    if (ui.toggle("trust",
+                  "It stands where it says",
+                  false,
+                  "You have looked: the position of the machine is the one that is shown")) {
+        ask.run("machine.trust_position");
+    }
+}
+
 void draw_approach(Ui& ui, const Workbench& now) {
     if (!now.approach) {
         ui.note("The approach is being worked out \u2026");
@@ -123,6 +139,7 @@ void begin_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     if (begin.on && can.allowed) {
         draw_numbers(ui, now, ask);
+        draw_doubt(ui, now, ask);
         draw_approach(ui, now);
     }
 }

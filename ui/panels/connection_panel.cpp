@@ -242,6 +242,9 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
                                as_sentence(machine.status.message) + (alarm ? ". " + advice(now) : ""),
                                {}});
     }
+    if (!machine.status.position_doubt.empty()) {
+        ui.note(machine::doubt_sentence(machine.status.position_doubt));
+    }
     const auto row = ui.row(alarm ? 2 : 1);
     if (alarm) {
         action_button(ui,

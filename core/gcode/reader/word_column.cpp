@@ -32,6 +32,7 @@ char closing(char open) {
 /// Whether the number behind a letter is `code`.
 bool has_code(std::string_view behind, double code) {
     behind.remove_prefix(std::min(behind.find_first_not_of(" \t"), behind.size()));
+    behind = without_plus(behind);
     double number = 0.0;
     const auto read = std::from_chars(behind.data(), behind.data() + behind.size(), number);
     return read.ec == std::errc() && exactly_equal(number, code);

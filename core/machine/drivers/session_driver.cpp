@@ -172,6 +172,11 @@ void SessionDriver::reset() {
     body_->wait_until([](const ControllerSession& now) { return now.greeted(); });
 }
 
+void SessionDriver::trust_position() {
+    const Turn turn(*this);
+    session().trust_position();
+}
+
 void SessionDriver::close() noexcept {
     try {
         stop();

@@ -33,6 +33,7 @@ public:
     void emergency_stop() override;
     /// Makes a lost link again.
     void reset() override;
+    void trust_position() override;
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override;
     void jog(const Jog& jog) override;

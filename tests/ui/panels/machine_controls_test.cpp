@@ -212,7 +212,9 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     const int line = std::max(broken.executed_blocks, 12);
     person.fill_in("inspector/job/begin/line", std::to_string(line));
     person.wait_idle();
-    ASSERT_EQ(person.refusal("inspector/job/machine_run"), "");
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("The position may be lost"));
+    person.click("inspector/job/begin/trust");
+    ASSERT_TRUE(person.live_until([this] { return person.refusal("inspector/job/machine_run").empty(); }));
     person.click("inspector/job/machine_run");
     const auto outcome = [this] { return person.workshop().look().job.outcome; };
     ASSERT_TRUE(person.live_until([&] { return outcome() && outcome()->end != JobEnd::fault; }, 90.0));

@@ -90,6 +90,10 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     person.keep("machine-from-line");
     EXPECT_FALSE(grbl.moving());
 
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("The position may be lost"));
+    person.keep("machine-from-line-position");
+    person.click("inspector/job/begin/trust"); // this Grbl was switched on, and nobody homed it
+    ASSERT_TRUE(person.live_until([&] { return !person.sees("inspector/job/begin/trust"); }));
     person.click("inspector/job/machine_run");
     double farthest = 0.0;
     ASSERT_TRUE(person.live_until(

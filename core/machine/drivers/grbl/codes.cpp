@@ -94,4 +94,11 @@ std::string explain_grbl_alarm(int number) {
     return explain("alarm", alarms, number);
 }
 
+bool grbl_alarm_loses_position(int number) {
+    constexpr int soft_limit = 2; // Grbl brakes before it
+    constexpr int probe_touches = 4;
+    constexpr int probe_missed = 5;
+    return number != soft_limit && number != probe_touches && number != probe_missed;
+}
+
 } // namespace millwright::machine

@@ -20,5 +20,8 @@ struct GrblCode {
 /// have is named as such.
 [[nodiscard]] std::string explain_grbl_error(int number);
 [[nodiscard]] std::string explain_grbl_alarm(int number);
+/// Whether the motion may have been cut off, or zero was not found: where the machine stands, Grbl no longer
+/// knows.
+[[nodiscard]] bool grbl_alarm_loses_position(int number);
 
 } // namespace millwright::machine

@@ -39,6 +39,7 @@ public:
     virtual void stop(double now) = 0;
     virtual void emergency_stop(double now) = 0;
     virtual void reset(double now) = 0;
+    virtual void trust_position() {}
     virtual void home(double now) = 0;
     virtual void jog(const Jog& jog, double now) = 0;
     virtual void stop_jog(double now) = 0;

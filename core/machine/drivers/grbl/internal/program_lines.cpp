@@ -1,13 +1,13 @@
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 
 #include "core/base/error.h"
+#include "core/machine/drivers/grbl/internal/words.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -48,26 +48,6 @@ std::string bare_text(std::string_view line, Place place) {
         }
     }
     return text.starts_with('%') ? std::string() : text;
-}
-
-struct Word {
-    char letter;
-    double value;
-};
-
-std::optional<std::vector<Word>> words_of(std::string_view text) {
-    std::vector<Word> words;
-    while (!text.empty()) {
-        Word word{text.front(), 0.0};
-        const auto read =
-            std::from_chars(text.data() + 1, text.data() + text.size(), word.value, std::chars_format::fixed);
-        if (read.ec != std::errc{} || !std::isfinite(word.value)) {
-            return std::nullopt;
-        }
-        words.push_back(word);
-        text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
-    }
-    return words;
 }
 
 std::string without_line_number(std::string_view text) {

@@ -30,8 +30,11 @@ std::string Session::take_output() {
     return std::exchange(output_, {});
 }
 
+/// What was doubted before a link broke still is.
 void Session::opened(double now) {
+    PositionDoubt doubt = std::move(doubt_);
     *this = Session(settings_);
+    doubt_ = std::move(doubt);
     stage_ = Stage::greeting;
     last_heard_ = ending_since_ = last_tick_ = now;
     next_poll_ = now;
@@ -88,6 +91,7 @@ void Session::tick(double now) {
     watch_hold(now);
     watch_jog(now);
     watch_answers(now);
+    step_overrides(now);
     poll(now);
     pump();
     pump_jog();
@@ -103,13 +107,20 @@ void Session::leave_out_own_pause(double now) {
     }
 }
 
+void Session::step_overrides(double now) {
+    if (stage_ == Stage::ready || stage_ == Stage::stopped || active()) {
+        output_ += overrides_.take_step(now);
+    }
+}
+
 void Session::poll(double now) {
     if (now < next_poll_ || stage_ == Stage::flushing) {
         return;
     }
     output_ += '?';
-    constexpr double quick = 0.25; // a jog is fed by what the reports tell
-    const bool hurry = stage_ == Stage::braking || stage_ == Stage::jogging;
+    constexpr double quick = 0.25; // a jog and overrides go by what the reports tell
+    const bool hurry =
+        stage_ == Stage::braking || stage_ == Stage::jogging || (active() && overrides_.under_way());
     next_poll_ = now + (hurry ? quick * settings_.poll_interval : settings_.poll_interval);
 }
 
@@ -142,6 +153,7 @@ void Session::send_reset(double now) {
     last_reset_ = now;
     window_.clear();
     proof_.disturbed();
+    overrides_.forget();
 }
 
 /// Brakes to rest, then empties the controller's buffers by a reset. Nothing else is sent in the meantime.
@@ -182,6 +194,7 @@ void Session::watch_ending(double now) {
         }
     } else if (stage_ == Stage::flushing) {
         if (now - ending_since_ > flushing_time) {
+            doubt_.arise("the controller did not answer to a reset");
             ending_in_fault_ = true;
             ending_message_ += ending_message_.empty() ? "" : "; ";
             ending_message_ +=

@@ -4,6 +4,8 @@
 
 #include "core/machine/drivers/grbl/internal/messages.h"
 #include "core/machine/drivers/grbl/internal/modes.h"
+#include "core/machine/drivers/grbl/internal/override_steps.h"
+#include "core/machine/drivers/grbl/internal/position_doubt.h"
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 #include "core/machine/drivers/grbl/internal/proof.h"
 #include "core/machine/drivers/grbl/internal/window.h"
@@ -66,6 +68,7 @@ public:
     void stop(double now) override;
     void emergency_stop(double now) override;
     void reset(double now) override;
+    void trust_position() override { doubt_.end(); }
     void home(double now) override;
     void jog(const Jog& jog, double now) override;
     void stop_jog(double now) override;
@@ -96,6 +99,8 @@ private:
     void ask_first();
     void ask_next();
     void finish_asking(const StatusMessage& report);
+    void doubt_what_was_found(const StatusMessage& report);
+    void take_zeros();
     void send_reset(double now);
     void end(bool fault, std::string message, double now);
     void finish_ending();
@@ -107,6 +112,7 @@ private:
     void pump_jog();
     void cancel_jog(double now);
     void leave_out_own_pause(double now);
+    void step_overrides(double now);
     void poll(double now);
     void watch_silence(double now);
     void watch_ending(double now);
@@ -134,7 +140,7 @@ private:
     void handle(const StartupLine& line, double now);
     void handle(const Blank& blank, double now);
     void handle(const Garbage& garbage, double now);
-    void take_readout(const StatusMessage& report);
+    void take_readout(const StatusMessage& report, double now);
     void watch_state(const StatusMessage& report, double now);
     void watch_motion(const StatusMessage& report, double now);
     void read_options(std::string_view text);
@@ -151,6 +157,7 @@ private:
     Readout readout_;
     std::string output_, input_;
     bool link_lost_ = false;
+    PositionDoubt doubt_;
 
     ProgramLines program_;
     Proof proof_;
@@ -183,7 +190,7 @@ private:
     std::optional<StatusMessage> report_; ///< the last
     double last_heard_ = 0.0, last_tick_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0,
            last_brake_ = 0.0;
-    Overrides overrides_;
+    OverrideSteps overrides_;
 };
 
 } // namespace millwright::machine::grbl

@@ -1,4 +1,5 @@
 // What the controller says, and what follows from it.
+#include "core/base/numbers.h"
 #include "core/machine/drivers/grbl/codes.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 
@@ -53,6 +54,7 @@ void Session::ask_next() {
     if (questions_.empty()) {
         if (stage_ == Stage::asking_again) {
             stage_ = Stage::ready;
+            overrides_.forget(); // those that were set since its end
         }
         return;
     }
@@ -73,14 +75,26 @@ void Session::finish(double now) {
     }
     if (answer_.state == CommandAnswer::State::pending) {
         answer_.state = CommandAnswer::State::done;
+        take_zeros();
     }
+    overrides_.forget(); // they outlast no program, and M2 and M30 have brought them back
     stage_ = Stage::asking_again;
     window_ = Window(readout_.buffer_bytes, true);
     last_answer_ = now;
     ask_next();
 }
 
+/// A refused command is no longer pending when it comes to its end.
+void Session::take_zeros() {
+    for (const ProgramLine& line : program_.lines) {
+        doubt_.zeroed(axes_zeroed_by(line.text));
+    }
+}
+
 void Session::finish_asking(const StatusMessage& report) {
+    if (!unlock_) {
+        doubt_what_was_found(report);
+    }
     if (report.state == MachineState::idle) {
         stage_ = Stage::ready;
         return;
@@ -89,6 +103,16 @@ void Session::finish_asking(const StatusMessage& report) {
     message_ = report.state == MachineState::alarm
                    ? "Grbl is locked: home the machine, or reset to unlock it where it stands"
                    : "Grbl is neither idle nor locked after its reset: the door is open, or it sleeps";
+}
+
+/// After the link was made: nobody knows what happened before.
+void Session::doubt_what_was_found(const StatusMessage& report) {
+    if (report.state == MachineState::alarm) {
+        doubt_.arise("Grbl was locked when it was found: after an alarm, or since it was switched on");
+    } else if (std::ranges::all_of(readout_.machine_position,
+                                   [](double axis) { return exactly_equal(axis, 0.0); })) {
+        doubt_.arise("Grbl stands at zero in all axes, as it does when it was switched on and not homed");
+    }
 }
 
 void Session::handle_line(std::string_view line, double now) {
@@ -116,6 +140,7 @@ void Session::answered(const SentLine& line) {
         proof_.acknowledged();
     } else if (line.kind == LineKind::home && stage_ == Stage::homing) {
         stage_ = Stage::ready;
+        doubt_.end();
     } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
         ask_next();
     }
@@ -171,6 +196,9 @@ void Session::handle(const ErrorAnswer& error, double now) {
 void Session::handle(const AlarmMessage& alarm, double now) {
     proof_.disturbed();
     const std::string why = explain_grbl_alarm(alarm.number);
+    if (grbl_alarm_loses_position(alarm.number)) {
+        doubt_.arise(fmt::format("after alarm {}", alarm.number));
+    }
     if (stage_ == Stage::flushing || stage_ == Stage::asking || resets_due_ > 0) {
         append(ending_message_, why);
         ending_in_fault_ = true;
@@ -206,6 +234,7 @@ void Session::handle(const Welcome& welcome, double now) {
     report_.reset();
     switch (stage_) {
     case Stage::greeting:
+        doubt_.arise("Grbl began anew when the link was made, and counts from where the machine stood then");
         begin_asking(now, false);
         break;
     case Stage::asking:
@@ -221,11 +250,13 @@ void Session::handle(const Welcome& welcome, double now) {
     case Stage::braking: // lines that were under way may have set it in motion again
         proof_closed_ = true;
         window_.clear();
+        doubt_.arise("the controller was reset");
         end(true, "the controller was reset", now);
         break;
     case Stage::ready:
     case Stage::stopped:
         if (!expected) {
+            doubt_.arise("the controller was reset");
             stage_ = Stage::alarm;
             message_ = "the controller was reset";
         }

@@ -29,7 +29,7 @@ double Session::feed() const {
     return report_ ? report_->feed.value_or(0.0) * report_unit() / seconds_per_minute : 0.0;
 }
 
-void Session::take_readout(const StatusMessage& report) {
+void Session::take_readout(const StatusMessage& report, double now) {
     readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
     if (report.machine_position) {
         readout_.machine_position = scaled(*report.machine_position);
@@ -41,7 +41,8 @@ void Session::take_readout(const StatusMessage& report) {
     }
     readout_.pins = report.pins;
     if (report.overrides) {
-        overrides_ = {(*report.overrides)[0], (*report.overrides)[1], (*report.overrides)[2]};
+        const auto& [feed, rapid, spindle] = *report.overrides;
+        overrides_.reported({feed, rapid, spindle}, now);
     }
     if (report.accessories) {
         using gcode::SpindleTurning;
@@ -60,7 +61,7 @@ void Session::handle(const StatusMessage& report, double now) {
     if (resets_due_ > 0) {
         return; // of the time before the reset
     }
-    take_readout(report);
+    take_readout(report, now);
     report_ = report;
     rest_reports_ = report.moving() ? 0 : rest_reports_ + 1;
     if (stage_ == Stage::greeting) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace millwright::machine::grbl {
@@ -98,6 +97,7 @@ void Session::stop(double now) {
         end(false, {}, now);
     }
     if (homing) { // a homing cycle knows no hold
+        doubt_.arise("homing was broken off");
         stage_ = Stage::flushing;
         send_reset(now);
     }
@@ -110,6 +110,9 @@ void Session::emergency_stop(double now) {
     output_.clear();
     if (link_lost_) {
         return;
+    }
+    if (active() || stage_ == Stage::braking || (report_ && report_->moving())) {
+        doubt_.arise("an emergency stop cut the motion off");
     }
     stage_ = Stage::flushing;
     ending_in_fault_ = true;
@@ -137,28 +140,11 @@ void Session::home(double now) {
     last_heard_ = now;
 }
 
-/// From the standard value on, so that it does not matter what is known of the present one.
 void Session::set_overrides(const Overrides& wanted) {
     if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
         throw Error(fmt::format("Grbl is {} and takes no overrides", to_text(status().state)));
     }
-    const auto steps = [this](int percent, char standard) {
-        constexpr int least = 10;
-        constexpr int most = 200;
-        int difference = std::clamp(percent, least, most) - 100;
-        output_ += standard;
-        for (const int step : {10, -10, 1, -1}) {
-            const int code = step == 10 ? 1 : step == -10 ? 2 : step == 1 ? 3 : 4;
-            for (; step > 0 ? difference >= step : difference <= step; difference -= step) {
-                output_ += static_cast<char>(standard + code);
-            }
-        }
-    };
-    steps(wanted.feed, '\x90');
-    constexpr int above_half = 75;
-    constexpr int above_quarter = 37;
-    output_ += wanted.rapid > above_half ? '\x95' : wanted.rapid > above_quarter ? '\x96' : '\x97';
-    steps(wanted.spindle, '\x99');
+    overrides_.want(wanted);
 }
 
 } // namespace millwright::machine::grbl

@@ -63,6 +63,7 @@ DriverStatus Session::status() const {
         return status;
     }
     status.activity = activity();
+    status.position_doubt = doubt_.why();
     status.answer = answer_;
     show_machine(status);
     show_program(status);
@@ -78,7 +79,7 @@ void Session::show_machine(DriverStatus& status) const {
     status.work_offset = vector(readout_.offset);
     status.feed = feed();
     status.spindle_rpm = report_ ? report_->spindle_rpm.value_or(0.0) : 0.0;
-    status.overrides = overrides_;
+    status.overrides = overrides_.now();
     const Modes& modes = readout_.modes;
     status.modes = modes.text;
     status.work_system = modes.work_system;

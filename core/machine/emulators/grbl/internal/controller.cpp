@@ -130,6 +130,9 @@ void Controller::work() {
             status_asked_ = false;
             report_status();
         }
+        if (override_flags_.any() && !homing_ && !critical_) {
+            take_overrides();
+        }
         const bool suspended = state_ == State::hold || state_ == State::door || jog_cancel_ || trip_;
         if (critical_ || suspended || homing_ || state_ == State::sleep) {
             return;

@@ -11,11 +11,16 @@
 #include "core/machine/emulators/grbl/internal/report.h"
 #include "core/machine/emulators/grbl/internal/stepper.h"
 
+#include <bitset>
+#include <cstddef>
 #include <deque>
 #include <map>
 #include <optional>
 
 namespace millwright::machine::emulated {
+
+/// From 0x90, all feeds to their standard, to 0xA1, the mist.
+constexpr std::size_t override_bytes = 0xA2 - 0x90;
 
 enum class State { idle, run, hold, jog, alarm, door, check, home, sleep };
 
@@ -46,7 +51,7 @@ private:
     void resume();
     void open_door();
     void cancel_jog();
-    void change_override(unsigned char byte);
+    void take_overrides();
     void change_accessory(unsigned char byte);
     void report_status();
     [[nodiscard]] std::string_view state_text() const;
@@ -102,6 +107,7 @@ private:
     Input input_;
     StatusReport report_;
     Overrides overrides_;
+    std::bitset<override_bytes> override_flags_; ///< bytes that came since the last pass of the loop
     Probe probe_;
     State state_ = State::idle;
     double time_ = 0.0;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 namespace millwright::machine::emulated {
 
@@ -13,18 +15,24 @@ constexpr unsigned char reset_byte = 0x18;
 constexpr unsigned char door_byte = 0x84;
 constexpr unsigned char jog_cancel_byte = 0x85;
 constexpr unsigned char first_override = 0x90;
-constexpr unsigned char last_override = 0x9D;
 constexpr unsigned char spindle_stop = 0x9E;
 constexpr unsigned char toggle_flood = 0xA0;
 constexpr unsigned char toggle_mist = 0xA1;
 constexpr unsigned char first_extended = 0x80;
 constexpr double seconds_per_minute = 60.0;
 
-void change(int& value, unsigned command) {
-    constexpr int least = 10;
-    constexpr int most = 200;
+using OverrideFlags = std::bitset<override_bytes>;
+
+/// Five flags from `first`: standard, +10, -10, +1, -1. All that are set count, in eight bits as Grbl counts.
+int changed(int value, const OverrideFlags& flags, std::size_t first) {
+    constexpr std::uint8_t least = 10;
+    constexpr std::uint8_t most = 200;
     constexpr std::array<int, 5> steps = {0, 10, -10, 1, -1};
-    value = command == 0 ? 100 : std::clamp(value + steps[command], least, most);
+    value = flags[first] ? 100 : value;
+    for (std::size_t n = 1; n < steps.size(); ++n) {
+        value += flags[first + n] ? steps[n] : 0;
+    }
+    return std::clamp(static_cast<std::uint8_t>(value), least, most);
 }
 
 } // namespace
@@ -54,10 +62,10 @@ void Controller::receive(unsigned char byte) {
     default:
         break;
     }
-    if (byte >= first_override && byte <= last_override) {
-        change_override(byte);
+    if (byte >= first_override && byte <= toggle_mist) {
+        override_flags_.set(static_cast<std::size_t>(byte - first_override));
     } else if (byte >= first_extended) {
-        change_accessory(byte);
+        return; // Grbl knows no more of them
     } else if (!input_.push(static_cast<char>(byte))) {
         ++lost_bytes_;
     }
@@ -113,6 +121,7 @@ void Controller::reset() {
     modes_.g92 = before.g92;
     input_.clear();
     overrides_ = {};
+    override_flags_.reset();
     planner_.set_overrides({});
     report_ = {};
     status_asked_ = false;
@@ -235,20 +244,28 @@ void Controller::raise_alarm() {
     }
 }
 
-void Controller::change_override(unsigned char byte) {
-    const unsigned command = byte - first_override;
-    constexpr unsigned rapid = 5;
-    constexpr unsigned spindle = 9;
-    if (command < rapid) {
-        change(overrides_.feed, command);
-    } else if (command < rapid + 3) {
-        constexpr std::array<int, 3> levels = {100, 50, 25};
-        overrides_.rapid = levels[command - rapid];
-    } else if (command >= spindle) {
-        change(overrides_.spindle, command - spindle);
+/// In one pass of the main loop: bytes that came more than once in between count once.
+void Controller::take_overrides() {
+    constexpr std::size_t feed = 0;
+    constexpr std::size_t rapid = 5;
+    constexpr std::size_t spindle = 9;
+    const OverrideFlags flags = std::exchange(override_flags_, {});
+    const Overrides before = overrides_;
+    overrides_.feed = changed(overrides_.feed, flags, feed);
+    constexpr std::array<int, 3> levels = {100, 50, 25};
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+        overrides_.rapid = flags[rapid + n] ? levels[n] : overrides_.rapid;
     }
-    planner_.set_overrides({overrides_.feed, overrides_.rapid});
-    report_.show_overrides_next();
+    overrides_.spindle = changed(overrides_.spindle, flags, spindle);
+    if (!(overrides_ == before)) {
+        planner_.set_overrides({overrides_.feed, overrides_.rapid});
+        report_.show_overrides_next();
+    }
+    for (const unsigned char byte : {spindle_stop, toggle_flood, toggle_mist}) {
+        if (flags[static_cast<std::size_t>(byte - first_override)]) {
+            change_accessory(byte);
+        }
+    }
 }
 
 void Controller::change_accessory(unsigned char byte) {

@@ -15,6 +15,8 @@ struct Probe {
 
 struct Overrides {
     int feed = 100, rapid = 100, spindle = 100; ///< percent
+
+    friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
 /// What a status report is made of.

@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 namespace millwright::machine::grbl {
 namespace {
 
@@ -183,6 +187,64 @@ TEST(GrblSession, SetsOverridesFromAnyState) {
     EXPECT_EQ(wire.session.status().overrides, (Overrides{137, 25, 64}));
 }
 
+/// Real Grbl takes the bytes that came between two passes of its loop for flags.
+TEST(GrblSession, SendsNoOverrideByteTwiceBeforeAReportHasShownTheFirst) {
+    GrblWire wire;
+    wire.sent.clear();
+    wire.session.set_overrides({.feed = 200, .rapid = 50, .spindle = 13});
+    std::string since_report;
+    Overrides shown;
+    wire.run_until(
+        [&] {
+            const Overrides before = std::exchange(shown, wire.session.status().overrides);
+            since_report = shown == before ? since_report : std::string();
+            for (const char byte : std::exchange(wire.sent, {})) {
+                EXPECT_TRUE(byte == '?' || since_report.find(byte) == std::string::npos);
+                since_report += byte;
+            }
+            return shown == Overrides{200, 50, 13};
+        },
+        10.0);
+    EXPECT_EQ(wire.session.status().overrides, (Overrides{200, 50, 13}));
+}
+
+TEST(GrblSession, GoesFromOneOverrideToAnotherWithoutPassingThroughTheStandard) {
+    GrblWire wire;
+    const auto feed = [&] { return wire.session.status().overrides.feed; };
+    int most = 0;
+    const auto change = [&](int percent) {
+        wire.session.set_overrides({.feed = percent});
+        most = 0;
+        wire.run_until(
+            [&] {
+                most = std::max(most, feed());
+                return feed() == percent;
+            },
+            10.0);
+        EXPECT_EQ(feed(), percent);
+    };
+    change(20);
+    change(10);
+    EXPECT_LE(most, 20);
+    change(34);
+    EXPECT_LE(most, 34);
+}
+
+TEST(GrblSession, SendsAnOverrideAgainThatWasLostOnTheWay) {
+    GrblWire wire({.drop = 0.3, .toward_host = false, .seed = 3});
+    wire.session.set_overrides({.feed = 150});
+    EXPECT_TRUE(wire.run_until([&] { return wire.session.status().overrides.feed == 150; }, 200.0));
+}
+
+TEST(GrblSession, LeavesOverridesAloneThatSomebodyElseSets) {
+    GrblWire wire;
+    wire.grbl.receive("\x92");
+    wire.run_until([] { return false; }, 1.0);
+    EXPECT_EQ(wire.session.status().overrides.feed, 90);
+    wire.run_until([] { return false; }, 3.0);
+    EXPECT_EQ(wire.session.status().overrides.feed, 90);
+}
+
 TEST(GrblSession, ShowsAPauseOfTheProgramAsAHold) {
     GrblWire wire;
     wire.start("G0 X1\nM0\nG0 X2\n");
@@ -275,6 +337,14 @@ TEST(GrblSession, WaitsForALongDwell) {
     wire.start("G0 X1\nG4 P20\nG0 X2\n");
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+}
+
+TEST(GrblSession, WaitsForADwellThatIsWrittenWithAPlus) {
+    GrblWire wire;
+    wire.start("G0 X1\nG4 P+9\nG0 X+2\n");
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_EQ(wire.grbl.position()[0], 2.0);
 }
 
 TEST(GrblSession, HomesAndUnlocks) {

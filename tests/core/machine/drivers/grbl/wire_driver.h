@@ -28,6 +28,7 @@ public:
     void stop() override { wire_.session.stop(wire_.now); }
     void emergency_stop() override { wire_.session.emergency_stop(wire_.now); }
     void reset() override { wire_.session.reset(wire_.now); }
+    void trust_position() override { wire_.session.trust_position(); }
     void close() noexcept override {}
     void set_overrides(const machine::Overrides& wanted) override { wire_.session.set_overrides(wanted); }
     void set_single_block(bool on) override { wire_.session.set_single_block(on); }

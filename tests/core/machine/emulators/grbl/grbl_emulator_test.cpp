@@ -214,6 +214,17 @@ TEST_F(Grbl, ScalesFeedsRapidsAndTheSpindle) {
     EXPECT_THAT(report + status(grbl), HasSubstr("|Ov:119,25,90|A:S>"));
 }
 
+/// As the real one, which keeps them as flags and looks at these once in each pass of its main loop.
+TEST_F(Grbl, TakesEqualOverrideBytesThatComeTogetherForOne) {
+    (void)status(grbl);
+    grbl.receive("\x91\x91\x91\x93\x93\x9a\xa0\xa0");
+    grbl.advance(0.1);
+    EXPECT_THAT(status(grbl) + status(grbl), HasSubstr("|Ov:111,100,110|A:F>"));
+    grbl.receive("\x90\x92"); // the standard first, then less
+    grbl.advance(0.1);
+    EXPECT_THAT(status(grbl) + status(grbl), HasSubstr("|Ov:90,100,110"));
+}
+
 TEST_F(Grbl, JogsAndStopsWhenToldWithoutForgettingItsModes) {
     EXPECT_EQ(answer(grbl, "G91"), "ok\r\n");
     EXPECT_EQ(answer(grbl, "$J=G90 G21 X100 F1200"), "ok\r\n");

@@ -1,0 +1,206 @@
+// A Grbl that no longer knows where its machine stands, and says nothing of it.
+#include "core/machine/drivers/grbl/internal/position_doubt.h"
+
+#include "core/base/error.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/grbl/codes.h"
+#include "core/machine/recovery.h"
+#include "core/machine/run_from_line.h"
+#include "tests/core/machine/drivers/grbl/wire_driver.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::machine::grbl {
+namespace {
+
+using test::GrblWire;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double long_run = 1e5; // s
+
+std::string zigzag(int passes) {
+    std::string text = "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F3000\n";
+    for (int n = 1; n <= passes; ++n) {
+        text += "X" + std::to_string(n % 2 == 0 ? 1 : 20) + " Y" + std::to_string(n) + "\n";
+    }
+    return text + "G0 Z5\nM30\n";
+}
+
+std::string doubt(const GrblWire& wire) {
+    return wire.session.status().position_doubt;
+}
+
+/// Somebody has looked at the machine before.
+void trust(GrblWire& wire) {
+    ASSERT_THAT(doubt(wire), Not(IsEmpty()));
+    wire.session.trust_position();
+    ASSERT_THAT(doubt(wire), IsEmpty());
+}
+
+void unlock(GrblWire& wire) {
+    wire.run_until([] { return false; }, 1.0); // its buffers are emptied by then
+    wire.session.reset(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
+}
+
+void execute(GrblWire& wire, const std::string& lines) {
+    (void)wire.session.command(command_lines(lines), wire.now);
+    wire.run_to_end();
+}
+
+TEST(GrblPositionDoubt, ArisesWhenTheControllerIsResetUnderAProgramAndOutlastsTheUnlocking) {
+    GrblWire wire({.reset = 1500});
+    trust(wire);
+    wire.start(zigzag(40));
+    wire.run_to_end();
+    ASSERT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(doubt(wire), HasSubstr("was reset"));
+    unlock(wire);
+    EXPECT_THAT(doubt(wire), HasSubstr("was reset"));
+}
+
+TEST(GrblPositionDoubt, ArisesWhereAnEmergencyStopCutsTheMotionOff) {
+    GrblWire wire;
+    trust(wire);
+    wire.start(zigzag(40));
+    wire.run_until([&] { return wire.grbl.moving() && wire.grbl.position()[0] > 5.0; }, 20.0);
+    wire.session.emergency_stop(wire.now);
+    wire.run_to_end();
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+    unlock(wire);
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+}
+
+TEST(GrblPositionDoubt, DoesNotAriseWhereTheMachineBraked) {
+    GrblWire wire;
+    trust(wire);
+    wire.start(zigzag(40));
+    wire.run_until([&] { return wire.grbl.position()[0] > 5.0; }, 20.0);
+    wire.session.stop(wire.now);
+    wire.run_to_end();
+    EXPECT_EQ(wire.state(), DriverState::stopped);
+    EXPECT_THAT(doubt(wire), IsEmpty());
+}
+
+TEST(GrblPositionDoubt, ArisesOfAlarmsThatCutMotionOffAlone) {
+    for (const int kept : {2, 4, 5}) {
+        EXPECT_FALSE(grbl_alarm_loses_position(kept)) << kept;
+    }
+    for (const int lost : {1, 3, 6, 7, 8, 9, 99}) {
+        EXPECT_TRUE(grbl_alarm_loses_position(lost)) << lost;
+    }
+}
+
+TEST(GrblPositionDoubt, EndsWhenEveryAxisHasANewZero) {
+    GrblWire wire;
+    execute(wire, "G10 L20 P1 X0 Y0");
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+    execute(wire, "G92 Z+5.");
+    EXPECT_THAT(doubt(wire), IsEmpty());
+}
+
+TEST(GrblPositionDoubt, IsNotEndedByARefusedZero) {
+    GrblWire wire;
+    execute(wire, "G10 L20 P77 X0 Y0 Z0");
+    ASSERT_EQ(wire.session.status().answer.state, CommandAnswer::State::refused);
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+}
+
+TEST(GrblPositionDoubt, EndsWithHoming) {
+    GrblWire wire;
+    wire.grbl.receive("$22=1\n$25=3000\n");
+    wire.run_until([] { return false; }, 0.5);
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+    wire.session.home(wire.now);
+    wire.run_to_end();
+    EXPECT_THAT(doubt(wire), IsEmpty());
+}
+
+TEST(GrblPositionDoubt, IsThereFromTheStartOfAControllerThatWasSwitchedOnOrIsLocked) {
+    GrblWire wire;
+    const auto connect_again = [&] {
+        wire.session = Session();
+        wire.session.opened(wire.now);
+        wire.run_until([&] { return wire.session.greeted(); }, 10.0);
+    };
+    execute(wire, "G0 X3 Y4");
+    connect_again(); // it has been running all the time
+    EXPECT_THAT(doubt(wire), IsEmpty());
+    wire.grbl.power_cycle();
+    wire.run_until([] { return false; }, 0.5);
+    connect_again();
+    EXPECT_THAT(doubt(wire), HasSubstr("at zero in all axes"));
+    execute(wire, "G0 X3 Y4");
+    execute(wire, "$22=1");
+    wire.grbl.power_cycle();
+    (void)wire.grbl.take_output(); // before anybody listened
+    connect_again();
+    ASSERT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(doubt(wire), HasSubstr("locked"));
+}
+
+TEST(GrblPositionDoubt, OutlastsALinkThatIsMadeAgain) {
+    GrblWire wire;
+    trust(wire);
+    execute(wire, "G0 X3");
+    wire.grbl.raise_alarm();
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 5.0));
+    EXPECT_THAT(doubt(wire), HasSubstr("alarm 1"));
+    wire.session.lost("somebody pulled it");
+    wire.grbl.receive("\x18$X\n"); // somebody else unlocked it
+    wire.session.opened(wire.now);
+    wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0);
+    EXPECT_THAT(doubt(wire), Not(IsEmpty()));
+}
+
+TEST(GrblPositionDoubt, KnowsWhichAxesALineZeroes) {
+    EXPECT_EQ(axes_zeroed_by("G10L20P1X0Y0"), "XY");
+    EXPECT_EQ(axes_zeroed_by("G92Z+1.5"), "Z");
+    for (const char* none : {"G92.1", "G10L2P1X0Y0Z0", "G0X0Y0Z0", "G10L20P1", "$X", "M92X1", ""}) {
+        EXPECT_EQ(axes_zeroed_by(none), "") << none;
+    }
+}
+
+/// What a log and its reader say, and what a job that begins at a line needs.
+TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
+    const test::ScratchFolder scratch;
+    GrblWire wire({.reset = 2500});
+    test::WireClock clock(wire, wire.now + long_run);
+    test::WireDriver driver(wire);
+    Dispatcher dispatcher(driver, clock, scratch.path());
+    trust(wire);
+    const Job job = text_job(zigzag(40), "zigzag.ngc");
+    const JobOutcome outcome = dispatcher.run(job, {});
+    ASSERT_EQ(outcome.end, JobEnd::fault);
+    EXPECT_THAT(outcome.sentence, HasSubstr("The position may be lost (the controller was reset)"));
+    EXPECT_EQ(wire.grbl.position()[0], 0.0);
+    EXPECT_GT(outcome.position[1], 0.5); // the last that was known, not where Grbl counts from now
+
+    const JobStory story = job_story(outcome.log_file);
+    EXPECT_EQ(story.position_doubt, "the controller was reset");
+    EXPECT_THAT(story.sentence, HasSubstr("home the machine, or set its zero"));
+    EXPECT_NEAR(story.position[1], outcome.position[1], 1e-5);
+
+    unlock(wire);
+    RunFromSettings settings;
+    settings.dialect = gcode::Dialect::grbl;
+    const Job rest = job_from_line(job, 20, settings);
+    const auto lines = wire.grbl.truth().lines.size();
+    try {
+        (void)dispatcher.run(rest, {});
+        FAIL() << "it began at a line although nobody knows where the machine stands";
+    } catch (const Error& error) {
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could begin anywhere"));
+    }
+    EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
+    driver.trust_position();
+    EXPECT_EQ(dispatcher.run(rest, {}).end, JobEnd::done);
+}
+
+} // namespace
+} // namespace millwright::machine::grbl
