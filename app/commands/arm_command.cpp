@@ -1,16 +1,21 @@
 #include "app/commands/arm_command.h"
 
+#include "app/arm_choice.h"
+#include "app/commands/arm_reach.h"
+#include "app/commands/arm_service.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_file.h"
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
 #include "core/kinematics/arm_motion_file.h"
+#include "core/kinematics/arm_motion_ways.h"
+#include "core/kinematics/arm_path.h"
 #include "core/kinematics/arm_simulation.h"
 #include "core/kinematics/arm_solver.h"
-#include "core/project/assets.h"
+#include "core/motion/arm_motion.h"
+#include "core/motion/planner.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -28,7 +33,6 @@ namespace millwright::app {
 namespace {
 
 using kinematics::ArmModel;
-using kinematics::JointKind;
 using kinematics::JointPositions;
 
 constexpr int starting_points = 200; ///< for arms without a closed form
@@ -46,25 +50,8 @@ struct ArmOptions {
     bool json = false;
 };
 
-ArmModel arm_of(const ArmOptions& options) {
-    return kinematics::read_arm(project::arm_path(options.arm, ".", project::assets_folder())).arm;
-}
-
-/// Degrees or mm to rad or mm, or back.
-double to_joint(const ArmModel& arm, int n, double shown) {
-    return arm.joint(n).kind == JointKind::revolute ? from_degrees(shown) : shown;
-}
-double from_joint(const ArmModel& arm, int n, double position) {
-    return arm.joint(n).kind == JointKind::revolute ? to_degrees(position) : position;
-}
-
-/// To a billionth, so that rounding does not show.
-double rounded(double value) {
-    return std::round(value * 1e9) / 1e9 + 0.0;
-}
-
 int forward(const ArmOptions& options) {
-    const ArmModel arm = arm_of(options);
+    const ArmModel arm = arm_of(options.arm);
     if (static_cast<int>(options.numbers.size()) != arm.joint_count()) {
         throw Error(fmt::format("{} has {} joints, {} positions were given",
                                 arm.name(),
@@ -114,14 +101,6 @@ struct Solutions {
     double projected_deg = 0.0; ///< by how much the tool axis was turned
 };
 
-JointPositions resting(const ArmModel& arm) {
-    JointPositions q = JointPositions::Zero(arm.joint_count());
-    for (int n = 0; n < arm.joint_count(); ++n) {
-        q[n] = std::clamp(0.0, arm.joint(n).min, arm.joint(n).max);
-    }
-    return q;
-}
-
 /// Any roll will do; an arm with fewer joints than a frame has freedoms may need another one than ours.
 Solutions sought(const ArmModel& arm, const Frame& goal) {
     const auto demand =
@@ -167,7 +146,7 @@ nlohmann::ordered_json shown(const ArmModel& arm, const std::vector<JointPositio
 }
 
 int inverse(const ArmOptions& options) {
-    const ArmModel arm = arm_of(options);
+    const ArmModel arm = arm_of(options.arm);
     const auto& v = options.numbers;
     const Vec3 tip(v[0], v[1], v[2]), axis(v[3], v[4], v[5]);
     if (!is_finite(tip) || !is_finite(axis)) {
@@ -205,22 +184,37 @@ int inverse(const ArmOptions& options) {
     return 0;
 }
 
+/// What the arm takes, s. Throws Error where it cannot go on without another branch.
+double
+planned_time(const ArmModel& arm, const std::vector<kinematics::ArmWay>& ways, const std::string& file) {
+    kinematics::ArmPathSettings settings;
+    settings.aim.demand = kinematics::ArmDemand::tip; // the tool axis comes into the plane of the arm
+    const auto path = kinematics::follow_path(arm, ways, kinematics::arm_home(), settings, {});
+    motion::ArmMotion motion(arm, kinematics::arm_home());
+    motion.follow(ways, path, file);
+    return motion::plan(motion.program(), arm, {}, {}).duration();
+}
+
 int simulate(const ArmOptions& options) {
-    const ArmModel arm = arm_of(options);
+    const ArmModel arm = arm_of(options.arm);
     const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
     const auto records =
         kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file);
+    const double seconds = planned_time(
+        arm, kinematics::ways_of(arm, blocks, kinematics::arm_home(), options.file), options.file);
     write_file(options.out, kinematics::arm_result_text(records));
-    fmt::print("{} blocks, {} points in {}\n", blocks.size(), records.size(), options.out);
+    fmt::print("{} blocks, {} points in {}\nplanned for the arm: {:.2f} s\n",
+               blocks.size(),
+               records.size(),
+               options.out,
+               seconds);
     return 0;
 }
 
 CLI::App&
 add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<ArmOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("--arm", options->arm, "Arm that ships with the program, or an arm file")
-        ->type_name("NAME|FILE")
-        ->capture_default_str();
+    add_arm_option(command, options->arm);
     return command;
 }
 
@@ -257,6 +251,8 @@ void add_arm_command(CLI::App& app, Command& chosen) {
         ->capture_default_str();
     path.add_option("--out", options->out, "File for the positions and joints")->required();
     path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
+    add_arm_reach_command(group, chosen);
+    add_arm_service_commands(group, chosen);
 }
 
 } // namespace millwright::app

@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_motion_ways.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,6 @@ namespace millwright::kinematics {
 
 namespace {
 
-constexpr double radius_tolerance = 0.01; // mm between the radii at both ends of an arc
 constexpr std::size_t most_records = 10'000'000;
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, std::string message) {
@@ -30,61 +29,6 @@ double in_single_precision(double value) {
     int exponent = 0;
     const double fraction = std::frexp(value, &exponent);
     return std::ldexp(std::nearbyint(std::ldexp(fraction, digits)), exponent - digits);
-}
-
-/// A way with its length: the point at u in 0 ... 1, counted from its start.
-struct Way {
-    double length = 0.0;
-    std::function<Vec3(double)> at;
-};
-
-/// From the start to the center, for an arc given by its radius in the XY plane.
-Vec3 center_by_radius(const ArmBlock& block, const std::filesystem::path& file) {
-    const Vec3& way = block.way;
-    const double chord = way.head<2>().norm();
-    const double radius = std::abs(*block.radius);
-    if (!(chord > 0.0) || std::abs(way.z()) > 0.0) {
-        fail(file, block.line, "an arc by its radius needs an end elsewhere in the XY plane");
-    }
-    if (radius < 0.5 * chord - radius_tolerance) {
-        fail(
-            file,
-            block.line,
-            fmt::format("the radius {} is shorter than half the way, {:.4f}", shortest(radius), 0.5 * chord));
-    }
-    const double height = std::sqrt(std::max(radius * radius - 0.25 * chord * chord, 0.0));
-    const Vec3 left(-way.y() / chord, way.x() / chord, 0.0);
-    const bool is_left = (block.motion == ArmMotion::counter_clockwise) == (*block.radius > 0.0);
-    return 0.5 * way + (is_left ? height : -height) * left;
-}
-
-Way arc(const ArmBlock& block, const std::filesystem::path& file) {
-    const Vec3 center = block.center ? *block.center : center_by_radius(block, file);
-    const Vec3 from = -center, to = block.way - center;
-    const double radius = from.norm();
-    if (!(radius > 0.0) || std::abs(to.norm() - radius) > radius_tolerance) {
-        fail(file,
-             block.line,
-             fmt::format("the end is {:.4f} mm from the center, the start {:.4f}", to.norm(), radius));
-    }
-    // Counter-clockwise as seen from above; of a plane on edge, from its positive side.
-    Vec3 normal = from.cross(to);
-    normal = normal.norm() > 1e-9 * radius * radius ? normal.normalized() : Vec3(Vec3::UnitZ());
-    const double above = std::abs(normal.z()) > 1e-9 ? normal.z() : normal.x() + normal.y();
-    normal = above < 0.0 ? Vec3(-normal) : normal;
-    normal = block.motion == ArmMotion::clockwise ? Vec3(-normal) : normal;
-    const double turned = std::atan2(normal.dot(from.cross(to)), from.dot(to));
-    constexpr double nothing = 1e-12; // the end at the start: a full circle
-    const double angle = turned > nothing ? turned : turned + 2.0 * pi;
-    return {radius * angle,
-            [=](double u) { return Vec3(center + Eigen::AngleAxisd(u * angle, normal) * from); }};
-}
-
-Way way_of(const ArmBlock& block, const std::filesystem::path& file) {
-    if (block.motion != ArmMotion::line) {
-        return arc(block, file);
-    }
-    return {block.way.norm(), [way = block.way](double u) { return Vec3(u * way); }};
 }
 
 /// The tool axis nearest to `wanted` in the plane of the arm.
@@ -105,43 +49,37 @@ public:
                const JointPositions& start,
                double step,
                const std::filesystem::path& file)
-        : arm_(arm), file_(file), step_(step), joints_(start) {
-        const Frame tool = base_T_tool(arm, start);
-        tip_ = 1e-9 * (1e9 * tool.translation()).array().round(); // the home of the thesis is 800 0 650
-        axis_ = tool.linear().col(2);
-    }
+        : arm_(arm), file_(file), step_(step), joints_(start) {}
 
-    void run(const ArmBlock& block, int number) {
-        axis_ = block.tool_axis.value_or(axis_);
-        const Way way = way_of(block, file_);
-        const Vec3 target = tip_ + block.way;
+    void run(const ArmWay& way, int number) {
         if (way.length > 0.0) {
             const double du = step_ / std::ceil(way.length);
             for (double u = 0.0; u <= 1.0; u += du) {
-                add(tip_ + way.at(u), block, number);
+                add(way.at(u), way.line, number);
             }
         }
-        if (records_.empty() || records_.back().block != number || single(target) != records_.back().tip) {
-            add(target, block, number);
+        const Frame target = way.at(1.0);
+        if (records_.empty() || records_.back().block != number ||
+            single(target.translation()) != records_.back().tip) {
+            add(target, way.line, number);
         }
-        tip_ = target;
     }
     [[nodiscard]] std::vector<ArmRecord> take() { return std::move(records_); }
 
 private:
     static Vec3 single(const Vec3& point) { return point.unaryExpr(&in_single_precision); }
 
-    void add(const Vec3& exact, const ArmBlock& block, int number) {
+    void add(const Frame& exact, int line, int number) {
         if (records_.size() >= most_records) {
-            fail(file_, block.line, fmt::format("more than {} points; take longer steps", most_records));
+            fail(file_, line, fmt::format("more than {} points; take longer steps", most_records));
         }
-        const Vec3 tip = single(exact);
-        const Vec3 axis = axis_at(tip, axis_, file_, block.line);
+        const Vec3 tip = single(exact.translation());
+        const Vec3 axis = axis_at(tip, exact.linear().col(2), file_, line);
         const InverseSolution found = arm_inverse(arm_, PointedGoal{tip, axis}, joints_);
         if (found.branches.empty()) {
             fail(
                 file_,
-                block.line,
+                line,
                 fmt::format(
                     "the arm does not reach {:.3f} {:.3f} {:.3f}: {}", tip.x(), tip.y(), tip.z(), found.why));
         }
@@ -154,8 +92,6 @@ private:
     const std::filesystem::path& file_;
     double step_;
     JointPositions joints_;
-    Vec3 tip_;
-    Vec3 axis_;
     std::vector<ArmRecord> records_;
 };
 
@@ -223,8 +159,8 @@ std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
     }
     Simulation simulation(arm, start, step_mm, file);
     int number = 0;
-    for (const ArmBlock& block : blocks) {
-        simulation.run(block, number++);
+    for (const ArmWay& way : ways_of(arm, blocks, start, file)) {
+        simulation.run(way, number++);
     }
     return simulation.take();
 }

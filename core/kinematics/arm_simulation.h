@@ -22,9 +22,9 @@ struct ArmRecord {
 [[nodiscard]] JointPositions arm_home();
 
 /// Points about `step_mm` apart: u = 0, step / ceil(length), ... and the target where u does not meet it, so
-/// that the end of one block and the begin of the next are two records. Arcs lie in the plane of start, end
-/// and center, in the XY plane where those are on a line. The tool axis stays in the plane of the arm, as
-/// near as possible to what is told. Throws Error with file and line where the arm does not reach.
+/// that the end of one block and the begin of the next are two records. The ways are those of ways_of(). The
+/// tool axis stays in the plane of the arm, as near as possible to what is told. Throws Error with file and
+/// line where the arm does not reach.
 [[nodiscard]] std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
                                                   const std::vector<ArmBlock>& blocks,
                                                   const JointPositions& start,

@@ -1,5 +1,6 @@
 #include "core/motion/planner.h"
 
+#include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/road.h"
 #include "core/motion/internal/timeline.h"
 
@@ -8,20 +9,41 @@
 
 namespace millwright::motion {
 
-Trajectory plan(const gcode::Program& program,
-                const kinematics::MachineModel& machine,
-                const PlannerSettings& settings,
-                const Progress& progress,
-                const std::optional<kinematics::AxisPositions>& start) {
+namespace {
+
+Trajectory plan_for(const internal::Mechanism& mechanism,
+                    const gcode::Program& program,
+                    const PlannerSettings& settings,
+                    const Progress& progress,
+                    const kinematics::AxisPositions& start) {
     constexpr double laid_out = 0.5; // of the work
-    auto path = std::make_shared<const Path>(internal::lay_out(
-        program, machine, settings, start.value_or(program.start), progress.part(0.0, laid_out)));
+    auto path = std::make_shared<const Path>(
+        internal::lay_out(program, mechanism, settings, start, progress.part(0.0, laid_out)));
     progress.report(laid_out);
     const int last = path->block_count() - 1;
     Trajectory trajectory = internal::go_to_the_end_of(
         last, std::move(path), internal::departure(), {}, progress.part(laid_out, 1.0));
     progress.report(1.0);
     return trajectory;
+}
+
+} // namespace
+
+Trajectory plan(const gcode::Program& program,
+                const kinematics::MachineModel& machine,
+                const PlannerSettings& settings,
+                const Progress& progress,
+                const std::optional<kinematics::AxisPositions>& start) {
+    const internal::MachineMechanism mechanism(machine);
+    return plan_for(mechanism, program, settings, progress, start.value_or(program.start));
+}
+
+Trajectory plan(const gcode::Program& program,
+                const kinematics::ArmModel& arm,
+                const PlannerSettings& settings,
+                const Progress& progress) {
+    const internal::ArmMechanism mechanism(arm);
+    return plan_for(mechanism, program, settings, progress, program.start);
 }
 
 } // namespace millwright::motion

@@ -9,6 +9,7 @@
 
 #include "core/base/progress.h"
 #include "core/gcode/program.h"
+#include "core/kinematics/arm_model.h"
 #include "core/motion/trajectory.h"
 
 #include <optional>
@@ -50,5 +51,11 @@ struct PlannerSettings {
                               const PlannerSettings& settings,
                               const Progress& progress,
                               const std::optional<kinematics::AxisPositions>& start = std::nullopt);
+
+/// The same for the joints of an arm, called '1' to '9' in the program; "on the part" is in the base's frame.
+[[nodiscard]] Trajectory plan(const gcode::Program& program,
+                              const kinematics::ArmModel& arm,
+                              const PlannerSettings& settings,
+                              const Progress& progress);
 
 } // namespace millwright::motion

@@ -1,6 +1,7 @@
 #include "core/motion/time_estimate.h"
 
 #include "core/motion/internal/leg.h"
+#include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/phases.h"
 #include "core/motion/internal/road_builder.h"
 #include "core/motion/internal/stretches.h"
@@ -14,8 +15,12 @@ namespace millwright::motion {
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-FilterTime::FilterTime(const MachineModel& machine, AxisPositions start) : start_(std::move(start)) {
-    for (const AxisLimits& axis : internal::limits_of(machine)) {
+FilterTime::FilterTime(const MachineModel& machine, AxisPositions start)
+    : FilterTime(internal::limits_of(internal::MachineMechanism(machine)), std::move(start)) {}
+
+FilterTime::FilterTime(const std::vector<AxisLimits>& limits, AxisPositions start)
+    : start_(std::move(start)) {
+    for (const AxisLimits& axis : limits) {
         of_axis_.push_back(2.0 * axis.acceleration / axis.jerk);
         most_ = std::max(most_, of_axis_.back());
     }
@@ -38,8 +43,8 @@ public:
            const PlannerSettings& settings,
            const AxisPositions& start,
            double filter_time)
-        : settings_(settings), filter_time_(filter_time),
-          road_(machine, settings_, filter_time, start, false) {}
+        : mechanism_(machine), settings_(settings), filter_time_(filter_time),
+          road_(mechanism_, settings_, filter_time, start, false) {}
 
     void add(const gcode::Block& block) {
         road_.add(block);
@@ -64,6 +69,7 @@ public:
 private:
     static constexpr int least_window = 4096; ///< blocks
 
+    internal::MachineMechanism mechanism_;
     PlannerSettings settings_;
     double filter_time_;
     internal::RoadBuilder road_;
@@ -105,7 +111,7 @@ TimeEstimate::TimeEstimate(const MachineModel& machine,
                            const PlannerSettings& settings,
                            const AxisPositions& start,
                            const FilterTime& filter) {
-    internal::check_settings(settings, machine, start);
+    internal::check_settings(settings, internal::MachineMechanism(machine), start);
     window_ = std::make_unique<Window>(machine, settings, start, filter.seconds());
 }
 

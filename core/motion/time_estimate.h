@@ -7,6 +7,7 @@
 #include "core/motion/planner.h"
 
 #include <memory>
+#include <vector>
 
 namespace millwright::motion {
 
@@ -15,6 +16,8 @@ namespace millwright::motion {
 class FilterTime {
 public:
     FilterTime(const kinematics::MachineModel& machine, kinematics::AxisPositions start);
+    /// `limits`: of each axis.
+    FilterTime(const std::vector<AxisLimits>& limits, kinematics::AxisPositions start);
 
     /// Throws Defect if the block's target is not finite.
     void add(const gcode::Block& block);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace millwright::test {
 namespace {
 
@@ -78,6 +80,68 @@ TEST(Arm, RefusesWhatIsNoPoseAndNoArm) {
     EXPECT_THAT(run({"arm", "fk", "0", "0", "0", "0", "0", "--arm", "puma"}).err,
                 HasSubstr("known: motoman-l3, scara, six-axis"));
     EXPECT_EQ(run({"arm", "ik", "1", "2"}).exit_code, 2);
+}
+
+TEST(Arm, SaysHowMuchOfAProgramItReaches) {
+    const ScratchFolder scratch;
+    write_content((scratch / "part.ngc").string(),
+                  "G21 G90 F600\nG0 X0 Y0 Z5\nG1 Z0\nG1 X200\nG1 X900\nG1 X0\nM2\n");
+    const auto asked = [&](const std::string& frame) {
+        return run({"arm", "reach", (scratch / "part.ngc").string(), "--frame", frame, "--json"});
+    };
+    const Ended near = asked("700,0,-200,0,0,90");
+    ASSERT_EQ(near.exit_code, 0) << near.err;
+    const auto whole = nlohmann::json::parse(near.out);
+    EXPECT_TRUE(whole.at("whole").get<bool>());
+    EXPECT_NEAR(whole.at("length_mm").get<double>(), 1805.0, 1e-6);
+    EXPECT_NEAR(whole.at("programmed_seconds").get<double>(), 180.5, 1e-6);
+    EXPECT_GE(whole.at("planned_seconds").get<double>(), 180.5);
+    EXPECT_LE(whole.at("planned_seconds").get<double>(), 190.0);
+    // Along x the arm ends at 1450 mm from its shoulder.
+    const Ended far = asked("700,0,-200,0,0,0");
+    ASSERT_EQ(far.exit_code, 1);
+    const auto part = nlohmann::json::parse(far.out);
+    EXPECT_TRUE(part.at("planned_seconds").is_null());
+    ASSERT_EQ(part.at("findings").size(), 1U);
+    const auto& finding = part.at("findings").at(0);
+    EXPECT_EQ(finding.at("first_line"), 5);
+    EXPECT_EQ(finding.at("last_line"), 6);
+    const double reached = std::sqrt(1450.0 * 1450.0 - 200.0 * 200.0) - 700.0;
+    EXPECT_NEAR(part.at("reached_mm").get<double>(), 5.0 + 2.0 * reached, 1.0);
+}
+
+TEST(Arm, RefusesProgramsThatItCannotRead) {
+    const ScratchFolder scratch;
+    write_content((scratch / "five.ngc").string(), "G21 G90 F600\nG1 X1 A10\nM2\n");
+    const Ended rotary = run({"arm", "reach", (scratch / "five.ngc").string()});
+    EXPECT_EQ(rotary.exit_code, 1);
+    EXPECT_THAT(rotary.err, HasSubstr("five.ngc:2"));
+    EXPECT_THAT(rotary.err, HasSubstr("--machine"));
+    write_content((scratch / "still.ngc").string(), "M2\n");
+    EXPECT_THAT(run({"arm", "reach", (scratch / "still.ngc").string()}).err, HasSubstr("moves nothing"));
+    EXPECT_THAT(run({"arm", "reach", (scratch / "five.ngc").string(), "--frame", "1,2,nan,0,0,0"}).err,
+                HasSubstr("not finite"));
+}
+
+TEST(Arm, HelpsWithSettingUp) {
+    const ScratchFolder scratch;
+    const std::string file = (scratch / "angles.csv").string();
+    write_content(file, "1 0 1\n1 1200 11\n1 2400 21\n");
+    const auto fits = answer_to({"arm", "calibrate", file, "--json"});
+    ASSERT_EQ(fits.size(), 1U);
+    EXPECT_NEAR(fits.at(0).at("counts_per_degree").get<double>(), 120.0, 1e-9);
+    EXPECT_NEAR(fits.at(0).at("counts_at_zero").get<double>(), -120.0, 1e-6);
+    write_content(file, "# nothing\n");
+    EXPECT_THAT(run({"arm", "calibrate", file}).err, HasSubstr("no readings"));
+    const Ended resistors = run({"arm", "amplifier", "--peak", "16", "--nominal", "7", "--limit", "12"});
+    EXPECT_THAT(resistors.out, HasSubstr("18.18 kOhm"));
+    EXPECT_THAT(resistors.out, HasSubstr("model 8/16: 18.00 kOhm"));
+    EXPECT_THAT(resistors.out, HasSubstr("6.60 kOhm"));
+    EXPECT_EQ(run({"arm", "amplifier"}).exit_code, 2);
+    EXPECT_EQ(run({"arm", "amplifier", "--nominal", "7"}).exit_code, 2);
+    const Ended pins = run({"arm", "wiring", "2"});
+    EXPECT_THAT(pins.out, HasSubstr("check before wiring"));
+    EXPECT_EQ(run({"arm", "wiring", "5"}).exit_code, 2);
 }
 
 } // namespace

@@ -11,7 +11,6 @@ namespace millwright::motion::internal {
 namespace {
 
 using kinematics::AxisPositions;
-using kinematics::MachineModel;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -28,7 +27,7 @@ struct PlainDirection {
     double length = 0.0;
 };
 
-PlainDirection plain(const MachineModel& machine, const Leg& leg) {
+PlainDirection plain(const Mechanism& machine, const Leg& leg) {
     PlainDirection result{leg.direction, 0.0};
     for (const int n : machine.rotary_axes()) {
         result.unit[n] = to_degrees(result.unit[n]);
@@ -40,7 +39,7 @@ PlainDirection plain(const MachineModel& machine, const Leg& leg) {
 
 /// Grbl 1.1's planner: v^2 = a * deviation * sin(theta/2) / (1 - sin(theta/2)), where theta is the angle
 /// between the way back and the way on, and a what the axes can do in the direction of the change.
-double by_junction_deviation(const MachineModel& machine,
+double by_junction_deviation(const Mechanism& machine,
                              const PlannerSettings& settings,
                              const Leg& before,
                              const Leg& after) {
@@ -71,10 +70,8 @@ double by_junction_deviation(const MachineModel& machine,
 
 } // namespace
 
-double corner_speed(const MachineModel& machine,
-                    const PlannerSettings& settings,
-                    const Leg& before,
-                    const Leg& after) {
+double
+corner_speed(const Mechanism& machine, const PlannerSettings& settings, const Leg& before, const Leg& after) {
     return settings.corner_rule == CornerRule::small_step
                ? by_small_step(settings, before, after)
                : by_junction_deviation(machine, settings, before, after);

@@ -6,9 +6,7 @@
 namespace millwright::motion::internal {
 
 /// By the settings' rule for corners; infinite where the way goes straight on.
-[[nodiscard]] double corner_speed(const kinematics::MachineModel& machine,
-                                  const PlannerSettings& settings,
-                                  const Leg& before,
-                                  const Leg& after);
+[[nodiscard]] double
+corner_speed(const Mechanism& machine, const PlannerSettings& settings, const Leg& before, const Leg& after);
 
 } // namespace millwright::motion::internal

@@ -34,7 +34,7 @@ void set_axis_limits(Leg& leg, const std::vector<AxisLimits>& limits) {
 }
 
 void set_feed(Leg& leg,
-              const kinematics::MachineModel& machine,
+              const Mechanism& machine,
               const PlannerSettings& settings,
               const gcode::Block& block,
               const AxisPositions& from,
@@ -63,7 +63,7 @@ void set_feed(Leg& leg,
 
 } // namespace
 
-std::vector<AxisLimits> limits_of(const kinematics::MachineModel& machine) {
+std::vector<AxisLimits> limits_of(const Mechanism& machine) {
     std::vector<AxisLimits> limits;
     for (const kinematics::MachineAxis& axis : machine.axes()) {
         limits.push_back({axis.max_velocity, axis.max_acceleration, axis.max_jerk});
@@ -71,7 +71,7 @@ std::vector<AxisLimits> limits_of(const kinematics::MachineModel& machine) {
     return limits;
 }
 
-Leg leg_of(const kinematics::MachineModel& machine,
+Leg leg_of(const Mechanism& machine,
            const std::vector<AxisLimits>& limits,
            const PlannerSettings& settings,
            const gcode::Block& block,

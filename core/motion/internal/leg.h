@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/gcode/program.h"
+#include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
 
 namespace millwright::motion::internal {
@@ -26,10 +27,10 @@ struct Leg {
 };
 
 /// The limits of a machine's axes.
-[[nodiscard]] std::vector<AxisLimits> limits_of(const kinematics::MachineModel& machine);
+[[nodiscard]] std::vector<AxisLimits> limits_of(const Mechanism& machine);
 
 /// The move from `from` to `to`, which must differ.
-[[nodiscard]] Leg leg_of(const kinematics::MachineModel& machine,
+[[nodiscard]] Leg leg_of(const Mechanism& machine,
                          const std::vector<AxisLimits>& limits,
                          const PlannerSettings& settings,
                          const gcode::Block& block,

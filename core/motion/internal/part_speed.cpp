@@ -1,7 +1,5 @@
 #include "core/motion/internal/part_speed.h"
 
-#include "core/kinematics/forward.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +8,6 @@ namespace millwright::motion::internal {
 namespace {
 
 using kinematics::AxisPositions;
-using kinematics::MachineModel;
 
 constexpr double wanted_accuracy = 0.02; // of the feed, as far as the number of steps allows
 constexpr double most_turn = 0.1;        // rad a step, as far as the number of steps allows
@@ -28,7 +25,7 @@ struct Bending {
     }
 };
 
-Bending bending_of(const MachineModel& machine, const AxisPositions& direction) {
+Bending bending_of(const Mechanism& machine, const AxisPositions& direction) {
     Bending bending;
     for (int n = 0; n < machine.axis_count(); ++n) {
         const bool rotary = machine.axis(n).kind == kinematics::AxisKind::rotary;
@@ -42,8 +39,8 @@ struct TipRate {
     double radius = 0.0; ///< from the tip to the farthest rotary axis
 };
 
-TipRate tip_rate(const MachineModel& machine, const AxisPositions& q, const AxisPositions& direction) {
-    const kinematics::Jacobian J = kinematics::jacobian(machine, q);
+TipRate tip_rate(const Mechanism& machine, const AxisPositions& q, const AxisPositions& direction) {
+    const kinematics::Jacobian J = machine.jacobian(q);
     TipRate result;
     result.rate = (J.topRows<3>() * direction).norm();
     for (const int n : machine.rotary_axes()) {
@@ -63,7 +60,7 @@ int steps_for(const Bending& bending, const TipRate& first, const TipRate& last,
 } // namespace
 
 // Between two places the rate is at most their mean and half of the distance times its greatest change.
-std::vector<FeedStep> part_speeds(const MachineModel& machine, const StraightWay& way, double feed) {
+std::vector<FeedStep> part_speeds(const Mechanism& machine, const StraightWay& way, double feed) {
     const AxisPositions direction = (way.to - way.from) / way.length;
     const Bending bending = bending_of(machine, direction);
     TipRate before = tip_rate(machine, way.from, direction);

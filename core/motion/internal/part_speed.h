@@ -15,6 +15,6 @@ struct StraightWay {
 /// Speeds that never take the tip above `feed` (mm/s), in so many steps that most of the way comes close to
 /// it. Where the tip hardly moves they are infinite.
 [[nodiscard]] std::vector<FeedStep>
-part_speeds(const kinematics::MachineModel& machine, const StraightWay& way, double feed);
+part_speeds(const Mechanism& machine, const StraightWay& way, double feed);
 
 } // namespace millwright::motion::internal

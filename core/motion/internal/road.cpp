@@ -6,13 +6,13 @@
 namespace millwright::motion::internal {
 
 Path lay_out(const gcode::Program& program,
-             const kinematics::MachineModel& machine,
+             const Mechanism& machine,
              const PlannerSettings& settings,
              const kinematics::AxisPositions& start,
              const Progress& progress) {
     check_axes(program.axes, program.machine, machine);
     check_settings(settings, machine, start);
-    FilterTime filter(machine, start);
+    FilterTime filter(limits_of(machine), start);
     for (std::size_t n = 0; n < program.blocks.size() && !filter.settled(); ++n) {
         filter.add(program.blocks[n]);
     }

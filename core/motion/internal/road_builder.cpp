@@ -1,7 +1,6 @@
 #include "core/motion/internal/road_builder.h"
 
 #include "core/base/error.h"
-#include "core/kinematics/forward.h"
 #include "core/motion/internal/corner_speed.h"
 
 #include <fmt/format.h>
@@ -16,7 +15,6 @@ namespace millwright::motion::internal {
 using gcode::Block;
 using gcode::BlockKind;
 using kinematics::AxisPositions;
-using kinematics::MachineModel;
 
 namespace {
 
@@ -56,14 +54,14 @@ template <class Places> void drop_up_to(Places& places, double way) {
 
 void check_axes(const std::vector<gcode::ProgramAxis>& axes,
                 const std::string& machine_of_program,
-                const MachineModel& machine) {
+                const Mechanism& machine) {
     std::string wanted;
     std::string there;
     bool same = static_cast<int>(axes.size()) == machine.axis_count();
-    for (const gcode::ProgramAxis& axis : axes) {
+    for (int n = 0; n < static_cast<int>(axes.size()); ++n) {
+        const gcode::ProgramAxis& axis = axes[static_cast<std::size_t>(n)];
         wanted += axis.letter;
-        const int n = machine.axis_index(axis.letter);
-        same = same && n == static_cast<int>(wanted.size()) - 1 && machine.axis(n).kind == axis.kind;
+        same = same && axis.letter == machine.axis(n).letter && axis.kind == machine.axis(n).kind;
     }
     for (const kinematics::MachineAxis& axis : machine.axes()) {
         there += axis.letter;
@@ -77,9 +75,7 @@ void check_axes(const std::vector<gcode::ProgramAxis>& axes,
     }
 }
 
-void check_settings(const PlannerSettings& settings,
-                    const MachineModel& machine,
-                    const AxisPositions& start) {
+void check_settings(const PlannerSettings& settings, const Mechanism& machine, const AxisPositions& start) {
     expects(start.size() == machine.axis_count() && start.allFinite(),
             "a start has a finite position an axis");
     expects(settings.corner_time >= 0.0 && settings.junction_deviation >= 0.0,
@@ -103,13 +99,12 @@ AxisPositions position_after(const Block& block, const AxisPositions& before) {
     return after;
 }
 
-RoadBuilder::RoadBuilder(const MachineModel& machine,
+RoadBuilder::RoadBuilder(const Mechanism& machine,
                          const PlannerSettings& settings,
                          double filter_time,
                          const AxisPositions& start,
                          bool part)
-    : machine_(machine), settings_(settings), part_(part),
-      last_tip_(kinematics::forward(machine, start).tip) {
+    : machine_(machine), settings_(settings), part_(part), last_tip_(machine.tip(start)) {
     path_.limits = limits_of(machine);
     path_.filter_time = filter_time;
     path_.look_ahead = settings.look_ahead;
@@ -274,7 +269,7 @@ void RoadBuilder::round(const Corner& corner, const Leg& next) {
 void RoadBuilder::add_part_length(const AxisPositions& position, bool moved) {
     double length = path_.part_length.back();
     if (moved) {
-        const Vec3 tip = kinematics::forward(machine_, position).tip;
+        const Vec3 tip = machine_.tip(position);
         length += (tip - last_tip_).norm();
         last_tip_ = tip;
     }

@@ -4,6 +4,7 @@
 
 #include "core/gcode/program.h"
 #include "core/motion/internal/leg.h"
+#include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/profile.h"
 #include "core/motion/internal/rounding.h"
 #include "core/motion/planner.h"
@@ -18,10 +19,10 @@ namespace millwright::motion::internal {
 /// Throws Error if the program's axes are not the machine's.
 void check_axes(const std::vector<gcode::ProgramAxis>& axes,
                 const std::string& machine_of_program,
-                const kinematics::MachineModel& machine);
+                const Mechanism& machine);
 /// Throws Defect for a setting out of range, or a start that is none of the machine's.
 void check_settings(const PlannerSettings& settings,
-                    const kinematics::MachineModel& machine,
+                    const Mechanism& machine,
                     const kinematics::AxisPositions& start);
 
 /// Where a block goes. Throws Defect if that is not finite.
@@ -32,7 +33,7 @@ class RoadBuilder {
 public:
     /// Machine and settings must outlive it. Without `part` the way on the part is not measured, which takes
     /// half of the time.
-    RoadBuilder(const kinematics::MachineModel& machine,
+    RoadBuilder(const Mechanism& machine,
                 const PlannerSettings& settings,
                 double filter_time,
                 const kinematics::AxisPositions& start,
@@ -58,7 +59,7 @@ public:
     [[nodiscard]] Path take(const Progress& progress);
 
 private:
-    const kinematics::MachineModel& machine_;
+    const Mechanism& machine_;
     const PlannerSettings& settings_;
     bool part_;
     Path path_;

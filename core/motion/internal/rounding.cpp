@@ -1,7 +1,6 @@
 #include "core/motion/internal/rounding.h"
 
 #include "core/base/numbers.h"
-#include "core/kinematics/forward.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,6 @@ namespace {
 
 using kinematics::AxisKind;
 using kinematics::AxisPositions;
-using kinematics::MachineModel;
 
 constexpr double off_the_corner = 3.0 / 16.0; // the integral of w over half of the rounding, of 2 d
 constexpr double most_second = 0.75;          // of w' / (2 d), times d
@@ -27,7 +25,7 @@ struct Amount {
     double rotary = 0.0; ///< rad
 };
 
-Amount amount(const MachineModel& machine, const AxisPositions& direction) {
+Amount amount(const Mechanism& machine, const AxisPositions& direction) {
     Amount sum;
     for (int n = 0; n < machine.axis_count(); ++n) {
         (machine.axis(n).kind == AxisKind::rotary ? sum.rotary : sum.linear) += std::abs(direction[n]);
@@ -40,16 +38,6 @@ double bend(const Amount& a, const Amount& b, double radius) {
     return a.rotary * b.rotary * radius + a.rotary * b.linear + a.linear * b.rotary;
 }
 
-/// The tip's first derivative in the direction of linear axes alone.
-double linear_change(const MachineModel& machine, const AxisPositions& change) {
-    Vec3 sum = Vec3::Zero();
-    for (const int n : machine.linear_axes()) {
-        const kinematics::MachineAxis& axis = machine.axis(n);
-        sum += (axis.side == kinematics::AxisSide::head ? change[n] : -change[n]) * axis.direction;
-    }
-    return sum.norm();
-}
-
 /// d so that off * d * (a + b * d) is `tolerance`.
 double length_within(double tolerance, double a, double b) {
     const double wanted = tolerance / off_the_corner;
@@ -57,12 +45,12 @@ double length_within(double tolerance, double a, double b) {
     return a + root > 0.0 ? 2.0 * wanted / (a + root) : std::numeric_limits<double>::infinity();
 }
 
-double length_with_rotary(const MachineModel& machine,
+double length_with_rotary(const Mechanism& machine,
                           const Corner& corner,
                           const AxisPositions& change,
                           const RoundingTolerance& tolerance,
                           double longest) {
-    const kinematics::Jacobian J = kinematics::jacobian(machine, corner.position);
+    const kinematics::Jacobian J = machine.jacobian(corner.position);
     double radius = 0.0;
     double turns = 0.0;
     for (int n = 0; n < machine.axis_count(); ++n) {
@@ -93,7 +81,7 @@ double length_with_rotary(const MachineModel& machine,
 
 // First order at the corner, and what the second derivatives can add between the corner and the place (`d`
 // away at most) and from the place to the rounding (3/16 d |change| away at most).
-double rounding_length(const MachineModel& machine,
+double rounding_length(const Mechanism& machine,
                        const Corner& corner,
                        const RoundingTolerance& tolerance,
                        double longest) {
@@ -104,7 +92,7 @@ double rounding_length(const MachineModel& machine,
     if (turns) {
         return length_with_rotary(machine, corner, change, tolerance, longest);
     }
-    return std::min(longest, length_within(tolerance.tip, linear_change(machine, change), 0.0));
+    return std::min(longest, length_within(tolerance.tip, machine.sliding(corner.position, change), 0.0));
 }
 
 // With the way s(t): velocity = q' s', acceleration = q'' s'^2 + q' s'', jerk = q''' s'^3 + 3 q'' s' s'' +

@@ -4,6 +4,7 @@
 // path than 3/16 d |change of direction| (docs/reference/motion.md#roundings).
 #pragma once
 
+#include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
 
 namespace millwright::motion::internal {
@@ -21,7 +22,7 @@ struct RoundingTolerance {
 
 /// The greatest d that keeps the tip on the part within its tolerance of where it would be on the programmed
 /// path, and each rotary axis within its own; at most `longest`.
-[[nodiscard]] double rounding_length(const kinematics::MachineModel& machine,
+[[nodiscard]] double rounding_length(const Mechanism& machine,
                                      const Corner& corner,
                                      const RoundingTolerance& tolerance,
                                      double longest);

@@ -1,13 +1,16 @@
 #include "core/kinematics/arm_simulation.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_motion_ways.h"
 #include "tests/support/arms.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 
@@ -137,6 +140,41 @@ TEST(ArmResult, ReadsBackWhatItWrote) {
     EXPECT_THAT(reason([&] { (void)parse_arm_result(text.substr(0, 200), "a.res"); }), HasSubstr("a.res:"));
     EXPECT_THAT(reason([&] { (void)parse_arm_result("nonsense\n", "a.res"); }),
                 HasSubstr("a.res:1: 'next position '"));
+}
+
+TEST(ArmMotionWays, TurnTheToolEvenlyAlongTheirBlock) {
+    const ArmModel arm = test::arm("motoman-l3");
+    const auto ways =
+        ways_of(arm, parse_arm_motion("X100 F20;\nX-50 A1 B0 C0;\nZ-10;", "a.mot"), arm_home(), "a.mot");
+    ASSERT_EQ(ways.size(), 3U);
+    EXPECT_NEAR(ways[0].duration, 5.0, 1e-12);
+    EXPECT_NEAR(ways[1].duration, 2.5, 1e-12);
+    for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+        const Frame tool = ways[1].at(share);
+        const double angle = 0.5 * pi * share; // from up to x
+        EXPECT_LE((tool.linear().col(2) - Vec3(std::sin(angle), 0.0, std::cos(angle))).norm(), 1e-9);
+        EXPECT_LE((tool.translation() - Vec3(900.0 - 50.0 * share, 0.0, 650.0)).norm(), 1e-9);
+    }
+    EXPECT_LE((ways[2].at(0.5).linear().col(2) - Vec3::UnitX()).norm(), 1e-9);
+    EXPECT_LE((ways[2].at(1.0).translation() - Vec3(850.0, 0.0, 640.0)).norm(), 1e-9);
+}
+
+TEST(ArmMotionWays, AreFollowedByTheArmOfTheThesis) {
+    const ArmModel arm = test::arm("motoman-l3");
+    const auto ways = ways_of(arm, parse_arm_motion(printed_file, "a.mot"), arm_home(), "a.mot");
+    ArmPathSettings settings;
+    settings.aim.demand = ArmDemand::tip;
+    const ArmPath path = follow_path(arm, ways, arm_home(), settings, {});
+    ASSERT_TRUE(path.whole()) << path.findings.front().why;
+    EXPECT_LE((base_T_tool(arm, path.points.back().joints).translation() - Vec3(800.0, 0.0, 650.0)).norm(),
+              1e-6);
+}
+
+TEST(ArmMotionWays, NeedAFeedAboveNothing) {
+    const ArmModel arm = test::arm("motoman-l3");
+    EXPECT_THAT(
+        reason([&] { (void)ways_of(arm, parse_arm_motion("X1;\nX1 F0;", "a.mot"), arm_home(), "a.mot"); }),
+        HasSubstr("a.mot:2: a feed is above 0"));
 }
 
 } // namespace

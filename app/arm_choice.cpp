@@ -1,0 +1,50 @@
+#include "app/arm_choice.h"
+
+#include "core/base/units.h"
+#include "core/kinematics/arm_file.h"
+#include "core/project/assets.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::app {
+
+using kinematics::ArmModel;
+using kinematics::JointKind;
+using kinematics::JointPositions;
+
+void add_arm_option(CLI::App& command, std::string& arm) {
+    command.add_option("--arm", arm, "Arm that ships with the program, or an arm file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+}
+
+ArmModel arm_of(const std::string& name) {
+    return kinematics::read_arm(project::arm_path(name, ".", project::assets_folder())).arm;
+}
+
+double to_joint(const ArmModel& arm, int joint, double shown) {
+    return arm.joint(joint).kind == JointKind::revolute ? from_degrees(shown) : shown;
+}
+
+double from_joint(const ArmModel& arm, int joint, double position) {
+    return arm.joint(joint).kind == JointKind::revolute ? to_degrees(position) : position;
+}
+
+double rounded(double value) {
+    return std::round(value * 1e9) / 1e9 + 0.0;
+}
+
+JointPositions resting(const ArmModel& arm) {
+    JointPositions q = JointPositions::Zero(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        q[n] = std::clamp(0.0, arm.joint(n).min, arm.joint(n).max);
+    }
+    return q;
+}
+
+} // namespace millwright::app

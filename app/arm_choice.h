@@ -1,0 +1,31 @@
+// The arm that a command is about, and its joints in the units of people.
+#pragma once
+
+#include "core/kinematics/arm_model.h"
+
+#include <memory>
+#include <string>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+/// Adds --arm to `command`; `arm` must live as long.
+void add_arm_option(CLI::App& command, std::string& arm);
+
+/// By its name or file. Throws Error for what is none.
+[[nodiscard]] kinematics::ArmModel arm_of(const std::string& name);
+
+/// Degrees or mm to rad or mm, and back.
+[[nodiscard]] double to_joint(const kinematics::ArmModel& arm, int joint, double shown);
+[[nodiscard]] double from_joint(const kinematics::ArmModel& arm, int joint, double position);
+
+/// To a billionth, so that rounding does not show.
+[[nodiscard]] double rounded(double value);
+
+/// Every joint at 0, or at its limit that is nearest to it.
+[[nodiscard]] kinematics::JointPositions resting(const kinematics::ArmModel& arm);
+
+} // namespace millwright::app

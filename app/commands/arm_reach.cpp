@@ -1,0 +1,260 @@
+#include "app/commands/arm_reach.h"
+
+#include "app/arm_choice.h"
+#include "app/watched_work.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/gcode/arm_ways.h"
+#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/machine_program.h"
+#include "core/kinematics/arm_reach.h"
+#include "core/kinematics/machine_file.h"
+#include "core/motion/arm_motion.h"
+#include "core/motion/planner.h"
+#include "core/project/assets.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using kinematics::ArmHole;
+using kinematics::ArmModel;
+using kinematics::ArmReach;
+using kinematics::ArmWay;
+using kinematics::MachineModel;
+
+constexpr std::size_t most_holes_shown = 20;
+
+struct Options {
+    std::string file;
+    std::string arm = "motoman-l3";
+    std::string machine;
+    std::vector<double> frame{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    double tolerance_mm = 0.01;
+    double tilt_deg = 0.01;
+    bool json = false;
+};
+
+/// X Y Z of the program are those of the part, without end.
+MachineModel cartesian() {
+    kinematics::MachineDescription description;
+    description.name = "X Y Z";
+    description.source = "the coordinates of a program";
+    for (int n = 0; n < 3; ++n) {
+        kinematics::MachineAxis axis;
+        axis.letter = static_cast<char>('X' + n);
+        axis.direction = Vec3::Unit(n);
+        axis.max_velocity = axis.max_acceleration = 1000.0;
+        description.head.push_back(axis);
+    }
+    return MachineModel(std::move(description));
+}
+
+MachineModel machine_of(const Options& options) {
+    return options.machine.empty()
+               ? cartesian()
+               : kinematics::read_machine(project::machine_path(
+                     options.machine, std::filesystem::current_path(), project::assets_folder()));
+}
+
+Frame frame_of(const std::vector<double>& v) {
+    for (const double value : v) {
+        if (!std::isfinite(value)) {
+            throw Error("the frame has a number that is not finite");
+        }
+    }
+    Frame frame = Frame::Identity();
+    frame.translation() = Vec3(v[0], v[1], v[2]);
+    frame.linear() = (Eigen::AngleAxisd(from_degrees(v[5]), Vec3::UnitZ()) *
+                      Eigen::AngleAxisd(from_degrees(v[4]), Vec3::UnitY()) *
+                      Eigen::AngleAxisd(from_degrees(v[3]), Vec3::UnitX()))
+                         .toRotationMatrix();
+    return frame;
+}
+
+std::vector<ArmWay> ways_of(const Options& options) {
+    const Frame frame = frame_of(options.frame);
+    const auto machine = std::make_shared<const MachineModel>(machine_of(options));
+    gcode::MachineProgramBuilder builder(*machine, options.file);
+    gcode::ReaderSettings reading;
+    reading.any_tool = true;
+    gcode::Interpreter reader(std::filesystem::path(options.file), std::move(reading), builder);
+    reader.run();
+    if (!reader.errors().empty()) {
+        throw Error(reader.errors().front());
+    }
+    gcode::MachineProgram found = builder.take();
+    if (!found.faults.empty()) {
+        Diagnostic fault = found.faults.front();
+        fault.hint = options.machine.empty() ? "name the machine that the program is for with --machine" : "";
+        throw Error(fault);
+    }
+    auto ways =
+        gcode::arm_ways(std::make_shared<const gcode::Program>(std::move(found.program)), machine, frame);
+    if (ways.empty()) {
+        throw Error(
+            Diagnostic{.place = {.file = options.file}, .message = "the program moves nothing", .hint = {}});
+    }
+    return ways;
+}
+
+/// What the arm takes for it, s; nothing if it cannot go all of it.
+std::optional<double> planned_time(const ArmModel& arm,
+                                   const std::vector<ArmWay>& ways,
+                                   const kinematics::ArmPath& path,
+                                   const Options& options,
+                                   const Progress& progress) {
+    if (!path.whole()) {
+        return std::nullopt;
+    }
+    motion::ArmMotion motion(arm, path.points.front().joints);
+    motion.follow(ways, path, options.file);
+    motion::PlannerSettings settings;
+    settings.rounding_tolerance = options.tolerance_mm;
+    return motion::plan(motion.program(), arm, settings, progress).duration();
+}
+
+std::string lines_of(const ArmHole& hole) {
+    return hole.first_line == hole.last_line ? fmt::format("line {}", hole.first_line)
+                                             : fmt::format("lines {} to {}", hole.first_line, hole.last_line);
+}
+
+double share_of(const ArmReach& reach) {
+    return reach.length > 0.0 ? reach.reached / reach.length : reach.holes.empty() ? 1.0 : 0.0;
+}
+
+void print_text(const Options& options,
+                const ArmModel& arm,
+                const ArmReach& reach,
+                const std::optional<double>& planned) {
+    fmt::print("{}: the arm goes {:.1f} of {:.1f} mm ({:.1f} %)\n",
+               options.file,
+               reach.reached,
+               reach.length,
+               100.0 * share_of(reach));
+    for (std::size_t n = 0; n < reach.holes.size() && n < most_holes_shown; ++n) {
+        const ArmHole& hole = reach.holes[n];
+        fmt::print("  {}, {:.1f} mm, {}: {}\n", lines_of(hole), hole.length, name_of(hole.trouble), hole.why);
+    }
+    if (reach.holes.size() > most_holes_shown) {
+        fmt::print("  and {} more\n", reach.holes.size() - most_holes_shown);
+    }
+    for (Eigen::Index n = 0; n < reach.lowest.size(); ++n) {
+        const auto joint = static_cast<int>(n);
+        fmt::print("joint {:<6} {:>10.3f} to {:>10.3f}, limits {} and {} {}\n",
+                   arm.joint(joint).name,
+                   from_joint(arm, joint, reach.lowest[n]),
+                   from_joint(arm, joint, reach.highest[n]),
+                   shortest(rounded(from_joint(arm, joint, arm.joint(joint).min))),
+                   shortest(rounded(from_joint(arm, joint, arm.joint(joint).max))),
+                   arm.joint(joint).kind == kinematics::JointKind::revolute ? "deg" : "mm");
+    }
+    if (reach.lowest.size() > 0) {
+        fmt::print("least manipulability {:.6f}, line {}\n", reach.least_manipulability, reach.least_line);
+        fmt::print("tool axis turned by at most {:.3f} deg\n", to_degrees(reach.most_tilt));
+    }
+    if (planned) {
+        fmt::print("feeds as programmed {:.2f} s, all of it planned for the arm {:.2f} s\n",
+                   reach.programmed_time,
+                   *planned);
+    }
+}
+
+void print_json(const ArmModel& arm, const ArmReach& reach, const std::optional<double>& planned) {
+    nlohmann::ordered_json answer;
+    answer["whole"] = reach.holes.empty();
+    answer["length_mm"] = reach.length;
+    answer["reached_mm"] = reach.reached;
+    answer["findings"] = nlohmann::ordered_json::array();
+    for (const ArmHole& hole : reach.holes) {
+        answer["findings"].push_back({{"first_line", hole.first_line},
+                                      {"last_line", hole.last_line},
+                                      {"length_mm", hole.length},
+                                      {"trouble", name_of(hole.trouble)},
+                                      {"why", hole.why}});
+    }
+    answer["joints"] = nlohmann::ordered_json::array();
+    for (Eigen::Index n = 0; n < reach.lowest.size(); ++n) {
+        const auto joint = static_cast<int>(n);
+        answer["joints"].push_back({{"name", arm.joint(joint).name},
+                                    {"lowest", from_joint(arm, joint, reach.lowest[n])},
+                                    {"highest", from_joint(arm, joint, reach.highest[n])}});
+    }
+    answer["least_manipulability"] = reach.least_manipulability;
+    answer["least_manipulability_line"] = reach.least_line;
+    answer["most_tilt_degrees"] = to_degrees(reach.most_tilt);
+    answer["programmed_seconds"] = reach.programmed_time;
+    answer["planned_seconds"] = planned ? nlohmann::ordered_json(*planned) : nlohmann::ordered_json(nullptr);
+    fmt::print("{}\n", answer.dump(2));
+}
+
+int reach(const Options& options) {
+    const ArmModel arm = arm_of(options.arm);
+    const std::vector<ArmWay> ways = ways_of(options);
+    kinematics::ArmPathSettings settings;
+    settings.tip_tolerance = options.tolerance_mm;
+    settings.aim.most_tilt = from_degrees(options.tilt_deg);
+    constexpr double followed = 0.8; // of the work
+    WatchedWork work;
+    const kinematics::ArmPath path =
+        follow_path_well(arm, ways, resting(arm), settings, work.progress().part(0.0, followed));
+    const std::optional<double> planned =
+        planned_time(arm, ways, path, options, work.progress().part(followed, 1.0));
+    work.finish();
+    const ArmReach found = reach_of(path, ways);
+    if (options.json) {
+        print_json(arm, found, planned);
+    } else {
+        print_text(options, arm, found, planned);
+    }
+    return path.whole() ? 0 : 1;
+}
+
+} // namespace
+
+void add_arm_reach_command(CLI::App& group, Command& chosen) {
+    CLI::App& command =
+        *group.add_subcommand("reach", "How much of a program an arm can go, and why not the rest");
+    const auto options = std::make_shared<Options>();
+    add_arm_option(command, options->arm);
+    command.add_option("FILE", options->file, "G-code program")->required();
+    command
+        .add_option(
+            "--frame",
+            options->frame,
+            "Where the part is in the arm's base: mm and degrees, turned about x, then y, then z of the base")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,A,B,C")
+        ->capture_default_str();
+    command.add_option("--machine", options->machine, "Machine that a program with rotary axes is for")
+        ->type_name("NAME|FILE");
+    command.add_option("--tolerance", options->tolerance_mm, "Of the tip from the programmed path, mm")
+        ->check(CLI::Range(1e-6, 100.0))
+        ->capture_default_str();
+    command
+        .add_option("--tilt",
+                    options->tilt_deg,
+                    "By how much the tool may be turned into the plane of an arm with five joints, degrees")
+        ->check(CLI::Range(0.0, 90.0))
+        ->capture_default_str();
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.callback([&chosen, options] { chosen = [options] { return reach(*options); }; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,168 @@
+#include "app/commands/arm_service.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/numbers.h"
+#include "core/machine/service/maestro_amplifier.h"
+#include "core/machine/service/pmac_wiring.h"
+#include "core/machine/service/scale_calibration.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    std::string file;
+    bool json = false;
+    int motor = 0; ///< 0: all
+    double max_rpm = 0.0, tacho = 0.0;
+    double nominal = 0.0, limit = 0.0, peak = 0.0;
+};
+
+int calibrate(const Options& options) {
+    const auto fits =
+        machine::fit_scales(machine::parse_scale_readings(read_file(options.file), options.file));
+    if (fits.empty()) {
+        throw Error(Diagnostic{.place = {.file = options.file},
+                               .message = "there are no readings",
+                               .hint = "a line is: motor counts angle"});
+    }
+    auto list = nlohmann::ordered_json::array();
+    for (const machine::ScaleFit& fit : fits) {
+        if (options.json) {
+            list.push_back({{"motor", fit.motor},
+                            {"counts_per_degree", fit.counts_per_degree},
+                            {"counts_at_zero", fit.counts_at_zero},
+                            {"counts_per_degree_error", fit.counts_per_degree_error},
+                            {"rms_degrees", fit.rms},
+                            {"worst_degrees", fit.worst},
+                            {"worst_line", fit.worst_line},
+                            {"readings", fit.readings}});
+            continue;
+        }
+        fmt::print("motor {}: {:.4f} counts a degree (+- {:.4f}), {:.1f} counts at 0 deg; {} readings, "
+                   "{:.3f} deg rms, at most {:+.3f} deg in line {}\n",
+                   fit.motor,
+                   fit.counts_per_degree,
+                   fit.counts_per_degree_error,
+                   fit.counts_at_zero,
+                   fit.readings,
+                   fit.rms,
+                   fit.worst,
+                   fit.worst_line);
+    }
+    if (options.json) {
+        fmt::print("{}\n", list.dump(2));
+    }
+    return 0;
+}
+
+std::string kilo_ohms(const std::optional<double>& value) {
+    return value ? fmt::format("{:.2f} kOhm", *value) : std::string("none is fitted");
+}
+
+void print_table(std::span<const machine::FittedResistor> table, double peak, double current) {
+    for (const machine::FittedResistor& row : table) {
+        if (exactly_equal(row.peak, peak) &&
+            exactly_equal(row.current, current)) { // typed as they stand there
+            fmt::print("  in the table of model {}: {}\n", row.model, kilo_ohms(row.kilo_ohm));
+        }
+    }
+}
+
+void print_speed(const Options& options) {
+    const auto speed = machine::speed_resistor(options.max_rpm, options.tacho);
+    fmt::print("RT  (speed): {}\n",
+               !speed         ? "none: take a tachometer of a higher constant"
+               : *speed > 0.0 ? fmt::format("{:.0f}", *speed)
+                              : "a bridge");
+    const auto loss = machine::tacho_loss_resistor(options.max_rpm, options.tacho);
+    fmt::print("RRT (loss of the tachometer; switch 3 on first): {}\n",
+               loss ? fmt::format("{:.0f}", *loss) : "none");
+}
+
+int amplifier(const Options& options) {
+    if (options.max_rpm > 0.0) {
+        print_speed(options);
+    }
+    if (options.nominal > 0.0) {
+        const auto value = machine::nominal_current_resistor(options.nominal, options.peak);
+        fmt::print("RIN (nominal current): {} (as printed {})\n",
+                   kilo_ohms(value.corrected),
+                   kilo_ohms(value.printed));
+        print_table(machine::nominal_current_table(), options.peak, options.nominal);
+    }
+    if (options.limit > 0.0) {
+        const double nominal = options.nominal > 0.0 ? options.nominal : options.peak / 2.0;
+        const auto value = machine::peak_current_resistor(nominal, options.limit, options.peak);
+        fmt::print(
+            "RIP (peak current): {} (as printed {})\n", kilo_ohms(value.corrected), kilo_ohms(value.printed));
+        print_table(machine::peak_current_table(), options.peak, options.limit);
+    }
+    return 0;
+}
+
+int wiring(const Options& options) {
+    for (const machine::PmacPin& pin : machine::pmac_pins()) {
+        std::string numbers;
+        for (int motor = 1; motor <= 4; ++motor) {
+            const int number = pin.of_motor[static_cast<std::size_t>(motor - 1)];
+            if (options.motor == 0 || options.motor == motor) {
+                numbers += number > 0 ? fmt::format("{:>5}", number) : "    -";
+            }
+        }
+        fmt::print("{:<11}{}  {:<21}{}\n", pin.signal, numbers, name_of(pin.trust), pin.note);
+    }
+    fmt::print("\n");
+    for (const machine::PmacJumper& jumper : machine::pmac_jumpers()) {
+        fmt::print("{:<18}  {:<21}{}\n", jumper.jumper, name_of(jumper.trust), jumper.meaning);
+    }
+    return 0;
+}
+
+void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<Options>& options) {
+    CLI::App& command = *group.add_subcommand("amplifier", "Resistors of a Midi-Maestro amplifier");
+    const auto amperes = CLI::Range(0.1, 1000.0);
+    CLI::Option* speed = command.add_option("--max-rpm", options->max_rpm, "Greatest speed of the motor")
+                             ->check(CLI::Range(1.0, 1e5));
+    speed->needs(command.add_option("--tacho", options->tacho, "Constant of its tachometer, V per 1000 rpm")
+                     ->check(CLI::Range(1e-3, 1e3)));
+    CLI::Option* peak =
+        command.add_option("--peak", options->peak, "Peak current of the amplifier, A")->check(amperes);
+    command.add_option("--nominal", options->nominal, "Nominal current of the motor, A")
+        ->check(amperes)
+        ->needs(peak);
+    command.add_option("--limit", options->limit, "Peak current that the motor may have, A")
+        ->check(amperes)
+        ->needs(peak);
+    command.require_option(2, 5);
+    command.callback([&chosen, options] { chosen = [options] { return amplifier(*options); }; });
+}
+
+} // namespace
+
+void add_arm_service_commands(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& scale =
+        *group.add_subcommand("calibrate", "Counts a degree of each motor, from measured angles");
+    scale.add_option("FILE", options->file, "Lines of: motor counts angle")->required();
+    scale.add_flag("--json", options->json, "Print the answer as JSON");
+    scale.callback([&chosen, options] { chosen = [options] { return calibrate(*options); }; });
+    add_amplifier(group, chosen, options);
+    CLI::App& pins =
+        *group.add_subcommand("wiring", "Pins and jumpers of a PMAC-Lite, and what to check first");
+    pins.add_option("MOTOR", options->motor, "1 to 4; all if it is left out")->check(CLI::Range(1, 4));
+    pins.callback([&chosen, options] { chosen = [options] { return wiring(*options); }; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,24 @@
+// The blocks of a motion file as ways of the tool. Lengths mm, angles rad, in the base's frame.
+#pragma once
+
+#include "core/kinematics/arm_motion_file.h"
+#include "core/kinematics/arm_path.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace millwright::kinematics {
+
+/// F of blocks before the first that tells one, mm/s: the default of Saengsasri, Nittayachin 1996.
+inline constexpr double default_arm_feed = 10.0;
+
+/// One way a block, from where the joints `start` bring the tool on, to a billionth of a millimetre; blocks
+/// that do not move the tip have no length. Arcs lie in the plane of start, end and center, in the XY plane
+/// where those are on a line. A new tool axis is reached evenly along its block. Throws Error with file and
+/// line for arcs that are none.
+[[nodiscard]] std::vector<ArmWay> ways_of(const ArmModel& arm,
+                                          const std::vector<ArmBlock>& blocks,
+                                          const JointPositions& start,
+                                          const std::filesystem::path& file);
+
+} // namespace millwright::kinematics

@@ -1,0 +1,106 @@
+#include "core/motion/arm_motion.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::motion {
+
+using gcode::BlockKind;
+using kinematics::ArmJoint;
+using kinematics::ArmPathPoint;
+using kinematics::ArmTrouble;
+using kinematics::ArmWay;
+using kinematics::JointPositions;
+
+namespace {
+
+constexpr double rounding = 1e-9; // rad: joints that are the same
+
+void expect_inside(const kinematics::ArmModel& arm, const JointPositions& joints) {
+    expects(joints.size() == arm.joint_count() && joints.allFinite(), "a finite position for every joint");
+    const int n = arm.joint_outside(joints);
+    if (n < 0) {
+        return;
+    }
+    const ArmJoint& joint = arm.joint(n);
+    const bool turns = joint.kind == kinematics::JointKind::revolute;
+    const auto shown = [&](double value) { return turns ? to_degrees(value) : value; };
+    throw Error(fmt::format("joint {} would have to go to {:.3f} {}, its limits are {:.3f} and {:.3f}",
+                            joint.name,
+                            shown(joints[n]),
+                            turns ? "deg" : "mm",
+                            shown(joint.min),
+                            shown(joint.max)));
+}
+
+[[noreturn]] void
+refuse(const std::vector<ArmWay>& ways, const kinematics::ArmPath& path, const std::filesystem::path& file) {
+    const kinematics::ArmFinding& finding = path.findings.front();
+    const int line = ways[static_cast<std::size_t>(path.points[finding.first].way)].line;
+    throw Error(Diagnostic{.place = {.file = file, .line = line}, .message = finding.why, .hint = {}});
+}
+
+} // namespace
+
+ArmMotion::ArmMotion(const kinematics::ArmModel& arm, const JointPositions& start) : arm_(arm) {
+    expect_inside(arm, start);
+    program_.machine = arm.name();
+    program_.start = start;
+    for (const ArmJoint& joint : arm.description().joints) {
+        const bool turns = joint.kind == kinematics::JointKind::revolute;
+        program_.axes.push_back({static_cast<char>('1' + program_.axes.size()),
+                                 turns ? kinematics::AxisKind::rotary : kinematics::AxisKind::linear});
+    }
+}
+
+const JointPositions& ArmMotion::joints() const {
+    return program_.blocks.empty() ? program_.start : program_.blocks.back().target;
+}
+
+void ArmMotion::add(BlockKind kind, const JointPositions& target, double seconds, int line) {
+    gcode::Block block;
+    block.kind = kind;
+    block.target = target;
+    block.named = gcode::AxisSet::all(arm_.joint_count());
+    block.duration = seconds;
+    block.source_line = line;
+    block.path = gcode::PathControl{gcode::PathMode::continuous, 0.0};
+    program_.blocks.push_back(std::move(block));
+}
+
+void ArmMotion::go_to(const JointPositions& target) {
+    expect_inside(arm_, target);
+    add(BlockKind::rapid, target, 0.0, 0);
+}
+
+void ArmMotion::dwell(double seconds) {
+    expects(seconds >= 0.0 && std::isfinite(seconds), "a dwell takes a time");
+    add(BlockKind::dwell, joints(), seconds, 0);
+}
+
+void ArmMotion::follow(const std::vector<ArmWay>& ways,
+                       const kinematics::ArmPath& path,
+                       const std::filesystem::path& file) {
+    if (!path.whole()) {
+        refuse(ways, path, file);
+    }
+    for (std::size_t n = 0; n < path.points.size(); ++n) {
+        const ArmPathPoint& point = path.points[n];
+        const ArmWay& way = ways[static_cast<std::size_t>(point.way)];
+        const bool first = n == 0 || path.points[n - 1].way != point.way;
+        if (first) {
+            if (kinematics::joint_step(arm_, point.joints, joints()) > rounding) {
+                go_to(point.joints);
+            }
+            continue;
+        }
+        const double seconds = (point.share - path.points[n - 1].share) * way.duration;
+        add(seconds > 0.0 ? BlockKind::feed : BlockKind::rapid, point.joints, seconds, way.line);
+    }
+}
+
+} // namespace millwright::motion

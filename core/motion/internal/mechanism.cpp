@@ -1,0 +1,76 @@
+#include "core/motion/internal/mechanism.h"
+
+#include "core/kinematics/arm_forward.h"
+
+#include <utility>
+
+namespace millwright::motion::internal {
+
+using kinematics::AxisKind;
+using kinematics::AxisPositions;
+using kinematics::MachineAxis;
+
+namespace {
+
+std::vector<MachineAxis> axes_of(const kinematics::ArmModel& arm) {
+    std::vector<MachineAxis> axes;
+    for (const kinematics::ArmJoint& joint : arm.description().joints) {
+        MachineAxis axis;
+        axis.letter = static_cast<char>('1' + axes.size());
+        axis.kind = joint.kind == kinematics::JointKind::revolute ? AxisKind::rotary : AxisKind::linear;
+        axis.min = joint.min;
+        axis.max = joint.max;
+        axis.max_velocity = joint.max_velocity;
+        axis.max_acceleration = joint.max_acceleration;
+        axes.push_back(axis);
+    }
+    return axes;
+}
+
+} // namespace
+
+Mechanism::Mechanism(std::string name, std::vector<MachineAxis> axes)
+    : name_(std::move(name)), axes_(std::move(axes)) {
+    for (int n = 0; n < axis_count(); ++n) {
+        if (axis(n).kind == AxisKind::rotary) {
+            rotary_axes_.push_back(n);
+        }
+    }
+}
+
+MachineMechanism::MachineMechanism(const kinematics::MachineModel& machine)
+    : Mechanism(machine.name(), machine.axes()), machine_(machine) {}
+
+Vec3 MachineMechanism::tip(const AxisPositions& positions) const {
+    return kinematics::forward(machine_, positions).tip;
+}
+
+kinematics::Jacobian MachineMechanism::jacobian(const AxisPositions& positions) const {
+    return kinematics::jacobian(machine_, positions);
+}
+
+double MachineMechanism::sliding(const AxisPositions&, const AxisPositions& change) const {
+    Vec3 sum = Vec3::Zero();
+    for (const int n : machine_.linear_axes()) {
+        const MachineAxis& slide = machine_.axis(n);
+        sum += (slide.side == kinematics::AxisSide::head ? change[n] : -change[n]) * slide.direction;
+    }
+    return sum.norm();
+}
+
+ArmMechanism::ArmMechanism(const kinematics::ArmModel& arm)
+    : Mechanism(arm.name(), axes_of(arm)), arm_(arm) {}
+
+Vec3 ArmMechanism::tip(const AxisPositions& positions) const {
+    return kinematics::base_T_tool(arm_, positions).translation();
+}
+
+kinematics::Jacobian ArmMechanism::jacobian(const AxisPositions& positions) const {
+    return kinematics::arm_jacobian(arm_, positions);
+}
+
+double ArmMechanism::sliding(const AxisPositions& positions, const AxisPositions& change) const {
+    return (jacobian(positions).topRows<3>() * change).norm();
+}
+
+} // namespace millwright::motion::internal
