@@ -82,10 +82,10 @@ struct Work {
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const motion::Trajectory> trajectory; ///< planned from the machine's position
     std::shared_ptr<const gcode::Listing> listing;
-    /// A piecewise driver gives no block to the controller before it has asked here, from whatever thread and
-    /// with its locks held: whoever answers does not call the driver. Asked for the number of blocks that are
-    /// wanted, counted from the program's first, it returns how many may be sent; less than wanted: nothing
-    /// more is sent. Empty: all may.
+    /// A piecewise driver gives no block to the controller before it has asked here, from a thread of its own
+    /// and without its locks, so that no hold waits for the answer. Whoever answers does not call the driver.
+    /// Asked for the number of blocks that are wanted, counted from the program's first, it returns how many
+    /// may be sent; less than wanted: nothing more is sent. Empty: all may.
     std::function<int(int wanted)> ahead{};
 };
 

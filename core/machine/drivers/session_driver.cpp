@@ -1,11 +1,13 @@
 #include "core/machine/drivers/session_driver.h"
 
 #include "core/base/error.h"
+#include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/drivers/internal/console_tap.h"
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/links/link.h"
 
 #include <chrono>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -54,7 +56,28 @@ struct SessionDriver::Body {
         while (!stop.stop_requested()) {
             link->wait(tick);
             carry();
+            while (ask_ahead()) {
+            }
         }
+    }
+
+    /// Whether there may be more to ask.
+    bool ask_ahead() {
+        std::optional<internal::Ahead::Question> question;
+        {
+            const std::scoped_lock lock(mutex);
+            const internal::Ahead* const ahead = session->ahead();
+            question = ahead != nullptr ? ahead->question() : std::nullopt;
+        }
+        if (!question) {
+            return false;
+        }
+        const int allowed = question->ask(question->wanted); // may wait for a disk
+        const std::scoped_lock lock(mutex);
+        session->ahead()->answer(*question, allowed);
+        session->tick(clock.now());
+        send();
+        return allowed >= question->wanted;
     }
 
     void greet() {
@@ -66,6 +89,21 @@ struct SessionDriver::Body {
         }
         thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
         wait_until([](const ControllerSession& now) { return now.greeted(); });
+    }
+
+    /// Throws Error if it is somebody else, or moves for somebody else; then there is no link.
+    void meet() {
+        greet();
+        std::optional<Diagnostic> stranger;
+        {
+            const std::scoped_lock lock(mutex);
+            stranger = session->stranger();
+        }
+        if (stranger) {
+            shut();
+            stranger->message = link->name() + ": " + stranger->message;
+            throw Error(std::move(*stranger));
+        }
     }
 
     void shut() {
@@ -122,17 +160,7 @@ void SessionDriver::connect() {
     if (status().state != DriverState::disconnected) {
         return;
     }
-    body_->greet();
-    std::optional<Diagnostic> stranger;
-    {
-        const std::scoped_lock lock(body_->mutex);
-        stranger = body_->session->stranger();
-    }
-    if (stranger) {
-        body_->shut();
-        stranger->message = body_->link->name() + ": " + stranger->message;
-        throw Error(std::move(*stranger));
-    }
+    body_->meet();
 }
 
 void SessionDriver::hold() {
@@ -163,7 +191,7 @@ void SessionDriver::reset() {
     }
     if (lost) {
         body_->shut();
-        body_->greet();
+        body_->meet();
     }
     {
         const Turn turn(*this);

@@ -31,7 +31,7 @@ public:
     void resume() override;
     void stop() override;
     void emergency_stop() override;
-    /// Makes a lost link again.
+    /// Makes a lost link again; throws Error as connect() does, and is disconnected then.
     void reset() override;
     void trust_position() override;
     void close() noexcept override;

@@ -11,6 +11,8 @@
 
 namespace millwright::machine::internal {
 
+class Ahead;
+
 class ControllerSession {
 public:
     virtual ~ControllerSession() = default;
@@ -31,6 +33,9 @@ public:
     [[nodiscard]] virtual bool link_lost() const = 0;
     /// After the greeting: why this is no controller of the kind; nothing if it is one.
     [[nodiscard]] virtual std::optional<Diagnostic> stranger() const = 0;
+
+    /// What it wants to know before it sends more of a program; null: it is given programs whole.
+    [[nodiscard]] virtual Ahead* ahead() { return nullptr; }
 
     // What a person wants, as in Driver. Each throws Error with the reason if it cannot be done now; those of
     // Driver that do nothing in other states do nothing.

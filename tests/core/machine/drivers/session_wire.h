@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/machine/clock.h"
 #include "core/machine/driver_status.h"
+#include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/links/faults.h"
 
 #include <string>
@@ -33,6 +34,7 @@ public:
         }
         happen();
         session.tick(now);
+        ask_ahead();
         const std::string bytes = session.take_output();
         sent += bytes;
         if (!broken() && !deaf_) {
@@ -86,6 +88,20 @@ protected:
 
 private:
     [[nodiscard]] Emulated& emulated() { return *emulated_; }
+
+    /// As the driver's thread does.
+    void ask_ahead() {
+        machine::internal::Ahead* const ahead = session.ahead();
+        for (bool more = ahead != nullptr; more;) {
+            const auto question = ahead->question();
+            const int allowed = question ? question->ask(question->wanted) : 0;
+            more = question && allowed >= question->wanted;
+            if (question) {
+                ahead->answer(*question, allowed);
+                session.tick(now);
+            }
+        }
+    }
 
     /// Faults of the controller itself.
     void happen() {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::machine::grbl {
@@ -36,7 +37,8 @@ void Session::opened(double now) {
     *this = Session(settings_);
     doubt_ = std::move(doubt);
     stage_ = Stage::greeting;
-    last_heard_ = ending_since_ = last_tick_ = now;
+    last_heard_ = ending_since_ = now;
+    own_pause_.begin(now);
     next_poll_ = now;
 }
 
@@ -85,7 +87,7 @@ void Session::tick(double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    leave_out_own_pause(now);
+    last_heard_ = std::min(now, last_heard_ + own_pause_.taken(now));
     watch_silence(now);
     watch_ending(now);
     watch_hold(now);
@@ -95,16 +97,6 @@ void Session::tick(double now) {
     poll(now);
     pump();
     pump_jog();
-}
-
-/// Silence is that of the controller: while this program was kept from its work (a full disk cache, a
-/// computer that was put to sleep) it has asked nothing.
-void Session::leave_out_own_pause(double now) {
-    constexpr double pause = 0.25; // s, many times what lies between two ticks
-    const double gap = now - std::exchange(last_tick_, now);
-    if (gap > pause) {
-        last_heard_ = std::min(now, last_heard_ + gap);
-    }
 }
 
 void Session::step_overrides(double now) {
@@ -258,7 +250,7 @@ void Session::pump() {
         if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
             text.insert(0, fmt::format("N{}", line.block + 1));
         }
-        if (!window_.has_room_for(text.size()) || !may_send(line.block)) {
+        if (!window_.has_room_for(text.size()) || !ahead_.allows(line.block)) {
             return;
         }
         output_ += text;
@@ -266,13 +258,6 @@ void Session::pump() {
         ++next_line_;
         block_wait_ = single_block_ && at_ == Activity::program;
     }
-}
-
-bool Session::may_send(int block) {
-    if (block >= allowed_blocks_ && ahead_) {
-        allowed_blocks_ = std::max(allowed_blocks_, ahead_(block + 1));
-    }
-    return block < allowed_blocks_;
 }
 
 } // namespace millwright::machine::grbl

@@ -9,8 +9,10 @@
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 #include "core/machine/drivers/grbl/internal/proof.h"
 #include "core/machine/drivers/grbl/internal/window.h"
+#include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/jog_feed.h"
+#include "core/machine/drivers/internal/own_pause.h"
 
 #include <functional>
 #include <map>
@@ -75,6 +77,7 @@ public:
     /// The number of the answer that DriverStatus will show.
     int command(ProgramLines lines, double now);
     void set_single_block(bool on);
+    [[nodiscard]] internal::Ahead* ahead() override { return &ahead_; }
     void set_overrides(const Overrides& wanted) override;
 
 private:
@@ -108,10 +111,8 @@ private:
     void begin(ProgramLines program, Activity activity, double now);
     void finish(double now);
     void pump();
-    [[nodiscard]] bool may_send(int block);
     void pump_jog();
     void cancel_jog(double now);
-    void leave_out_own_pause(double now);
     void step_overrides(double now);
     void poll(double now);
     void watch_silence(double now);
@@ -164,8 +165,7 @@ private:
     bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
     Window window_;
     int next_line_ = 0;
-    std::function<int(int)> ahead_;      ///< asked before more blocks are sent than
-    int allowed_blocks_ = 0;             ///< these
+    internal::Ahead ahead_;
     std::vector<std::string> questions_; ///< to be asked, the next comes last
     std::string message_;
 
@@ -188,8 +188,8 @@ private:
     CommandAnswer answer_;
 
     std::optional<StatusMessage> report_; ///< the last
-    double last_heard_ = 0.0, last_tick_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0,
-           last_brake_ = 0.0;
+    internal::OwnPause own_pause_;
+    double last_heard_ = 0.0, last_answer_ = 0.0, next_poll_ = 0.0, last_reset_ = 0.0, last_brake_ = 0.0;
     OverrideSteps overrides_;
 };
 

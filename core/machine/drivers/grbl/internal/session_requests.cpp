@@ -19,16 +19,14 @@ void Session::require_rest(std::string_view what) const {
 
 void Session::start(ProgramLines program, double now, std::function<int(int)> ahead) {
     require_rest("program");
-    allowed_blocks_ = ahead ? 0 : program.blocks;
-    ahead_ = std::move(ahead);
+    ahead_.begin(std::move(ahead), program.blocks);
     begin(std::move(program), Activity::program, now);
 }
 
 int Session::command(ProgramLines lines, double now) {
     require_rest("command");
     answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
-    allowed_blocks_ = lines.blocks;
-    ahead_ = nullptr;
+    ahead_.begin(nullptr, lines.blocks);
     begin(std::move(lines), Activity::command, now);
     return answer_.number;
 }
@@ -122,9 +120,14 @@ void Session::emergency_stop(double now) {
 }
 
 void Session::reset(double now) {
-    if (stage_ == Stage::alarm && !link_lost_) {
-        begin_asking(now, true);
+    if (stage_ != Stage::alarm || link_lost_) {
+        return;
     }
+    if (report_ && report_->moving()) { // its reset would cut the motion off
+        throw Error(
+            "the machine is moving for somebody else", {}, "wait for it, or stop it where it was begun");
+    }
+    begin_asking(now, true);
 }
 
 void Session::home(double now) {

@@ -3,6 +3,7 @@
 
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/jog_feed.h"
+#include "core/machine/drivers/internal/own_pause.h"
 #include "core/machine/drivers/linuxcnc/internal/program_file.h"
 #include "core/machine/drivers/linuxcnc/internal/replies.h"
 
@@ -115,6 +116,7 @@ private:
     };
     std::deque<Request> outstanding_;           ///< sent and not answered; answers come in order
     std::map<std::string, std::string> values_; ///< the last of each get
+    internal::OwnPause own_pause_;
     double next_round_ = 0.0, last_heard_ = 0.0, since_ = 0.0, last_round_ = 0.0;
     bool in_round_ = false;
     std::string error_; ///< of this round; empty: none

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -117,6 +118,12 @@ void GuardedLine::read_answer() {
             reply_.lines.push_back(input_.substr(0, length));
             input_.erase(0, length + 2);
         }
+    }
+}
+
+void GuardedLine::leave_out(double seconds, double now) {
+    for (double* const time : {&begun_, &since_, &last_byte_}) {
+        *time = std::min(now, *time + seconds);
     }
 }
 

@@ -37,6 +37,8 @@ public:
     [[nodiscard]] Reply poll(double now);
     [[nodiscard]] std::string take_output();
     void forget();
+    /// Waits so much longer, s: nobody could be asked in that time.
+    void leave_out(double seconds, double now);
 
 private:
     enum class Step { idle, summing, clearing, waiting, refusing, ended };

@@ -93,6 +93,7 @@ void PmacSession::resume(double /*now*/) {
     if (stage_ == Stage::running && held_) {
         ask(fmt::format("&{}R", settings_.system));
         held_ = false;
+        message_.clear();
     }
 }
 

@@ -35,6 +35,7 @@ void PmacSession::opened(double now) {
     talk_.forget();
     greet_step_ = 0;
     greet_at_ = now;
+    own_pause_.begin(now);
     buffer_open_ = polled_ = was_home_ = armed_ = false;
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
@@ -94,6 +95,7 @@ void PmacSession::tick(double now) {
     if (stage_ == Stage::greeting) {
         greet(now);
     }
+    talk_.leave_out(own_pause_.taken(now), now);
     if (const GuardedLine::Reply reply = talk_.poll(now); reply.outcome != GuardedLine::Outcome::none) {
         handle(reply, now);
     }

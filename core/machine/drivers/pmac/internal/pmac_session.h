@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/machine/drivers/internal/controller_session.h"
+#include "core/machine/drivers/internal/own_pause.h"
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
 
@@ -127,6 +128,7 @@ private:
 
     std::deque<Request> queue_;
     std::optional<Request> sent_;
+    internal::OwnPause own_pause_;
     double next_poll_ = 0.0, greet_at_ = 0.0;
     std::size_t greet_step_ = 0;
     bool buffer_open_ = false; ///< nothing may be asked meanwhile

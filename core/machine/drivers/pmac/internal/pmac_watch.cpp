@@ -198,7 +198,8 @@ void PmacSession::watch_program(bool settled) {
     if (marks_tell_) {
         executed_ = std::clamp(static_cast<int>(std::min(mark_, 1e6)) - ahead, executed_, program_lines_);
     }
-    if ((system_2_ & held_bit) != 0 && !held_) {
+    const bool all_sent = queue_.empty(); // else the report may be older than our resume
+    if ((system_2_ & held_bit) != 0 && !held_ && all_sent) {
         held_ = true;
         message_ = "held, and nobody here asked for it";
     }

@@ -127,8 +127,8 @@ void RecordSession::start(const Work& work, double now) {
     }
     program_ = work.program;
     listing_ = work.listing;
-    ahead_ = work.ahead;
-    allowed_ = ahead_ ? 0 : program_->block_count();
+    ahead_.begin(work.ahead, program_->block_count());
+    own_pause_.begin(now);
     status_.block = 0;
     status_.executed_blocks = status_.sent_blocks = 0;
     status_.fraction = 0.0;
@@ -190,13 +190,14 @@ bool RecordSession::may_begin_block() {
         status_.executed_blocks >= program_->block_count()) {
         return false;
     }
-    if (status_.executed_blocks >= allowed_ && ahead_) {
-        allowed_ = std::max(allowed_, ahead_(status_.executed_blocks + 1));
-    }
-    return status_.executed_blocks < allowed_;
+    return ahead_.allows(status_.executed_blocks);
 }
 
 void RecordSession::tick(double now) {
+    const double pause = own_pause_.taken(now);
+    if (under_way_ && under_way_->record && awaits_answers()) {
+        under_way_->over += pause;
+    }
     look_at_clock(now);
     while (may_begin_block()) {
         begin_block(now);

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "core/machine/drivers/answer_lines.h"
+#include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/drivers/internal/controller_session.h"
+#include "core/machine/drivers/internal/own_pause.h"
 #include "core/machine/drivers/records/records_driver.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ public:
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
     [[nodiscard]] std::string take_output() override;
+    [[nodiscard]] internal::Ahead* ahead() override { return &ahead_; }
 
     [[nodiscard]] DriverStatus status() const override { return status_; }
     [[nodiscard]] bool greeted() const override { return true; }
@@ -74,8 +76,8 @@ private:
     RecordPath path_;
     std::shared_ptr<const gcode::Program> program_;
     std::shared_ptr<const gcode::Listing> listing_;
-    std::function<int(int)> ahead_; ///< as in Work
-    int allowed_ = 0;               ///< blocks that may be begun
+    internal::Ahead ahead_;
+    internal::OwnPause own_pause_;
     bool optional_stop_ = false;
     std::optional<UnderWay> under_way_;
     bool rests_ = false; ///< held, and what was under way is over

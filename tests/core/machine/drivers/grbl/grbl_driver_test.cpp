@@ -14,6 +14,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 namespace millwright::machine {
 namespace {
 
@@ -34,7 +36,10 @@ Work work_of(const Job& job) {
 /// An emulated controller on a pseudo-terminal or TCP port, and a driver at the other end of a real link.
 class Bench {
 public:
-    explicit Bench(const FaultSpec& faults = {}, bool tcp = false, double speed = 20.0) {
+    explicit Bench(const FaultSpec& faults = {},
+                   bool tcp = false,
+                   double speed = 20.0,
+                   const GrblOptions& options = {}) {
         std::unique_ptr<Link> far_end;
         std::unique_ptr<Link> near_end;
         if (tcp) {
@@ -51,7 +56,8 @@ public:
         std::vector<std::unique_ptr<Link>> links;
         links.push_back(std::move(far_end));
         server.emplace(std::move(links), clock, GrblEmulatorOptions{.line_numbers = true}, speed);
-        driver.emplace(std::make_unique<FaultLink>(std::move(near_end), faults, WireEnd::host, clock), clock);
+        driver.emplace(
+            std::make_unique<FaultLink>(std::move(near_end), faults, WireEnd::host, clock), clock, options);
     }
 
     SteadyClock clock;
@@ -148,6 +154,47 @@ TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
     bench.driver->reset();
     bench.wait_for(DriverState::idle);
     EXPECT_EQ(bench.truth().lines.size(), lines);
+}
+
+TEST(GrblDriver, LeavesAMachineAloneThatStillMovesWhenTheLinkIsMadeAgain) {
+    Bench bench({.disconnect = 6000, .toward_controller = false}, false, 1.0, {.poll_interval = 0.01});
+    bench.driver->connect();
+    bench.driver->start(work_of(text_job("G21 G90 G94\nG1 F60 X900\nX0\nM30\n", "slow.ngc"))); // half an hour
+    bench.wait_for(DriverState::alarm);
+    ASSERT_TRUE(bench.driver->status().link_lost);
+    ASSERT_TRUE(bench.moving());
+    try {
+        bench.driver->reset();
+        FAIL() << "it reset a machine that moves";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("moving for somebody else"));
+    }
+    EXPECT_TRUE(bench.moving());
+    EXPECT_EQ(bench.driver->status().state, DriverState::disconnected);
+}
+
+TEST(GrblDriver, HoldsAtOnceWhileTheLogWaitsForItsDisk) {
+    Bench bench;
+    bench.driver->connect();
+    std::atomic<bool> waits = false;
+    std::atomic<bool> held = false;
+    Work work = work_of(text_job(zigzag(2000), "zigzag.ngc"));
+    work.ahead = [&](int wanted) {
+        constexpr int free_blocks = 60;
+        if (wanted > free_blocks) {
+            waits = true;
+            test::wait_until([&] { return held.load(); });
+            waits = false;
+        }
+        return wanted;
+    };
+    bench.driver->start(std::move(work));
+    test::wait_until([&] { return waits.load(); });
+    bench.driver->hold();
+    EXPECT_TRUE(waits) << "the hold waited for the disk";
+    held = true;
+    bench.wait_for(DriverState::holding);
+    bench.driver->emergency_stop();
 }
 
 TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {

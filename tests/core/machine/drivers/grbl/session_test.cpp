@@ -382,6 +382,18 @@ TEST(GrblSession, NoticesThatTheControllerWasReset) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("was reset"));
 }
 
+TEST(GrblSession, IsNotResetWhileTheMachineMovesForSomebodyElse) {
+    GrblWire wire;
+    wire.grbl.raise_alarm();
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 5.0));
+    wire.grbl.receive("\x18$X\nG1 X100 F60\n");
+    wire.run_until([] { return false; }, 2.0);
+    ASSERT_TRUE(wire.grbl.moving());
+    EXPECT_THROW(wire.session.reset(wire.now), Error);
+    wire.run_until([] { return false; }, 1.0);
+    EXPECT_TRUE(wire.grbl.moving());
+}
+
 TEST(GrblSession, NoticesALostLink) {
     GrblWire wire({.disconnect = 800});
     wire.start(zigzag(30));

@@ -115,6 +115,33 @@ TEST(PmacSession, HoldsResumesAndStops) {
     EXPECT_EQ(wire.card.command(1), stopped);
 }
 
+TEST(PmacSession, DoesNotTakeItsOwnHoldForSomebodyElsesWhenItResumes) {
+    for (int n = 0; n < 20; ++n) {
+        PmacWire wire;
+        wire.session.start(program_one, wire.now);
+        wire.pass(8.0);
+        wire.session.hold(wire.now);
+        wire.pass(2.0 + 0.003 * n); // whatever is being asked meanwhile
+        wire.session.resume(wire.now);
+        for (int step = 0; step < 200; ++step) {
+            wire.step();
+            ASSERT_EQ(wire.state(), DriverState::running) << n;
+            ASSERT_EQ(wire.session.status().message, "") << n;
+        }
+    }
+}
+
+TEST(PmacSession, DoesNotTakeItsOwnPauseForTheCardsSilence) {
+    for (int n = 0; n < 20; ++n) {
+        PmacWire wire;
+        wire.pass(0.5 + 0.003 * n);
+        wire.now += 60.0; // what has come meanwhile is read a moment later
+        wire.session.tick(wire.now);
+        wire.pass(0.5);
+        EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    }
+}
+
 TEST(PmacJogF3, IsNoFasterThanItsLimitWhateverIx22Says) {
     PmacWire wire;
     EXPECT_EQ(wire.card.variable('I', 322), 32.0); // 213 degrees a second
