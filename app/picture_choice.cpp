@@ -16,21 +16,6 @@ namespace {
 
 const std::map<std::string, plot::GrayRule> gray_rules = {{"mean", plot::GrayRule::mean},
                                                           {"luminance", plot::GrayRule::luminance}};
-constexpr double mm_per_inch = 25.4;
-constexpr double thesis_pixel = 0.26;
-
-double pitch_of(const PictureChoice& choice, const plot::Picture& picture) {
-    if (choice.width_mm) {
-        return *choice.width_mm / picture.width;
-    }
-    if (choice.dots_per_inch) {
-        return mm_per_inch / *choice.dots_per_inch;
-    }
-    if (choice.pixel_mm) {
-        return *choice.pixel_mm;
-    }
-    return picture.pixels_per_mm ? 1.0 / *picture.pixels_per_mm : thesis_pixel;
-}
 
 } // namespace
 
@@ -38,12 +23,14 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
     constexpr double largest = 1e5;
     const auto sizes = CLI::Range(1e-4, largest);
     command.add_option("FILE", choice.file, "PNG, JPEG or BMP picture")->required();
-    auto* width = command.add_option("--width", choice.width_mm, "Of the picture, mm")->check(sizes);
-    auto* dots = command.add_option("--dpi", choice.dots_per_inch, "Pixels an inch")->check(sizes);
-    auto* pixel = command.add_option("--pixel", choice.pixel_mm, "Width of a pixel, mm")->check(sizes);
+    auto* width = command.add_option("--width", choice.size.width, "Of the picture, mm")->check(sizes);
+    auto* dots = command.add_option("--dpi", choice.size.dots_per_inch, "Pixels an inch")->check(sizes);
+    auto* pixel = command.add_option("--pixel", choice.size.pixel, "Width of a pixel, mm")->check(sizes);
     width->excludes(dots)->excludes(pixel);
     dots->excludes(pixel);
-    command.add_option("--region", choice.region, "Pixels from the top left: LEFT,TOP,WIDTH,HEIGHT")
+    command
+        .add_option(
+            "--region", choice.region, "Pixels from the top left: LEFT,TOP,WIDTH,HEIGHT; 0: up to the edge")
         ->delimiter(',')
         ->expected(4);
     command
@@ -62,7 +49,7 @@ SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress) 
     for (const Diagnostic& notice : read.notices) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
-    const double pitch = pitch_of(choice, read.picture);
+    const double pitch = plot::pixel_pitch(choice.size, read.picture);
     fmt::print("{} x {} pixels of {:.4g} mm: {:.2f} x {:.2f} mm\n",
                read.picture.width,
                read.picture.height,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/plot/picture/picture.h"
+#include "core/plot/picture/picture_size.h"
 
-#include <optional>
 #include <string>
 
 namespace CLI {
@@ -16,9 +16,7 @@ struct PictureChoice {
     std::string file;
     plot::PictureSettings reading;
     std::vector<int> region; ///< left, top, width, height; empty: all
-    std::optional<double> width_mm;
-    std::optional<double> dots_per_inch;
-    std::optional<double> pixel_mm;
+    plot::PictureSize size;
 };
 
 /// Adds FILE and how it is read and sized to `command`.
@@ -29,8 +27,7 @@ struct SizedPicture {
     double pitch = 0.0; ///< of its pixels, mm
 };
 
-/// Reads it and says on standard error what a person should know. A size that is not given is the file's own,
-/// else 0.26 mm a pixel as in the KMITL thesis of 2006. Throws Error.
+/// Reads it and says on standard error what a person should know. Throws Error.
 [[nodiscard]] SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress);
 
 } // namespace millwright::app

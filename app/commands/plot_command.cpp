@@ -9,19 +9,25 @@
 #include "core/plot/decode.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/point_file.h"
+#include "core/plot/stroke_svg.h"
 #include "core/plot/work_time.h"
+#include "core/project/plot_choices.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace millwright::app {
 
@@ -39,17 +45,50 @@ const std::map<std::string, SampleRounding> roundings = {{"down", SampleRounding
 const std::map<std::string, DecodeMode> modes = {{"segments", DecodeMode::segments},
                                                  {"path", DecodeMode::path}};
 
+/// The choices of the window, under the same names.
+template <class Value> std::map<std::string, Value> by_id(std::span<const project::Choice<Value>> choices) {
+    std::map<std::string, Value> found;
+    for (const project::Choice<Value>& choice : choices) {
+        found.emplace(choice.id, choice.value);
+    }
+    return found;
+}
+
 struct Options {
     std::string file;
     std::string out;
     std::string unit = "nominal";
     bool strict = false;
     bool json = false;
-    std::optional<double> arc_tolerance;
+    bool solid = false;
+    bool no_air = false;
+    plot::ReaderSettings reading;
     plot::DecodeSettings decode;
     int decimals = 2;
     StrokeCutting cutting;
 };
+
+/// A length in mm, or one along x and one along y with a comma between.
+std::optional<plot::PlotterUnit> lengths_of(std::string_view text) {
+    std::array<double, 2> lengths{};
+    std::size_t count = 0;
+    while (count < lengths.size()) {
+        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), lengths[count]);
+        if (fault != std::errc() || !(lengths[count] > 0.0 && std::isfinite(lengths[count]))) {
+            return std::nullopt;
+        }
+        ++count;
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+        if (text.empty()) {
+            return plot::PlotterUnit{.x = lengths[0], .y = lengths[count - 1]};
+        }
+        if (text.front() != ',') {
+            return std::nullopt;
+        }
+        text.remove_prefix(1);
+    }
+    return std::nullopt;
+}
 
 plot::PlotterUnit unit_of(const std::string& text) {
     if (text == "nominal") {
@@ -58,19 +97,18 @@ plot::PlotterUnit unit_of(const std::string& text) {
     if (text == "table") {
         return plot::table_unit;
     }
-    double unit = 0.0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), unit);
-    if (fault != std::errc() || end != text.data() + text.size() || !(unit > 0.0 && std::isfinite(unit))) {
-        throw Error(fmt::format("a plotter unit of '{}'; it has to be nominal, table, or mm above 0", text));
+    if (const auto unit = lengths_of(text)) {
+        return *unit;
     }
-    return {.x = unit, .y = unit};
+    throw Error(fmt::format(
+        "a plotter unit of '{}'; it has to be nominal, table, mm above 0, or two of them as X,Y", text));
 }
 
 Plot read(const Options& options) {
-    plot::ReaderSettings settings;
+    plot::ReaderSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
-    settings.arc_tolerance = options.arc_tolerance;
+    settings.dashes = !options.solid;
     return plot::read_hpgl_file(options.file, settings);
 }
 
@@ -165,6 +203,15 @@ int decode(const Options& options) {
     return 0;
 }
 
+int view(const Options& options) {
+    const Plot plot = read_to_use(options);
+    write_file(
+        options.out,
+        plot::svg_text(plot.strokes, options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown));
+    fmt::print("{} strokes of {} pens\n", plot.strokes.size(), plot::levels_for(plot.strokes).size());
+    return 0;
+}
+
 int toolpath(const Options& options) {
     cut_strokes(read_to_use(options).strokes,
                 options.cutting,
@@ -177,9 +224,21 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("FILE", options->file, "HPGL plot file")->required();
     command
-        .add_option("--unit", options->unit, "Plotter unit: nominal (0.025 mm), table (0.02488 mm), or mm")
+        .add_option("--unit",
+                    options->unit,
+                    "Plotter unit: nominal (0.025 mm), table (0.02488 mm), mm, or mm of each axis as X,Y")
         ->capture_default_str();
-    command.add_option("--arc-tolerance", options->arc_tolerance, "Finer arcs: within so many mm");
+    command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm");
+    command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
+        ->transform(CLI::CheckedTransformer(by_id(project::fill_modes())))
+        ->default_str("hatched");
+    command.add_flag("--solid", options->solid, "Dashed lines are drawn solid");
+    command
+        .add_option("--line-ends",
+                    options->reading.line_ends,
+                    "In numbers: automatic, join (listings wrapped anywhere) or separate")
+        ->transform(CLI::CheckedTransformer(by_id(project::line_ends())))
+        ->default_str("automatic");
     command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
     return command;
 }
@@ -215,6 +274,14 @@ void add_info(CLI::App& group, const std::shared_ptr<Options>& options, Command&
     command.callback([&chosen, options] { chosen = [options] { return info(*options); }; });
 }
 
+void add_view(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+    CLI::App& command =
+        add_reader(group, "view", "Draw it as a picture, by the colours of its pens", options);
+    command.add_option("--out", options->out, "SVG file")->required();
+    command.add_flag("--no-air", options->no_air, "Without the travel with the pen up");
+    command.callback([&chosen, options] { chosen = [options] { return view(*options); }; });
+}
+
 void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
     command.add_option("--out", options->cutting.cutting.out, "G-code file")->required();
@@ -231,6 +298,7 @@ void add_plot_command(CLI::App& app, Command& chosen) {
     add_decode(group, options, chosen);
     add_info(group, options, chosen);
     add_toolpath(group, options, chosen);
+    add_view(group, options, chosen);
     add_plot_play(group, chosen);
 }
 

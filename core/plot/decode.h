@@ -26,11 +26,12 @@ enum class DecodeMode {
 };
 
 struct DecodeSettings {
-    double velocity = 10.0;                ///< along the path with the pen down, > 0
-    double period = 0.01;                  ///< between points, > 0
-    std::optional<double> travel_velocity; ///< with the pen up; not given: as with the pen down
-    std::optional<double> plunge_velocity; ///< up and down; not given: as with the pen down
-    double pen_up_z = 0.0;                 ///< the thesis has 0 for both
+    double velocity = 10.0; ///< along the path with the pen down, > 0
+    double period = 0.01;   ///< between points, > 0
+    std::optional<double> travel_velocity =
+        std::nullopt; ///< with the pen up; not given: as with the pen down
+    std::optional<double> plunge_velocity = std::nullopt; ///< up and down; not given: as with the pen down
+    double pen_up_z = 0.0;                                ///< the thesis has 0 for both
     double pen_down_z = 0.0;
     DecodeMode mode = DecodeMode::segments;
     SampleRounding rounding = SampleRounding::nearest; ///< of segments
@@ -40,6 +41,8 @@ struct DecodeSettings {
     std::optional<double> jerk = std::nullopt; ///< given too: stands at corners; mm/s^3 along the path
     std::optional<Vec2> end = std::nullopt;    ///< where to go with the pen up behind the last stroke
     std::int64_t most_points = 50'000'000;
+
+    friend bool operator==(const DecodeSettings&, const DecodeSettings&) = default;
 };
 
 /// The points from `start` (pen up) on, one a period. The end of each segment (mode segments) or stroke (mode

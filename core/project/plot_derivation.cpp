@@ -19,9 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double thesis_pixel = 0.26; // mm: KMITL thesis of 2006
-constexpr double chord_tolerance = 0.005;
-constexpr double light_half = 0.3; // mm that halve the light: docs/reference/picture.md
 constexpr int look_squares = 160;
 
 } // namespace
@@ -33,16 +30,14 @@ void PlotDerivation::make_path() {
     } else if (result_.picture) {
         cut_picture();
     } else {
-        plot::ReaderSettings reading;
-        reading.unit = {settings_.plotter_unit, settings_.plotter_unit};
-        const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
+        const plot::Plot read = plot::read_hpgl_file(result_.input.file, settings_.hpgl);
         result_.notices = plot::notices(read, result_.input.file);
         cut_strokes(read.strokes);
     }
     if (result_.path->empty()) {
         throw Error("there is nothing to cut", result_.input.file);
     }
-    if (settings_.plate > 0.0) {
+    if (settings_.plate > 0.0 && !settings_.through) {
         plot::expect_within_plate(*result_.path, settings_.plate);
     }
 }
@@ -60,8 +55,9 @@ void PlotDerivation::make_look() {
     auto look = std::make_shared<plot::HeightField>(
         plot::finished(*result_.path, tip, look_squares, progress_.part(0.5, 0.7)));
     constexpr double spare = 0.5;
-    result_.light =
-        plot::against_light(*look, spare - static_cast<double>(std::ranges::min(look->z)), light_half);
+    const double plate =
+        settings_.plate > 0.0 ? settings_.plate : spare - static_cast<double>(std::ranges::min(look->z));
+    result_.light = plot::against_light(*look, plate, settings_.half_light);
     result_.look = std::move(look);
 }
 
@@ -73,26 +69,22 @@ void PlotDerivation::make_program(const fs::path& folder) {
 }
 
 void PlotDerivation::cut_picture() {
-    plot::PictureSettings reading;
-    reading.gray = settings_.gray;
-    reading.invert = settings_.invert;
-    plot::ReadPicture read = plot::read_picture_file(result_.input.file, reading, progress_.part(0.0, 0.2));
+    plot::ReadPicture read =
+        plot::read_picture_file(result_.input.file, settings_.picture, progress_.part(0.0, 0.2));
     result_.notices = std::move(read.notices);
     const plot::Picture& picture = read.picture;
-    double pitch = picture.pixels_per_mm ? 1.0 / *picture.pixels_per_mm : thesis_pixel;
-    if (settings_.picture_width > 0.0) {
-        pitch = settings_.picture_width / picture.width;
-    }
+    const double pitch = plot::pixel_pitch(settings_.size, picture);
     switch (settings_.use) {
     case PictureUse::relief:
         return cut_relief(picture, pitch);
     case PictureUse::outlines:
-        return cut_strokes(plot::strokes_of(
-            plot::trace(picture, {.threshold = settings_.threshold}), pitch, chord_tolerance));
+        return cut_strokes(
+            plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords));
     case PictureUse::halftone:
         return use(plot::halftone(picture,
                                   pitch,
                                   {.pitch = settings_.dot_pitch,
+                                   .angle = settings_.dot_angle,
                                    .tip = settings_.tip,
                                    .plunging = settings_.level.plunging,
                                    .safe_height = settings_.safe_height}));
@@ -101,22 +93,26 @@ void PlotDerivation::cut_picture() {
     }
     plot::Level level = settings_.level;
     level.depth = settings_.depth;
-    use(plot::cut_path(plot::dithered(picture, pitch, {.pitch = settings_.dot_pitch}), cut_of({level})));
+    use(plot::cut_path(
+        plot::dithered(picture, pitch, {.pitch = settings_.dot_pitch, .join = settings_.join_dots}),
+        cut_of({level})));
 }
 
 void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     plot::ReliefPlan plan;
     plan.relief.tip = settings_.tip;
     plan.relief.step_over = settings_.step_over;
-    constexpr double merge = 0.005; // mm: as the command line has it
-    plan.relief.merge_tolerance = merge;
+    plan.relief.merge_tolerance = settings_.merge;
     if (settings_.depth_per_pass) {
-        plan.relief.roughing = plot::Roughing{.depth_per_pass = *settings_.depth_per_pass};
+        plan.relief.roughing =
+            plot::Roughing{*settings_.depth_per_pass, settings_.allowance, settings_.rough_step_over};
     }
     plan.relief.cutting = settings_.level.cutting;
     plan.relief.plunging = settings_.level.plunging;
     plan.relief.safe_height = settings_.safe_height;
     plan.plate = settings_.frame;
+    plan.frame_margin = settings_.frame_margin;
+    plan.tabs = settings_.frame_tabs;
     use(plot::relief_path(
         plot::height_field(picture, pitch, settings_.depth), plan, progress_.part(0.2, 0.5)));
 }

@@ -1,7 +1,7 @@
 #include "core/project/plot_input.h"
 
 #include "core/base/units.h"
-#include "core/project/plot_settings.h"
+#include "core/project/level_settings.h"
 
 #include <algorithm>
 #include <array>

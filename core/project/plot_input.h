@@ -3,9 +3,14 @@
 #pragma once
 
 #include "core/plot/cut_path.h"
+#include "core/plot/hpgl/settings.h"
 #include "core/plot/material_table.h"
+#include "core/plot/picture/engraving.h"
 #include "core/plot/picture/picture.h"
+#include "core/plot/picture/picture_size.h"
+#include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/tool_tip.h"
+#include "core/plot/picture/trace.h"
 #include "core/plot/stroke_plan.h"
 
 #include <cstddef>
@@ -20,24 +25,33 @@ namespace millwright::project {
 enum class PictureUse { relief, outlines, halftone, dots };
 
 struct PlotSettings {
-    double plotter_unit = 0.025; ///< of HPGL
+    plot::ReaderSettings hpgl = {};
     PictureUse use = PictureUse::relief;
-    double picture_width = 0.0; ///< 0: as the file says, else 0.26 mm a pixel
-    plot::GrayRule gray = plot::GrayRule::mean;
-    bool invert = false;
-    double depth = 1.0;                   ///< of white, or of engraved dots
-    double dot_pitch = 1.0;               ///< of halftone and dots
-    double threshold = 0.5;               ///< of outlines
+    plot::PictureSettings picture = {};
+    plot::PictureSize size = {};
+    double depth = 1.0;                                ///< of white, or of engraved dots
+    double dot_pitch = 1.0;                            ///< of halftone and dots
+    double dot_angle = plot::HalftoneSettings{}.angle; ///< of a halftone's rows to x
+    bool join_dots = false;                            ///< dots that are neighbours become one cut
+    plot::TraceSettings tracing = {};                  ///< of outlines
+    double chords = 0.005;                             ///< how near to traced curves
     plot::ToolTip tip = {};               ///< of reliefs, halftone and dots; strokes are cut by an end mill
     std::optional<double> step_over = {}; ///< between rows of a relief; not given: a tenth of the tool
-    std::optional<double> depth_per_pass = {}; ///< roughing of a relief; not given: none
-    std::optional<double> frame = {};          ///< the relief is cut out of a plate so thick
+    double merge = 0.005;                 ///< moves of a relief are joined that stay so near above it
+    std::optional<double> depth_per_pass = {};     ///< roughing of a relief; not given: none
+    double allowance = plot::Roughing{}.allowance; ///< that roughing leaves
+    std::optional<double> rough_step_over = {};    ///< between its rows; not given: half of the tool
+    std::optional<double> frame = {};              ///< the relief is cut out of a plate so thick
+    double frame_margin = plot::ReliefPlan{}.frame_margin;
+    plot::Tabs frame_tabs = plot::ReliefPlan{}.tabs;
     plot::StrokePlan strokes = {};
     /// What pens have that are not in `levels`; feed and plunge of pictures, too.
     plot::Level level = {.cutting = 8.0, .plunging = 2.0};
     std::vector<plot::Level> levels = {}; ///< a pen each or several times
     double safe_height = 5.0;
-    double plate = 0.0; ///< thickness that the path must not go through; 0: not known
+    double plate = 0.0;      ///< its thickness; 0: not known
+    bool through = false;    ///< the path may go deeper than the plate
+    double half_light = 0.3; ///< of the plate lets half of the light through; a guess for black plastic
     double spindle_rpm = 10'000.0;
     Vec2 origin = Vec2::Zero(); ///< where that of the drawing lies on the machine
     std::string machine = "forming-table";

@@ -1,6 +1,8 @@
 #include "core/project/internal/plot_json.h"
 
 #include "core/project/internal/setting_json.h"
+#include "core/project/level_settings.h"
+#include "core/project/plot_choices.h"
 #include "core/project/plot_settings.h"
 
 namespace millwright::project {
@@ -35,6 +37,22 @@ std::vector<plot::Level> levels_of(const JsonValue& value) {
     return levels;
 }
 
+void read_hpgl(const JsonValue& from, plot::ReaderSettings& to) {
+    read_choice(from, "fill", fill_modes(), to.fill);
+    read_choice(from, "line_ends", line_ends(), to.line_ends);
+    read_flag(from, "dashes", to.dashes);
+    bool strict = to.strictness == plot::Strictness::strict;
+    read_flag(from, "strict", strict);
+    to.strictness = strict ? plot::Strictness::strict : plot::Strictness::tolerant;
+}
+
+void add_hpgl(Json& json, const plot::ReaderSettings& hpgl) {
+    json["fill"] = row_of(fill_modes(), hpgl.fill).id;
+    json["line_ends"] = row_of(line_ends(), hpgl.line_ends).id;
+    json["dashes"] = hpgl.dashes;
+    json["strict"] = hpgl.strictness == plot::Strictness::strict;
+}
+
 void read_name(const JsonValue& from, std::string_view key, std::string& to) {
     if (const auto value = from.find(key)) {
         to = value->text();
@@ -47,30 +65,22 @@ void read_name(const JsonValue& from, std::string_view key, std::string& to) {
 } // namespace
 
 PlotInput plot_of(const JsonValue& value) {
-    expect_fields<PlotSettings>(value,
-                                plot_numbers(),
-                                {"file",
-                                 "use",
-                                 "gray",
-                                 "invert",
-                                 "tip",
-                                 "side",
-                                 "corners",
-                                 "hatch_cross",
-                                 "order",
-                                 "link_inside",
-                                 "usual_level",
-                                 "levels",
-                                 "machine",
-                                 "post"});
+    expect_fields<PlotSettings>(
+        value, plot_numbers(), {"file",    "fill",        "line_ends", "dashes",      "strict",      "use",
+                                "gray",    "invert",      "turns",     "join_dots",   "tip",         "side",
+                                "corners", "hatch_cross", "order",     "link_inside", "usual_level", "levels",
+                                "through", "machine",     "post"});
     PlotInput plot;
     PlotSettings& settings = plot.settings;
     if (const auto file = value.find("file")) {
         plot.file = file->text();
     }
+    read_hpgl(value, settings.hpgl);
     read_choice(value, "use", picture_uses(), settings.use);
-    read_choice(value, "gray", gray_rules(), settings.gray);
-    read_flag(value, "invert", settings.invert);
+    read_choice(value, "gray", gray_rules(), settings.picture.gray);
+    read_flag(value, "invert", settings.picture.invert);
+    read_choice(value, "turns", turn_policies(), settings.tracing.turns);
+    read_flag(value, "join_dots", settings.join_dots);
     read_choice(value, "tip", tip_kinds(), settings.tip.kind);
     read_choice(value, "side", cutter_sides(), settings.strokes.side);
     read_choice(value, "corners", corner_kinds(), settings.strokes.corners);
@@ -84,6 +94,7 @@ PlotInput plot_of(const JsonValue& value) {
     if (const auto levels = value.find("levels")) {
         settings.levels = levels_of(*levels);
     }
+    read_flag(value, "through", settings.through);
     read_name(value, "machine", settings.machine);
     read_name(value, "post", settings.post);
     return plot;
@@ -93,9 +104,12 @@ Json json_of(const PlotInput& plot) {
     const PlotSettings& settings = plot.settings;
     Json json;
     json["file"] = plot.file.generic_string();
+    add_hpgl(json, settings.hpgl);
     json["use"] = row_of(picture_uses(), settings.use).id;
-    json["gray"] = row_of(gray_rules(), settings.gray).id;
-    json["invert"] = settings.invert;
+    json["gray"] = row_of(gray_rules(), settings.picture.gray).id;
+    json["invert"] = settings.picture.invert;
+    json["turns"] = row_of(turn_policies(), settings.tracing.turns).id;
+    json["join_dots"] = settings.join_dots;
     json["tip"] = row_of(tip_kinds(), settings.tip.kind).id;
     json["side"] = row_of(cutter_sides(), settings.strokes.side).id;
     json["corners"] = row_of(corner_kinds(), settings.strokes.corners).id;
@@ -108,6 +122,7 @@ Json json_of(const PlotInput& plot) {
     for (const plot::Level& level : settings.levels) {
         json["levels"].push_back(json_of(level));
     }
+    json["through"] = settings.through;
     json["machine"] = settings.machine;
     json["post"] = settings.post;
     return json;

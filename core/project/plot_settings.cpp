@@ -1,84 +1,31 @@
 #include "core/project/plot_settings.h"
 
-#include "core/base/error.h"
-#include "core/base/numbers.h"
-#include "core/base/units.h"
+#include "core/project/internal/people_number.h"
 
 #include <array>
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace millwright::project {
 
 namespace {
 
-/// How a number of the core is told to people.
-enum class As { it_is, degrees, mm_per_min };
+using internal::As;
+using internal::count;
+using internal::maybe;
+using internal::number;
+using plot::PictureSize;
+using plot::PixelRegion;
+using plot::PlotterUnit;
+using plot::ReaderSettings;
+using plot::StrokePlan;
+using plot::Tabs;
+using plot::ToolTip;
+using plot::TraceSettings;
 
-template <As as> double from_people(double value) {
-    return as == As::degrees ? from_degrees(value) : as == As::mm_per_min ? from_mm_per_min(value) : value;
-}
-
-/// A number that from_people() turns into exactly this one, and what a person typed before any other.
-template <As as> double to_people(double value) {
-    if (as == As::it_is) {
-        return value;
-    }
-    const double turned = as == As::degrees ? to_degrees(value) : to_mm_per_min(value);
-    constexpr double digits = 1e9;
-    const double typed = std::round(turned * digits) / digits;
-    const auto is_it = [&](double people) { return exactly_equal(from_people<as>(people), value); };
-    if (is_it(typed)) {
-        return typed;
-    }
-    constexpr int neighbours = 4;
-    constexpr double far = std::numeric_limits<double>::infinity();
-    double up = turned;
-    double down = turned;
-    for (int n = 0; n < neighbours; ++n) {
-        if (is_it(up) || is_it(down)) {
-            return is_it(up) ? up : down;
-        }
-        up = std::nextafter(up, far);
-        down = std::nextafter(down, -far);
-    }
-    return turned;
-}
-
-/// The member at the end of a chain of members.
-template <auto first, auto... rest> auto& reach(auto& owner) {
-    if constexpr (sizeof...(rest) == 0) {
-        return owner.*first;
-    } else {
-        return reach<rest...>(owner.*first);
-    }
-}
-
-template <auto first> using OwnerOf = decltype(internal::owner_of(first));
-
-template <As as, auto first, auto... rest>
-inline constexpr NumberField<OwnerOf<first>> number{
-    [](const OwnerOf<first>& owner) { return to_people<as>(reach<first, rest...>(owner)); },
-    [](OwnerOf<first>& owner, double value) { reach<first, rest...>(owner) = from_people<as>(value); },
-    false};
-
-template <auto first, auto... rest>
-inline constexpr NumberField<OwnerOf<first>> count{
-    [](const OwnerOf<first>& owner) { return static_cast<double>(reach<first, rest...>(owner)); },
-    [](OwnerOf<first>& owner, double value) {
-        reach<first, rest...>(owner) = static_cast<int>(std::round(value));
-    },
-    true};
-
-/// People say 0 for none.
-template <auto first, auto... rest>
-inline constexpr NumberField<OwnerOf<first>> maybe{
-    [](const OwnerOf<first>& owner) { return reach<first, rest...>(owner).value_or(0.0); },
-    [](OwnerOf<first>& owner, double value) {
-        reach<first, rest...>(owner) = value > 0.0 ? std::optional(value) : std::nullopt;
-    },
-    false};
+constexpr auto hpgl = &PlotSettings::hpgl;
+constexpr auto size = &PlotSettings::size;
+constexpr auto strokes = &PlotSettings::strokes;
+constexpr auto tip = &PlotSettings::tip;
+constexpr auto tracing = &PlotSettings::tracing;
 
 template <int axis>
 inline constexpr NumberField<PlotSettings> of_origin{
@@ -86,30 +33,86 @@ inline constexpr NumberField<PlotSettings> of_origin{
     [](PlotSettings& settings, double value) { settings.origin[axis] = value; },
     false};
 
-using plot::Level;
-using plot::StrokePlan;
-using plot::Tabs;
-using plot::ToolTip;
-constexpr auto strokes = &PlotSettings::strokes;
-constexpr auto tip = &PlotSettings::tip;
+/// All of them 0: the whole picture.
+template <int PixelRegion::*side>
+inline constexpr NumberField<PlotSettings> of_region{
+    [](const PlotSettings& settings) {
+        return static_cast<double>(settings.picture.region.value_or(PixelRegion{}).*side);
+    },
+    [](PlotSettings& settings, double value) {
+        PixelRegion region = settings.picture.region.value_or(PixelRegion{});
+        region.*side = static_cast<int>(std::round(value));
+        settings.picture.region = region == PixelRegion{} ? std::nullopt : std::optional(region);
+    },
+    true};
 
-constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
-    {"plotter_unit_mm",
-     "Plotter unit",
+constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
+    {"unit_x_mm",
+     "Unit along x",
      "mm",
      "Of HPGL: 0.025 is HP's nominal one, and that of the thesis of 2006",
      0.001,
      1.0,
      5,
-     number<As::it_is, &PlotSettings::plotter_unit>},
+     number<As::it_is, hpgl, &ReaderSettings::unit, &PlotterUnit::x>},
+    {"unit_y_mm",
+     "Unit along y",
+     "mm",
+     "Of HPGL: what a measured plot asks for, where axes differ",
+     0.001,
+     1.0,
+     5,
+     number<As::it_is, hpgl, &ReaderSettings::unit, &PlotterUnit::y>},
+    {"arc_tolerance_mm",
+     "Arcs within",
+     "mm",
+     "Finer chords than the file asks for; 0: as it asks",
+     0.0,
+     10.0,
+     4,
+     maybe<hpgl, &ReaderSettings::arc_tolerance>},
     {"width_mm",
      "Width",
      "mm",
-     "Of the picture; 0: as the file says, else 0.26 mm a pixel",
+     "Of the picture or its region; 0: as its density says, else 0.26 mm a pixel",
      0.0,
      2000.0,
      1,
-     number<As::it_is, &PlotSettings::picture_width>},
+     maybe<size, &PictureSize::width>},
+    {"dpi",
+     "Pixels an inch",
+     "",
+     "Where no width is set; 0: none",
+     0.0,
+     100'000.0,
+     1,
+     maybe<size, &PictureSize::dots_per_inch>},
+    {"pixel_mm",
+     "A pixel",
+     "mm",
+     "Where neither is set; 0: as the file says, else 0.26",
+     0.0,
+     100.0,
+     4,
+     maybe<size, &PictureSize::pixel>},
+    {"region_left_px",
+     "From the left",
+     "px",
+     "Of what is cut of the picture",
+     0,
+     1e6,
+     0,
+     of_region<&PixelRegion::left>},
+    {"region_top_px",
+     "From the top",
+     "px",
+     "Of what is cut of the picture",
+     0,
+     1e6,
+     0,
+     of_region<&PixelRegion::top>},
+    {"region_width_px", "Wide", "px", "0: up to the right edge", 0, 1e6, 0, of_region<&PixelRegion::width>},
+    {"region_height_px", "High", "px", "0: up to the lower edge", 0, 1e6, 0, of_region<&PixelRegion::height>},
     {"threshold",
      "Dark up to",
      "",
@@ -117,7 +120,39 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      0.0,
      1.0,
      2,
-     number<As::it_is, &PlotSettings::threshold>},
+     number<As::it_is, tracing, &TraceSettings::threshold>},
+    {"speckle_px",
+     "Speckles",
+     "px",
+     "Outlines around no more pixels are left out",
+     0,
+     1e6,
+     0,
+     count<tracing, &TraceSettings::speckle>},
+    {"corner",
+     "Corners",
+     "",
+     "0: all stay; 1.3334: all are rounded (potrace's alphamax)",
+     0.0,
+     1.3334,
+     4,
+     number<As::it_is, tracing, &TraceSettings::corner>},
+    {"curve_tolerance_px",
+     "Join within",
+     "px",
+     "Curves that change no more become one; 0: none do",
+     0.0,
+     100.0,
+     2,
+     number<As::it_is, tracing, &TraceSettings::tolerance>},
+    {"chords_mm",
+     "Chords within",
+     "mm",
+     "How near the tool keeps to the curves",
+     0.0001,
+     10.0,
+     4,
+     number<As::it_is, &PlotSettings::chords>},
     {"depth_mm",
      "Depth",
      "mm",
@@ -134,6 +169,14 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      20.0,
      2,
      number<As::it_is, &PlotSettings::dot_pitch>},
+    {"dot_angle_deg",
+     "Rows at",
+     "deg",
+     "Of a halftone's rows to x",
+     -180.0,
+     180.0,
+     1,
+     number<As::degrees, &PlotSettings::dot_angle>},
     {"tip_diameter_mm",
      "Diameter",
      "mm",
@@ -158,6 +201,14 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      10.0,
      2,
      maybe<&PlotSettings::step_over>},
+    {"merge_mm",
+     "Join within",
+     "mm",
+     "Moves become one where they stay so near above the path",
+     0.0,
+     1.0,
+     4,
+     number<As::it_is, &PlotSettings::merge>},
     {"depth_per_pass_mm",
      "Depth a pass",
      "mm",
@@ -166,14 +217,62 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      50.0,
      2,
      maybe<&PlotSettings::depth_per_pass>},
-    {"frame_mm",
-     "Cut out",
+    {"allowance_mm",
+     "Leaves",
      "mm",
-     "Of a plate so thick, with four tabs; 0: it stays in it",
+     "Of roughing, for the last pass",
+     0.0,
+     20.0,
+     2,
+     number<As::it_is, &PlotSettings::allowance>},
+    {"rough_step_over_mm",
+     "Rough step-over",
+     "mm",
+     "Between rows of roughing; 0: half of the tool",
+     0.0,
+     50.0,
+     2,
+     maybe<&PlotSettings::rough_step_over>},
+    {"frame_mm",
+     "Plate",
+     "mm",
+     "It is cut out of one so thick; 0: it stays in it",
      0.0,
      100.0,
      2,
      maybe<&PlotSettings::frame>},
+    {"frame_margin_mm",
+     "Margin",
+     "mm",
+     "Between picture and frame",
+     0.0,
+     100.0,
+     2,
+     number<As::it_is, &PlotSettings::frame_margin>},
+    {"frame_tabs",
+     "Tabs",
+     "",
+     "Bridges that hold it",
+     0,
+     1000,
+     0,
+     count<&PlotSettings::frame_tabs, &Tabs::count>},
+    {"frame_tab_width_mm",
+     "Tab width",
+     "mm",
+     "Along the path of the tool's middle",
+     0.1,
+     100.0,
+     1,
+     number<As::it_is, &PlotSettings::frame_tabs, &Tabs::width>},
+    {"frame_tab_height_mm",
+     "Tab height",
+     "mm",
+     "Above the bottom of the plate",
+     0.01,
+     100.0,
+     2,
+     number<As::it_is, &PlotSettings::frame_tabs, &Tabs::height>},
     {"tool_mm",
      "Tool",
      "mm",
@@ -230,6 +329,14 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      500.0,
      2,
      number<As::it_is, &PlotSettings::plate>},
+    {"half_light_mm",
+     "Halves light",
+     "mm",
+     "So much of the plate; has to be tried, 0.3 is a guess for black plastic",
+     0.001,
+     100.0,
+     3,
+     number<As::it_is, &PlotSettings::half_light>},
     {"spindle_rpm",
      "Spindle",
      "1/min",
@@ -256,127 +363,14 @@ constexpr std::array<NumberSetting<PlotSettings>, 20> of_plot{{
      of_origin<1>},
 }};
 
-constexpr std::array<NumberSetting<Level>, 9> of_level{{
-    {"order",
-     "Order",
-     "",
-     "Levels with a smaller one are cut first",
-     -1'000'000,
-     1'000'000,
-     0,
-     count<&Level::order>},
-    {"depth_mm", "Depth", "mm", "Below the top", 0.0, 150.0, 3, number<As::it_is, &Level::depth>},
-    {"passes", "Passes", "", "Of equal depth, one below the other", 1, 1000, 0, count<&Level::passes>},
-    {"feed_mm_per_min",
-     "Feed",
-     "mm/min",
-     "Along the strokes",
-     1.0,
-     1e5,
-     1,
-     number<As::mm_per_min, &Level::cutting>},
-    {"plunge_mm_per_min",
-     "Plunge",
-     "mm/min",
-     "Into the work",
-     1.0,
-     1e5,
-     1,
-     number<As::mm_per_min, &Level::plunging>},
-    {"tool", "Tool", "", "Where it differs the tool is changed by hand", 0, 1000, 0, count<&Level::tool>},
-    {"tabs", "Tabs", "", "Bridges on closed strokes", 0, 1000, 0, count<&Level::tabs, &Tabs::count>},
-    {"tab_width_mm",
-     "Tab width",
-     "mm",
-     "Along the path of the tool's middle",
-     0.1,
-     100.0,
-     1,
-     number<As::it_is, &Level::tabs, &Tabs::width>},
-    {"tab_height_mm",
-     "Tab height",
-     "mm",
-     "Above the depth of the level",
-     0.01,
-     100.0,
-     2,
-     number<As::it_is, &Level::tabs, &Tabs::height>},
-}};
-
-using plot::Corners;
-using plot::CutterSide;
-using plot::GrayRule;
-using plot::TipKind;
-
-constexpr std::array<Choice<PictureUse>, 4> of_use{{
-    {PictureUse::relief, "relief", "Relief", "As deep as pixels are bright"},
-    {PictureUse::outlines, "outlines", "Outlines", "Around what is dark, by tracing"},
-    {PictureUse::halftone, "halftone", "Halftone", "Dots whose size says how dark it is"},
-    {PictureUse::dots, "dots", "Dots", "Dots of one size, as many as it is dark"},
-}};
-
-constexpr std::array<Choice<GrayRule>, 2> of_gray{{
-    {GrayRule::mean, "mean", "Mean", "(R + G + B) / 3, as the thesis of 2006"},
-    {GrayRule::luminance, "luminance", "Luminance", "As the eye weighs colours (ITU-R BT.709)"},
-}};
-
-constexpr std::array<Choice<TipKind>, 4> of_tip{{
-    {TipKind::ball, "ball", "Ball", "Half a sphere"},
-    {TipKind::flat, "flat", "End mill", "Flat below"},
-    {TipKind::v, "v", "V", "A cone that ends in a point"},
-    {TipKind::point, "point", "Point", "Without width: each pixel gets its own depth, as in the thesis"},
-}};
-
-constexpr std::array<Choice<CutterSide>, 3> of_side{{
-    {CutterSide::on_line, "on-line", "On line", "The middle of the tool on the strokes"},
-    {CutterSide::outside, "outside", "Outside", "Where the outer size matters"},
-    {CutterSide::inside, "inside", "Inside", "Where the size of a hole matters"},
-}};
-
-constexpr std::array<Choice<Corners>, 2> of_corners{{
-    {Corners::sharp, "sharp", "Sharp", "Cut square beyond four times the offset"},
-    {Corners::round, "round", "Round", "An arc around the corner"},
-}};
-
-template <class Owner>
-const NumberSetting<Owner>& row(std::span<const NumberSetting<Owner>> rows, std::string_view id) {
-    for (const NumberSetting<Owner>& setting : rows) {
-        if (setting.id == id) {
-            return setting;
-        }
-    }
-    throw Defect("there is no setting '" + std::string(id) + "'");
-}
-
 } // namespace
 
 std::span<const NumberSetting<PlotSettings>> plot_numbers() {
     return of_plot;
 }
-std::span<const NumberSetting<Level>> level_numbers() {
-    return of_level;
-}
-const NumberSetting<PlotSettings>& plot_number(std::string_view id) {
-    return row(plot_numbers(), id);
-}
-const NumberSetting<Level>& level_number(std::string_view id) {
-    return row(level_numbers(), id);
-}
 
-std::span<const Choice<PictureUse>> picture_uses() {
-    return of_use;
-}
-std::span<const Choice<GrayRule>> gray_rules() {
-    return of_gray;
-}
-std::span<const Choice<TipKind>> tip_kinds() {
-    return of_tip;
-}
-std::span<const Choice<CutterSide>> cutter_sides() {
-    return of_side;
-}
-std::span<const Choice<Corners>> corner_kinds() {
-    return of_corners;
+const NumberSetting<PlotSettings>& plot_number(std::string_view id) {
+    return internal::number_row(plot_numbers(), id);
 }
 
 } // namespace millwright::project

@@ -1,6 +1,7 @@
 #include "core/project/project.h"
 
 #include "core/geometry/presets.h"
+#include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
 
 #include <fmt/format.h>

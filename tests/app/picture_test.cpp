@@ -136,12 +136,32 @@ TEST(PictureCommand, ReliefIsCutOutOfItsPlateWithTabs) {
                              "--out",
                              file});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out,
+                testing::ContainsRegex("points, cuts [0-9]+.[0-9]+ m, [0-9]+.[0-9]+ m in the air"));
+    EXPECT_THAT(ended.out, testing::ContainsRegex("lines, [0-9]+:[0-9]+ min on XYZ router"));
     const std::vector<Place> way = places(content_of(file));
     EXPECT_NEAR(std::ranges::min(way, {}, &Place::z).z, -3.0, 1e-9);
     EXPECT_NEAR(std::ranges::min(way, {}, &Place::x).x, -0.1 - 1.0 - 1.0, 1e-9);
     const auto on_tabs =
         std::ranges::count_if(way, [](const Place& p) { return std::abs(p.z + 2.0) < 1e-9; });
     EXPECT_GE(on_tabs, 6);
+}
+
+TEST(PictureCommand, CutsNoDeeperThanThePlateUnlessItIsAllowed) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "deep.ngc").string();
+    write_content(folder / "pixel.bmp", bmp(1, 1, {255}));
+    const auto relief = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {
+            "picture", "relief", (folder / "pixel.bmp").string(), "--depth", "3", "--out", file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    const Ended refused = relief({"--plate", "2.5"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_EQ(relief({"--plate", "2.5", "--through"}).exit_code, 0);
+    EXPECT_EQ(relief({"--plate", "3"}).exit_code, 0);
 }
 
 TEST(PictureCommand, TraceWritesCurvesOrAProgram) {

@@ -101,7 +101,8 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments).out;
     };
-    EXPECT_THAT(runs({}), HasSubstr("0.043 m, 1 times down"));
+    // 40 mm of the square and 2.828 mm from and to the origin: 20 s, 0.28 s, and 6 s for the lift.
+    EXPECT_THAT(runs({}), HasSubstr("0.043 m, 1 times down, 0:26 min by the thesis, "));
     EXPECT_THAT(runs({"--hatch", "1.5"}),
                 HasSubstr(", 8 times down")); // the square, lines at 1.5, 3, ... 10.5
     EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 times down"));
@@ -147,8 +148,46 @@ TEST(PlotCommand, UnitsHaveNames) {
     EXPECT_DOUBLE_EQ(width("nominal"), 1000.0);
     EXPECT_NEAR(width("table"), 995.2, 1e-9);
     EXPECT_NEAR(width("0.0254"), 1016.0, 1e-9);
-    EXPECT_DOUBLE_EQ(width("inch"), -1.0);
+    EXPECT_NEAR(width("0.0254,0.03"), 1016.0, 1e-9);
+    for (const char* none : {"inch", "1,", "1,0", "1,2,3", ",1", "1 2"}) {
+        EXPECT_DOUBLE_EQ(width(none), -1.0) << none;
+    }
     EXPECT_DOUBLE_EQ(width("-1"), -1.0);
+}
+
+TEST(PlotCommand, ViewIsAPictureInMillimetres) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "view.svg").string();
+    const auto view = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"plot", "view", sample, "--out", file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_EQ(ended.out, "39 strokes of 2 pens\n");
+        return content_of(file);
+    };
+    EXPECT_THAT(view({}), HasSubstr("dasharray"));
+    const std::string plain = view({"--no-air"});
+    EXPECT_THAT(plain, HasSubstr("width=\"104.0000mm\" height=\"104.0000mm\"")); // 100 mm and the margins
+    EXPECT_EQ(std::ranges::count(plain, 'M'), 39);
+    EXPECT_THAT(view({"--no-air", "--unit", "0.025,0.05"}), HasSubstr("height=\"204.0000mm\""));
+}
+
+TEST(PlotCommand, FillsDashesAndLineEndsAreRead) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "drawing.plt").string();
+    write_content(folder / "drawing.plt", "IN;SP1;LT2,1;PU0,0;PD2000,0;LT;PU0,800;FT3,40,0;RA40\n00,1600;");
+    const auto strokes = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"plot", "info", file, "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return nlohmann::json::parse(run(arguments).out).at("strokes").get<int>();
+    };
+    const int all = strokes({});
+    EXPECT_GT(all, 21); // dashes, and lines of the fill
+    EXPECT_EQ(strokes({"--fill", "none", "--solid"}), 1);
+    EXPECT_EQ(strokes({"--fill", "outline", "--solid"}), 2);
+    EXPECT_LT(strokes({"--line-ends", "separate"}), all); // three numbers are no corner
+    EXPECT_EQ(strokes({"--line-ends", "join"}), all);
 }
 
 TEST(PlotCommand, StrictReadingEndsAtTheFirstFault) {

@@ -1,7 +1,5 @@
 #include "ui/actions/table_player.h"
 
-#include "core/plot/decode.h"
-
 #include <utility>
 
 namespace millwright::actions {
@@ -13,18 +11,14 @@ std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
                                                 const kinematics::MachineModel& model,
                                                 machine::Clock& clock,
                                                 std::int64_t& total) {
-    plot::DecodeSettings decoding;
-    decoding.mode = plot::DecodeMode::path;
-    decoding.velocity = choice.velocity;
-    decoding.period = choice.period;
-    decoding.pen_up_z = choice.pen_up;
-    decoding.pen_down_z = choice.pen_down;
+    plot::DecodeSettings decoding = choice.decoding;
     constexpr std::int64_t most = 5'000'000;
     decoding.most_points = most;
     auto points = std::make_shared<const std::vector<Vec3>>(plot::decode(strokes, decoding));
     machine::PlayerOptions options;
-    options.period = choice.period;
+    options.period = choice.decoding.period;
     options.speed = choice.speed;
+    options.format = choice.record;
     const double period = machine::machine_period(options, !choice.port.empty());
     if (const auto faults = machine::check_points(*points, period, model, "the points"); !faults.empty()) {
         throw Error(faults.front());

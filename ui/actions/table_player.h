@@ -5,6 +5,7 @@
 #include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
 #include "core/machine/point_player.h"
+#include "core/plot/decode.h"
 #include "core/plot/strokes.h"
 
 #include <functional>
@@ -18,11 +19,10 @@ namespace millwright::actions {
 
 struct TableChoice {
     std::string port = {}; ///< empty: for the eyes alone
-    double velocity = 8.0; ///< along the path, mm/s
-    double period = 0.02;  ///< between two points, s
-    double speed = 1.0;    ///< times real time
-    double pen_up = 5.0;   ///< Z between strokes, mm
-    double pen_down = 0.0;
+    plot::DecodeSettings decoding = {
+        .velocity = 8.0, .period = 0.02, .pen_up_z = 5.0, .mode = plot::DecodeMode::path};
+    double speed = 1.0; ///< times real time
+    machine::RecordFormat record = machine::PlayerOptions().format;
 
     friend bool operator==(const TableChoice&, const TableChoice&) = default;
 };

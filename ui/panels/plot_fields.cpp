@@ -1,7 +1,8 @@
 #include "ui/panels/plot_fields.h"
 
-#include "core/base/numbers.h"
 #include "core/base/units.h"
+#include "core/project/level_settings.h"
+#include "core/project/plot_choices.h"
 #include "core/project/plot_settings.h"
 #include "ui/panels/internal/fields.h"
 
@@ -23,12 +24,12 @@ using widgets::Option;
 constexpr std::array<Option, 3> units{
     {{"nominal", "0.025 mm", {}, "HP's nominal unit, and that of the thesis of 2006"},
      {"table", "0.02488 mm", {}, "The unit that explains the errors of the thesis on the decoder"},
-     {"own", "Another", {}, "As the row below says"}}};
-constexpr double nominal_unit = 0.025;
-constexpr double table_unit = 0.02488;
+     {"own", "Another", {}, "As the rows below say"}}};
 constexpr std::array<Option, 2> machines{
     {{"forming-table", "Forming table", {}, "480 x 550 x 150 mm, as in the thesis of 2006"},
      {"router-xyz", "Router", {}, "A faster router of three axes"}}};
+constexpr std::array<Option, 2> posts{{{"linuxcnc-xyz", "LinuxCNC", {}, "Tool changes, arcs as they come"},
+                                       {"grbl", "Grbl", {}, "Of the words that Grbl 1.1 knows"}}};
 
 void change(ActionQueue& ask, std::string_view what, std::function<void(PlotSettings&)> set) {
     ask.edit("Change " + std::string(what),
@@ -72,16 +73,47 @@ void choice(Ui& ui,
 }
 
 void unit_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
-    const int at = exactly_equal(now.plotter_unit, nominal_unit) ? 0
-                   : exactly_equal(now.plotter_unit, table_unit) ? 1
-                                                                 : 2;
+    const int at = now.hpgl.unit == plot::nominal_unit ? 0 : now.hpgl.unit == plot::table_unit ? 1 : 2;
     if (const auto chosen = ui.choice("unit", "Plotter", at, units); chosen && *chosen < 2) {
-        change(
-            ask, "Plotter unit", [unit = *chosen == 0 ? nominal_unit : table_unit](PlotSettings& settings) {
-                settings.plotter_unit = unit;
-            });
+        const plot::PlotterUnit unit = *chosen == 0 ? plot::nominal_unit : plot::table_unit;
+        change(ask, "Plotter unit", [unit](PlotSettings& settings) { settings.hpgl.unit = unit; });
     }
-    numbers(ui, ask, now, {"plotter_unit_mm"});
+    numbers(ui, ask, now, {"unit_x_mm", "unit_y_mm"});
+}
+
+void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
+    const auto section = ui.section("reading", "Reading", false);
+    if (!section) {
+        return;
+    }
+    numbers(ui, ask, now, {"arc_tolerance_mm"});
+    choice<plot::FillMode>(
+        ui, ask, "fill", "Filled", project::fill_modes(), now.hpgl.fill, [](Project& draft, auto fill) {
+            draft.plot.settings.hpgl.fill = fill;
+        });
+    toggle(ui,
+           ask,
+           "dashes",
+           "Dashes",
+           now.hpgl.dashes,
+           "Line types are dashed; else solid",
+           [](PlotSettings& s, bool on) { s.hpgl.dashes = on; });
+    choice<plot::LineEnds>(ui,
+                           ask,
+                           "line_ends",
+                           "Line ends are",
+                           project::line_ends(),
+                           now.hpgl.line_ends,
+                           [](Project& draft, auto ends) { draft.plot.settings.hpgl.line_ends = ends; });
+    toggle(ui,
+           ask,
+           "strict",
+           "Strict",
+           now.hpgl.strictness == plot::Strictness::strict,
+           "The first thing that is wrong ends the reading",
+           [](PlotSettings& s, bool on) {
+               s.hpgl.strictness = on ? plot::Strictness::strict : plot::Strictness::tolerant;
+           });
 }
 
 void tip_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
@@ -119,6 +151,56 @@ void speed_of_all(
     }
 }
 
+void size_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
+    if (const auto section = ui.section("size", "Pixels and region", false)) {
+        numbers(
+            ui,
+            ask,
+            set,
+            {"dpi", "pixel_mm", "region_left_px", "region_top_px", "region_width_px", "region_height_px"});
+    }
+}
+
+void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
+    numbers(ui, ask, set, {"threshold", "speckle_px", "corner", "curve_tolerance_px"});
+    choice<plot::TurnPolicy>(ui,
+                             ask,
+                             "turns",
+                             "Where corners touch",
+                             project::turn_policies(),
+                             set.tracing.turns,
+                             [](Project& draft, auto turns) { draft.plot.settings.tracing.turns = turns; });
+    numbers(ui, ask, set, {"chords_mm"});
+}
+
+void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
+    numbers(ui, ask, set, {"step_over_mm", "merge_mm"});
+    if (const auto section = ui.section("roughing", "Roughing", false)) {
+        numbers(ui, ask, set, {"depth_per_pass_mm", "allowance_mm", "rough_step_over_mm"});
+    }
+    if (const auto section = ui.section("frame", "Cut it out", false)) {
+        numbers(ui,
+                ask,
+                set,
+                {"frame_mm", "frame_margin_mm", "frame_tabs", "frame_tab_width_mm", "frame_tab_height_mm"});
+    }
+}
+
+void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
+    numbers(ui, ask, set, {"dot_pitch_mm"});
+    if (set.use == PictureUse::halftone) {
+        numbers(ui, ask, set, {"dot_angle_deg"});
+        return;
+    }
+    toggle(ui,
+           ask,
+           "join_dots",
+           "Join",
+           set.join_dots,
+           "Neighbours in a row become one cut",
+           [](PlotSettings& s, bool on) { s.join_dots = on; });
+}
+
 void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     choice<PictureUse>(
         ui, ask, "use", "Becomes", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
@@ -130,23 +212,42 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
                            "gray",
                            "Brightness",
                            project::gray_rules(),
-                           set.gray,
-                           [](Project& draft, plot::GrayRule rule) { draft.plot.settings.gray = rule; });
-    toggle(ui, ask, "invert", "Invert", set.invert, "Dark becomes bright", [](PlotSettings& s, bool on) {
-        s.invert = on;
-    });
+                           set.picture.gray,
+                           [](Project& draft, auto rule) { draft.plot.settings.picture.gray = rule; });
+    toggle(
+        ui, ask, "invert", "Invert", set.picture.invert, "Dark becomes bright", [](PlotSettings& s, bool on) {
+            s.picture.invert = on;
+        });
     if (set.use == PictureUse::outlines) {
-        numbers(ui, ask, set, {"threshold"});
-        return;
-    }
-    if (set.use != PictureUse::halftone) {
-        numbers(ui, ask, set, {"depth_mm"});
-    }
-    tip_fields(ui, ask, set);
-    if (set.use == PictureUse::relief) {
-        numbers(ui, ask, set, {"step_over_mm", "depth_per_pass_mm", "frame_mm"});
+        trace_fields(ui, ask, set);
     } else {
-        numbers(ui, ask, set, {"dot_pitch_mm"});
+        if (set.use != PictureUse::halftone) {
+            numbers(ui, ask, set, {"depth_mm"});
+        }
+        tip_fields(ui, ask, set);
+        set.use == PictureUse::relief ? relief_fields(ui, ask, set) : dot_fields(ui, ask, set);
+    }
+    size_fields(ui, ask, set);
+}
+
+/// One of a few names, which is what the settings keep.
+void name_choice(Ui& ui,
+                 ActionQueue& ask,
+                 std::string_view id,
+                 std::string_view label,
+                 std::span<const Option> names,
+                 const std::string& now,
+                 std::string PlotSettings::*member) {
+    int at = 0;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        at = names[n].id == now ? static_cast<int>(n) : at;
+    }
+    if (const auto chosen = ui.choice(id, label, at, names)) {
+        change(ask,
+               label,
+               [name = std::string(names[static_cast<std::size_t>(*chosen)].id), member](PlotSettings& s) {
+                   s.*member = name;
+               });
     }
 }
 
@@ -163,6 +264,7 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("A path that was made before: it is cut as it stands.");
     } else {
         unit_fields(ui, ask, now.plot.settings());
+        reading_fields(ui, ask, now.plot.settings());
     }
 }
 
@@ -226,13 +328,23 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
     speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
-    numbers(ui, ask, set, {"safe_height_mm", "plate_mm", "spindle_rpm", "origin_x_mm", "origin_y_mm"});
-    const int at = set.machine == machines[1].id ? 1 : 0;
-    if (const auto chosen = ui.choice("machine", "Machine", at, machines)) {
-        change(ask, "Machine", [id = machines[static_cast<std::size_t>(*chosen)].id](PlotSettings& settings) {
-            settings.machine = id;
-        });
+    numbers(ui, ask, set, {"safe_height_mm", "plate_mm"});
+    if (set.plate > 0.0) {
+        toggle(ui,
+               ask,
+               "through",
+               "Through",
+               set.through,
+               "The path may go deeper than the plate",
+               [](PlotSettings& s, bool on) { s.through = on; });
     }
+    numbers(ui, ask, set, {"spindle_rpm", "origin_x_mm", "origin_y_mm"});
+    name_choice(ui, ask, "machine", "Machine", machines, set.machine, &PlotSettings::machine);
+    name_choice(ui, ask, "post", "Control", posts, set.post, &PlotSettings::post);
+}
+
+void light_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    numbers(ui, ask, now.plot.settings(), {"half_light_mm"});
 }
 
 } // namespace millwright::panels

@@ -9,8 +9,10 @@ namespace millwright::panels {
 void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 /// Of strokes: cutter compensation, filling, order and links.
 void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
-/// Of the work: feeds, heights, spindle, machine.
+/// Of the work: feeds, heights, spindle, machine, control.
 void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+/// Of the view against the light.
+void light_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 
 /// The picture is cut by what it is bright, not by its outlines.
 [[nodiscard]] bool cuts_brightness(const Workbench& now);

@@ -3,7 +3,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/plot/work_time.h"
-#include "core/project/plot_settings.h"
+#include "core/project/level_settings.h"
+#include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/plot_fields.h"
 #include "ui/viewport/pen_colors.h"
@@ -162,6 +163,9 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_level(ui, now, ask, level_);
     }
     draw_figures(ui, now);
+    if (const auto section = ui.section("position", "Where the tool is"); section && now.in_file()) {
+        axis_positions(ui, now);
+    }
 }
 
 void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const {
@@ -221,6 +225,13 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
              "Remaining",
              planned > 0.0 ? plot::minutes_and_seconds(std::max(planned - now.time(), 0.0)) : "...",
              plot::minutes_or_hours(planned - now.time()));
+    if (planned > 0.0 && now.opened->motion) {
+        const motion::Trajectory& way = *now.opened->motion->trajectory;
+        ui.value("gone",
+                 "Has gone",
+                 fmt::format("{} of {}", metres(way.part_length_at(now.time())), metres(way.part_length())),
+                 "m");
+    }
 }
 
 void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -243,6 +254,9 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                   now.session.against_light,
                                   "The light that goes through the finished plate")) {
         ask.run("plot.light");
+    }
+    if (now.session.against_light) {
+        light_fields(ui, now, ask);
     }
     if (const auto section = ui.section("source", "Source")) {
         source_fields(ui, now, ask);

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::panels {
@@ -18,8 +20,23 @@ namespace {
 using actions::TableChoice;
 using machine::Jitter;
 using machine::PlayState;
+using plot::DecodeMode;
+using plot::DecodeSettings;
+using plot::SampleRounding;
 using widgets::FieldInfo;
 using widgets::Rect;
+
+// In the order of their enumerators.
+constexpr std::array<widgets::Option, 2> modes{
+    {{"segments", "On each segment", {}, "A whole number of them, as in the thesis"},
+     {"path", "On whole paths", {}, "The rest is carried over corners"}}};
+constexpr std::array<widgets::Option, 4> roundings{{{"down", "Rounded down", {}, {}},
+                                                    {"nearest", "To the nearest", {}, {}},
+                                                    {"up", "Rounded up", {}, {}},
+                                                    {"exact", "Exact, a shorter last one", {}, {}}}};
+constexpr std::array<widgets::Option, 3> endings{
+    {{"lf", "Line feed", {}, {}}, {"crlf", "CR and line feed", {}, {}}, {"cr", "CR", {}, {}}}};
+constexpr std::array<std::string_view, 3> ending_bytes{"\n", "\r\n", "\r"};
 
 void change(ActionQueue& ask, std::function<void(TableChoice&)> what) {
     ask.plot([what = std::move(what)](actions::PlotBench& bench) {
@@ -109,6 +126,95 @@ void draw_read_out(Ui& ui, const actions::TableView& table, const Rect& box) {
     }
 }
 
+/// 0 for none.
+void maybe(Ui& ui,
+           ActionQueue& ask,
+           const FieldInfo& info,
+           const std::optional<double>& value,
+           std::optional<double> DecodeSettings::*member) {
+    if (const auto chosen = ui.number(value.value_or(0.0), info)) {
+        change(ask, [v = *chosen, member](TableChoice& c) {
+            c.decoding.*member = v > 0.0 ? std::optional(v) : std::nullopt;
+        });
+    }
+}
+
+/// How the points come on the path.
+void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
+    const auto section = ui.section("points", "Steps and limits", false);
+    if (!section) {
+        return;
+    }
+    if (const auto mode = ui.choice("mode", "Equal steps", static_cast<int>(points.mode), modes)) {
+        change(ask, [mode = *mode](TableChoice& c) { c.decoding.mode = static_cast<DecodeMode>(mode); });
+    }
+    maybe(ui,
+          ask,
+          {"travel_velocity", "In the air", "mm/s", "0: as along the path", 0.0, 1000.0, 0.0, 2},
+          points.travel_velocity,
+          &DecodeSettings::travel_velocity);
+    maybe(ui,
+          ask,
+          {"plunge_velocity", "Up and down", "mm/s", "0: as along the path", 0.0, 1000.0, 0.0, 2},
+          points.plunge_velocity,
+          &DecodeSettings::plunge_velocity);
+    if (points.mode == DecodeMode::segments) {
+        if (const auto rounding =
+                ui.choice("rounding", "Their number", static_cast<int>(points.rounding), roundings)) {
+            change(ask, [rounding = *rounding](TableChoice& c) {
+                c.decoding.rounding = static_cast<SampleRounding>(rounding);
+            });
+        }
+        return;
+    }
+    maybe(ui,
+          ask,
+          {"acceleration", "Acceleration", "mm/s2", "At the most; 0: no limit", 0.0, 1e6, 0.0, 1},
+          points.acceleration,
+          &DecodeSettings::acceleration);
+    maybe(ui,
+          ask,
+          {"jerk",
+           "Jerk",
+           "mm/s3",
+           "At the most, with a limit of the acceleration; 0: no limit",
+           0.0,
+           1e9,
+           0.0,
+           0},
+          points.jerk,
+          &DecodeSettings::jerk);
+}
+
+/// What a point looks like on the wire.
+void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask) {
+    const auto section = ui.section("record", "Record", false);
+    if (!section) {
+        return;
+    }
+    if (const auto pattern = ui.text_field(
+            "pattern", "Pattern", record.pattern, "As t {X} {Y} {Z} {a} {s}: axes, speed, acceleration")) {
+        change(ask, [pattern = *pattern](TableChoice& c) { c.record.pattern = pattern; });
+    }
+    if (const auto relative =
+            ui.toggle("relative", "Relative", record.relative, "Records say how far, not where")) {
+        change(ask, [relative = *relative](TableChoice& c) { c.record.relative = relative; });
+    }
+    int at = 0;
+    for (std::size_t n = 0; n < endings.size(); ++n) {
+        at = ending_bytes[n] == record.ending ? static_cast<int>(n) : at;
+    }
+    if (const auto ending = ui.choice("ending", "Ends with", at, endings)) {
+        change(ask, [n = static_cast<std::size_t>(*ending)](TableChoice& c) {
+            c.record.ending = ending_bytes[n];
+        });
+    }
+    if (const auto answer = ui.text_field(
+            "answer", "Answer", record.answer, "To each record before the next is sent; empty: none")) {
+        change(ask, [answer = *answer](TableChoice& c) { c.record.answer = answer; });
+    }
+}
+
 } // namespace
 
 void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -120,31 +226,35 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                                         "empty: nothing is sent")) {
         change(ask, [port = *port](TableChoice& c) { c.port = port; });
     }
-    const auto number = [&](const FieldInfo& info, double value, double unit, double TableChoice::*member) {
-        if (const auto chosen = ui.number(value, info)) {
-            change(ask, [v = *chosen * unit, member](TableChoice& c) { c.*member = v; });
-        }
-    };
+    const DecodeSettings& points = choice.decoding;
+    const auto number =
+        [&](const FieldInfo& info, double value, double unit, double DecodeSettings::*member) {
+            if (const auto chosen = ui.number(value / unit, info)) {
+                change(ask, [v = *chosen * unit, member](TableChoice& c) { c.decoding.*member = v; });
+            }
+        };
     number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
-           choice.velocity,
+           points.velocity,
            1.0,
-           &TableChoice::velocity);
+           &DecodeSettings::velocity);
     number({"period", "Period", "ms", "Between two points", 0.5, 1000.0, 20.0, 1},
-           1e3 * choice.period,
+           points.period,
            1e-3,
-           &TableChoice::period);
-    number({"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2},
-           choice.speed,
-           1.0,
-           &TableChoice::speed);
+           &DecodeSettings::period);
+    if (const auto speed =
+            ui.number(choice.speed, {"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2})) {
+        change(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
+    }
     number({"pen_up", "Z up", "mm", "Between strokes", -100.0, 100.0, 5.0, 2},
-           choice.pen_up,
+           points.pen_up_z,
            1.0,
-           &TableChoice::pen_up);
+           &DecodeSettings::pen_up_z);
     number({"pen_down", "Z down", "mm", "On strokes", -100.0, 100.0, 0.0, 2},
-           choice.pen_down,
+           points.pen_down_z,
            1.0,
-           &TableChoice::pen_down);
+           &DecodeSettings::pen_down_z);
+    point_fields(ui, points, ask);
+    record_fields(ui, choice.record, ask);
 }
 
 void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {

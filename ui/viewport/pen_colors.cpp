@@ -1,5 +1,7 @@
 #include "ui/viewport/pen_colors.h"
 
+#include "core/plot/pen_group.h"
+
 #include <array>
 
 namespace millwright::viewport {
@@ -12,17 +14,15 @@ struct Pen {
     glm::vec3 on_light;
 };
 
-constexpr std::array<Pen, 6> pens{{{"red", {1.0F, 0.45F, 0.40F}, {0.78F, 0.12F, 0.12F}},
-                                   {"yellow", {0.96F, 0.85F, 0.35F}, {0.62F, 0.48F, 0.0F}},
-                                   {"green", {0.45F, 0.85F, 0.45F}, {0.08F, 0.52F, 0.18F}},
-                                   {"cyan", {0.40F, 0.85F, 0.92F}, {0.0F, 0.50F, 0.58F}},
-                                   {"blue", {0.50F, 0.62F, 1.0F}, {0.15F, 0.28F, 0.82F}},
-                                   {"magenta", {0.92F, 0.52F, 0.92F}, {0.62F, 0.12F, 0.62F}}}};
+constexpr std::array<Pen, plot::pen_groups> pens{{{"red", {1.0F, 0.45F, 0.40F}, {0.78F, 0.12F, 0.12F}},
+                                                  {"yellow", {0.96F, 0.85F, 0.35F}, {0.62F, 0.48F, 0.0F}},
+                                                  {"green", {0.45F, 0.85F, 0.45F}, {0.08F, 0.52F, 0.18F}},
+                                                  {"cyan", {0.40F, 0.85F, 0.92F}, {0.0F, 0.50F, 0.58F}},
+                                                  {"blue", {0.50F, 0.62F, 1.0F}, {0.15F, 0.28F, 0.82F}},
+                                                  {"magenta", {0.92F, 0.52F, 0.92F}, {0.62F, 0.12F, 0.62F}}}};
 
 const Pen& pen_of(int pen) {
-    constexpr int count = static_cast<int>(pens.size());
-    const int n = ((pen - 1) % count + count) % count;
-    return pens[static_cast<std::size_t>(n)];
+    return pens[static_cast<std::size_t>(plot::pen_group(pen))];
 }
 
 } // namespace

@@ -91,7 +91,10 @@ private:
         }
         if (fault) {
             problems_.add(fault->byte, fmt::format("{}: {}", command.name, fault->message));
-            return false;
+            // Old programs end their lists with a comma; what stands before it is whole.
+            if (!(fault->behind_all && command.terminated && row.count.allows(numbers_.size()))) {
+                return false;
+            }
         }
         if (!row.count.allows(numbers_.size())) {
             problems_.add(command.byte,

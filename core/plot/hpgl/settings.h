@@ -60,6 +60,8 @@ struct ReaderSettings {
     int highest_pen = 255;
     std::int64_t most_points = 20'000'000; ///< of all strokes; reading ends with an Error beyond
     int most_diagnostics = 100;            ///< kept; the others are counted
+
+    friend bool operator==(const ReaderSettings&, const ReaderSettings&) = default;
 };
 
 } // namespace millwright::plot

@@ -23,6 +23,7 @@ struct Picture {
     int height = 0;
     std::vector<std::uint16_t> gray;     ///< rows from the top, each from the left; 0 black, `white` white
     std::optional<double> pixels_per_mm; ///< across, as the file says
+    int file_pixels = 1;                 ///< of the file that one is the mean of, across and down
 
     /// 0 <= row < height, 0 <= column < width.
     [[nodiscard]] std::uint16_t at(int row, int column) const {
@@ -42,8 +43,8 @@ enum class GrayRule {
 struct PixelRegion {
     int left = 0;
     int top = 0;
-    int width = 0;
-    int height = 0;
+    int width = 0;  ///< 0: up to the right edge
+    int height = 0; ///< 0: up to the lower edge
 
     friend bool operator==(const PixelRegion&, const PixelRegion&) = default;
 };
@@ -56,6 +57,8 @@ struct PictureSettings {
     std::int64_t most_pixels = 64'000'000;
     /// What a picture that cannot be read row by row (interlaced, progressive) may take meanwhile, bytes.
     std::int64_t most_memory = 1'000'000'000;
+
+    friend bool operator==(const PictureSettings&, const PictureSettings&) = default;
 };
 
 struct ReadPicture {

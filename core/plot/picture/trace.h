@@ -26,6 +26,8 @@ struct TraceSettings {
     double corner = 1.0;    ///< 0: all corners stay; 1.3334: none does
     double tolerance = 0.2; ///< by which curves that are joined may change, pixels; 0: none are joined
     TurnPolicy turns = TurnPolicy::minority;
+
+    friend bool operator==(const TraceSettings&, const TraceSettings&) = default;
 };
 
 /// A Bezier curve of degree 3 from the end of the one before it; a straight line has its control points on

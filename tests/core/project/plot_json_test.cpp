@@ -1,5 +1,6 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
 #include "core/project/project_file.h"
 #include "tests/support/scratch_folder.h"
@@ -25,8 +26,14 @@ Project every_setting_changed() {
         setting.set(set, 0.5 * (setting.max + setting.default_value()));
     }
     set.use = PictureUse::halftone;
-    set.gray = plot::GrayRule::luminance;
-    set.invert = true;
+    set.hpgl.fill = plot::FillMode::outline;
+    set.hpgl.line_ends = plot::LineEnds::join;
+    set.hpgl.dashes = false;
+    set.hpgl.strictness = plot::Strictness::strict;
+    set.picture.gray = plot::GrayRule::luminance;
+    set.picture.invert = true;
+    set.tracing.turns = plot::TurnPolicy::left;
+    set.join_dots = set.through = true;
     set.tip.kind = plot::TipKind::v;
     set.strokes.side = plot::CutterSide::inside;
     set.strokes.corners = plot::Corners::round;

@@ -2,12 +2,19 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/plot/path_file.h"
+#include "core/project/plot_settings.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace millwright::project {
 namespace {
@@ -52,6 +59,140 @@ TEST(PlotWork, TheOriginMovesEverythingThatIsCut) {
     EXPECT_LT((drawn - before - Vec3(30.0, 40.0, 0.0)).norm(), 1e-4); // kept as floats
     EXPECT_LT(((*there->strokes)[0].points[0] - (*here->strokes)[0].points[0] - Vec2(30.0, 40.0)).norm(),
               1e-9);
+}
+
+/// Dashed, filled, with an arc, a wrapped number and a closed stroke.
+void write_drawing(const fs::path& file) {
+    std::ofstream(file) << "IN;SP1;LT2,1;PU0,0;PD2000,0;LT;PU400,400;PD;AA800,400,180;PU;"
+                           "PU2000,2000;FT3,80,0;RA2800,2800;SP2;PU40\n0,3000;PD1200,3000,1200,3800,400,3800,"
+                           "400,3000;PU;PU1210,3000;PD1400,3000;PU;";
+}
+
+/// What a person sees of it: path, look and light, as text that differs where one of them does.
+std::string seen(const PlotInput& input) {
+    const auto made = derived(input);
+    if (made->failure) {
+        return to_text(*made->failure);
+    }
+    std::string text = plot::path_file_text(*made->path) + made->input.settings.post;
+    text += plot_program_text(*made, "assets");
+    for (const std::uint8_t pixel : made->light.pixels) {
+        text += static_cast<char>(pixel);
+    }
+    return text;
+}
+
+PlotInput picture_input(PictureUse use) {
+    PlotInput input{"assets/samples/pictures/boat.png", {}};
+    input.settings.use = use;
+    input.settings.size.width = 20.0;
+    input.settings.step_over = 1.0;
+    input.settings.tip.diameter = 2.0;
+    input.settings.tip.kind = use == PictureUse::halftone ? plot::TipKind::v : plot::TipKind::ball;
+    return input;
+}
+
+// A field of the window that changed nothing would be a lie.
+TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
+    const test::ScratchFolder scratch;
+    write_drawing(scratch / "drawing.plt");
+    PlotInput drawing{scratch / "drawing.plt", {}};
+    PlotInput turned = drawing;
+    turned.settings.strokes.hatch_pitch = 1.0;
+    turned.settings.strokes.side = plot::CutterSide::inside;
+    PlotInput framed = picture_input(PictureUse::relief);
+    framed.settings.frame = 3.0;
+    framed.settings.depth_per_pass = 0.4;
+    framed.settings.origin = {20.0, 20.0}; // or the frame would leave the table
+    PlotInput natural = picture_input(PictureUse::relief);
+    natural.settings.size = {};
+    natural.settings.picture.region = plot::PixelRegion{300, 190, 40, 40};
+    PlotInput coned = picture_input(PictureUse::halftone);
+    struct Case {
+        const PlotInput& input;
+        std::string_view id;
+        double value;
+    };
+    const PlotInput outlines = picture_input(PictureUse::outlines);
+    const PlotInput relief = picture_input(PictureUse::relief);
+    const PlotInput dots = picture_input(PictureUse::dots);
+    const std::vector<Case> cases = {{drawing, "unit_x_mm", 0.0249},
+                                     {drawing, "unit_y_mm", 0.0249},
+                                     {drawing, "arc_tolerance_mm", 0.001},
+                                     {relief, "width_mm", 21.0},
+                                     {natural, "dpi", 200.0},
+                                     {natural, "pixel_mm", 0.3},
+                                     {natural, "region_left_px", 305.0},
+                                     {natural, "region_top_px", 195.0},
+                                     {natural, "region_width_px", 30.0},
+                                     {natural, "region_height_px", 0.0},
+                                     {outlines, "threshold", 0.95},
+                                     {outlines, "speckle_px", 5000.0},
+                                     {outlines, "corner", 0.0},
+                                     {outlines, "curve_tolerance_px", 5.0},
+                                     {outlines, "chords_mm", 0.1},
+                                     {relief, "depth_mm", 2.0},
+                                     {dots, "dot_pitch_mm", 0.8},
+                                     {coned, "dot_angle_deg", 30.0},
+                                     {relief, "tip_diameter_mm", 1.0},
+                                     {coned, "tip_angle_deg", 90.0},
+                                     {relief, "step_over_mm", 0.5},
+                                     {relief, "merge_mm", 0.2},
+                                     {relief, "depth_per_pass_mm", 0.3},
+                                     {framed, "allowance_mm", 0.1},
+                                     {framed, "rough_step_over_mm", 0.7},
+                                     {framed, "frame_mm", 4.0},
+                                     {framed, "frame_margin_mm", 2.0},
+                                     {framed, "frame_tabs", 2.0},
+                                     {framed, "frame_tab_width_mm", 4.0},
+                                     {framed, "frame_tab_height_mm", 0.5},
+                                     {turned, "tool_mm", 2.0},
+                                     {drawing, "hatch_mm", 1.5},
+                                     {turned, "hatch_angle_deg", 30.0},
+                                     {drawing, "contours_mm", 3.0},
+                                     {drawing, "link_mm", 21.0},
+                                     {drawing, "safe_height_mm", 7.0},
+                                     {drawing, "plate_mm", 0.5},
+                                     {relief, "half_light_mm", 0.5},
+                                     {drawing, "spindle_rpm", 5000.0},
+                                     {drawing, "origin_x_mm", 3.0},
+                                     {drawing, "origin_y_mm", 3.0}};
+    std::set<std::string_view> tried;
+    for (const Case& one : cases) {
+        PlotInput changed = one.input;
+        plot_number(one.id).set(changed.settings, one.value);
+        EXPECT_TRUE(seen(changed) != seen(one.input)) << one.id;
+        tried.insert(one.id);
+    }
+    for (const auto& setting : plot_numbers()) {
+        EXPECT_TRUE(tried.contains(setting.id)) << setting.id;
+    }
+}
+
+TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
+    const test::ScratchFolder scratch;
+    write_drawing(scratch / "drawing.plt");
+    const PlotInput drawing{scratch / "drawing.plt", {}};
+    const auto differs = [](const PlotInput& input, auto change) {
+        PlotInput changed = input;
+        change(changed.settings);
+        return seen(changed) != seen(input);
+    };
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) { s.hpgl.fill = plot::FillMode::outline; }));
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) { s.hpgl.fill = plot::FillMode::none; }));
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) { s.hpgl.dashes = false; }));
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) { s.hpgl.line_ends = plot::LineEnds::separate; }));
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) { s.post = "grbl"; }));
+    const PlotInput outlines = picture_input(PictureUse::outlines);
+    EXPECT_TRUE(differs(outlines, [](PlotSettings& s) { s.picture.invert = true; }));
+    PlotInput dots = picture_input(PictureUse::dots);
+    EXPECT_TRUE(differs(dots, [](PlotSettings& s) { s.join_dots = true; }));
+    PlotInput thin = drawing;
+    thin.settings.plate = 0.5;
+    EXPECT_TRUE(differs(thin, [](PlotSettings& s) { s.through = true; }));
+    std::ofstream(scratch / "bad.plt") << "SP1;PU0,0;PD400,0;QX;";
+    const PlotInput bad{scratch / "bad.plt", {}};
+    EXPECT_TRUE(differs(bad, [](PlotSettings& s) { s.hpgl.strictness = plot::Strictness::strict; }));
 }
 
 TEST(PlotWork, TheProgramIsThatOfThePathAndGoesWithItsWorker) {

@@ -1,4 +1,6 @@
 #include "core/base/error.h"
+#include "core/project/level_settings.h"
+#include "core/project/plot_choices.h"
 #include "core/project/plot_settings.h"
 
 #include <gtest/gtest.h>
@@ -108,6 +110,9 @@ TEST(Settings, EveryChoiceHasItsOwnRow) {
     expect_distinct(tip_kinds());
     expect_distinct(cutter_sides());
     expect_distinct(corner_kinds());
+    expect_distinct(fill_modes());
+    expect_distinct(line_ends());
+    expect_distinct(turn_policies());
 }
 
 TEST(Settings, FaultyAnglesSayThatTheyAre) {

@@ -12,12 +12,14 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <ranges>
 #include <string>
 
 namespace millwright::panels {
 namespace {
 
 using actions::PlotBench;
+using actions::Workbench;
 using actions::Workspace;
 using test::Person;
 using testing::HasSubstr;
@@ -77,6 +79,23 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     bench.person.keep("plot");
 }
 
+TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
+    Bench bench("assets/samples/plot/everyday.plt", {1600, 1200});
+    for (const char* path : {"layers/figures/gone", "layers/figures/left", "layers/position"}) {
+        EXPECT_TRUE(bench.person.sees(path)) << path;
+    }
+    const Workbench begun = bench.person.workshop().look();
+    ASSERT_GT(begun.duration(), 0.0);
+    EXPECT_DOUBLE_EQ(begun.time(), 0.0);
+    bench.person.click("timeline/timeline/last");
+    bench.person.frames(3);
+    const Workbench done = bench.person.workshop().look();
+    EXPECT_NEAR(done.time(), begun.duration(), 1e-6);
+    const motion::Trajectory& way = *done.opened->motion->trajectory;
+    EXPECT_NEAR(way.part_length_at(done.time()), way.part_length(), 1e-6);
+    EXPECT_GT(way.part_length(), 250.0); // what the plot draws, and travel
+}
+
 TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
     Bench bench("assets/samples/plot/hatched-sign.plt");
     const plot::WorkTime before = bench.made().as_planned;
@@ -89,6 +108,18 @@ TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
     bench.person.click("inspector/travel/order");
     bench.settle();
     EXPECT_LT(bench.made().as_planned.seconds, linked.seconds);
+}
+
+TEST(PlotWorkspace, EachAxisHasItsUnit) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    const auto width = [&] { return extents(*bench.made().strokes)->upper.x(); };
+    const auto height = [&] { return extents(*bench.made().strokes)->upper.y(); };
+    const double x = width();
+    const double y = height();
+    bench.person.fill_in("inspector/source/unit_y_mm", "0.05");
+    bench.settle();
+    EXPECT_NEAR(width(), x, 1e-9);
+    EXPECT_NEAR(height(), 2.0 * y, 1e-9);
 }
 
 TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
@@ -133,6 +164,23 @@ TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
     bench.settle();
     EXPECT_GT(gray(), 2 * lit + 1000);
     bench.person.keep("plot-light");
+}
+
+TEST(PlotWorkspace, ARegionOfThePictureIsCutAloneAndInItsSize) {
+    Bench bench("assets/samples/pictures/snail.png", {1600, 1200});
+    bench.person.click("inspector/source/size");
+    bench.person.frames();
+    bench.person.fill_in("inspector/source/size/pixel_mm", "0.5");
+    bench.settle();
+    bench.person.fill_in("inspector/source/size/region_width_px", "40");
+    bench.settle();
+    bench.person.fill_in("inspector/source/size/region_height_px", "20");
+    bench.settle();
+    ASSERT_FALSE(bench.made().failure);
+    const auto x = [](const plot::CutPoint& point) { return point.at.x(); };
+    const auto y = [](const plot::CutPoint& point) { return point.at.y(); };
+    EXPECT_NEAR(std::ranges::max(*bench.made().path | std::views::transform(x)), 39 * 0.5, 1e-9);
+    EXPECT_NEAR(std::ranges::max(*bench.made().path | std::views::transform(y)), 19 * 0.5, 1e-9);
 }
 
 TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {

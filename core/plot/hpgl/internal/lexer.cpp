@@ -301,7 +301,9 @@ private:
             ++at_;
             skip_blanks();
             if (at_ == text_.size()) {
-                return fault(at_ - 1, "a number is missing behind ','");
+                NumberFault last = fault(at_ - 1, "a number is missing behind ','");
+                last.behind_all = true;
+                return last;
             }
         }
         return std::nullopt;
@@ -314,7 +316,7 @@ private:
             left -= is_line_end(original_[n]) ? 0 : 1;
             ++n;
         }
-        return {byte_ + static_cast<std::int64_t>(n), std::move(message)};
+        return {byte_ + static_cast<std::int64_t>(n), std::move(message), false};
     }
 
     std::string_view text_;

@@ -74,6 +74,7 @@ private:
 struct NumberFault {
     std::int64_t byte = 0;
     std::string message;
+    bool behind_all = false; ///< a comma with nothing behind it: the numbers before it are whole
 };
 
 /// Reads the numbers of a command into `numbers`: signs, digits, a point; blanks, one comma or a sign between

@@ -1,5 +1,7 @@
 #include "core/plot/picture/internal/exif.h"
 
+#include "core/plot/picture/internal/row_sink.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -113,11 +115,12 @@ JpegTurn jpeg_turn(std::string_view bytes) {
     return turn;
 }
 
-PixelRegion region_in_file(const PixelRegion& seen, const JpegTurn& turn) {
+PixelRegion region_in_file(PixelRegion seen, const JpegTurn& turn) {
+    const bool sideways = lies(turn.orientation);
+    seen = up_to_edge(seen, sideways ? turn.height : turn.width, sideways ? turn.width : turn.height);
     const auto [x0, y0] = in_file(seen.left, seen.top, turn.orientation, turn.width, turn.height);
     const auto [x1, y1] = in_file(
         seen.left + seen.width - 1, seen.top + seen.height - 1, turn.orientation, turn.width, turn.height);
-    const bool sideways = lies(turn.orientation);
     return {std::min(x0, x1),
             std::min(y0, y1),
             sideways ? seen.height : seen.width,
@@ -129,6 +132,7 @@ Picture turned(const Picture& picture, int orientation) {
     seen.width = lies(orientation) ? picture.height : picture.width;
     seen.height = lies(orientation) ? picture.width : picture.height;
     seen.pixels_per_mm = picture.pixels_per_mm;
+    seen.file_pixels = picture.file_pixels;
     seen.gray.reserve(picture.gray.size());
     for (int y = 0; y < seen.height; ++y) {
         for (int x = 0; x < seen.width; ++x) {

@@ -17,7 +17,7 @@ struct JpegTurn {
 [[nodiscard]] JpegTurn jpeg_turn(std::string_view bytes);
 
 /// Pixels of the file, for a region of the picture as people see it.
-[[nodiscard]] PixelRegion region_in_file(const PixelRegion& seen, const JpegTurn& turn);
+[[nodiscard]] PixelRegion region_in_file(PixelRegion seen, const JpegTurn& turn);
 
 /// As people see it.
 [[nodiscard]] Picture turned(const Picture& picture, int orientation);

@@ -65,6 +65,12 @@ bool brighten(const unsigned char* pixel, int channels, GrayRule rule, std::vect
 
 } // namespace
 
+PixelRegion up_to_edge(PixelRegion region, int width, int height) {
+    region.width = region.width == 0 ? width - region.left : region.width;
+    region.height = region.height == 0 ? height - region.top : region.height;
+    return region;
+}
+
 void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
     if (width < 1 || height < 1) {
         fail(fmt::format("a picture of {} x {} pixels", width, height));
@@ -74,7 +80,8 @@ void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
              "at most 4,000 million pixels are read");
     }
     format_ = format;
-    region_ = settings_.region.value_or(PixelRegion{0, 0, static_cast<int>(width), static_cast<int>(height)});
+    region_ = up_to_edge(
+        settings_.region.value_or(PixelRegion{}), static_cast<int>(width), static_cast<int>(height));
     const auto inside = [](std::int64_t from, std::int64_t count, std::int64_t all) {
         return from >= 0 && count >= 1 && from + count <= all;
     };
@@ -188,6 +195,7 @@ void RowSink::allow_memory(std::int64_t bytes, const std::string& what) const {
 ReadPicture RowSink::end() {
     expects(lines_ == region_.height, "a decoder hands in every row of the region");
     flush_block();
+    read_.picture.file_pixels = square_;
     if (square_ > 1 && read_.picture.pixels_per_mm) {
         *read_.picture.pixels_per_mm /= square_;
     }

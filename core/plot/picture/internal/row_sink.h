@@ -13,6 +13,9 @@ struct RowFormat {
     int bits = 8;     ///< 8 or 16, of a sample
 };
 
+/// The region of a picture of this size, where a width or height of 0 goes up to its edge.
+[[nodiscard]] PixelRegion up_to_edge(PixelRegion region, int width, int height);
+
 class RowSink {
 public:
     RowSink(const PictureSettings& settings, const std::filesystem::path& file, const Progress& progress)

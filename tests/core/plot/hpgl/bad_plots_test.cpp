@@ -93,6 +93,15 @@ TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {
     EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD8931039,800;PU;", "wide.plt", wide).diagnostics.empty());
 }
 
+TEST(BadPlots, ACommaBehindTheLastNumberIsToldAndDoesNoHarm) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PD400,0,400,400,;PD0,400;PU;", "comma.plt");
+    ASSERT_EQ(plot.diagnostics.size(), 1U);
+    EXPECT_EQ(plot.diagnostics.front().place.byte, 25);
+    EXPECT_NEAR(draw_length(plot.strokes), 30.0, 1e-12);
+    EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD400,;PU;", "comma.plt").strokes.empty());
+    EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD400,0,", "comma.plt").strokes.empty()); // perhaps cut off
+}
+
 TEST(BadPlots, RelativeMovesAfterAFaultAreNotDrawn) {
     const Plot plot = read_hpgl("SP1;PU0,0;PD100,0;PR;PD1.1.1,2;PD100,0,0,100;PA;PU0,0;PD40,0;", "bad.plt");
     ASSERT_EQ(plot.strokes.size(), 2U);

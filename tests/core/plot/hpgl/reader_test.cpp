@@ -180,6 +180,9 @@ TEST(HpglReader, EverySampleIsReadStrictly) {
     strict.strictness = Strictness::strict;
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("assets/samples/plot")) {
+        if (entry.path().extension() != ".plt") {
+            continue; // what made one of them
+        }
         SCOPED_TRACE(entry.path());
         EXPECT_FALSE(read_hpgl_file(entry.path(), strict).strokes.empty());
         ++count;

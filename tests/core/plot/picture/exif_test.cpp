@@ -95,6 +95,11 @@ TEST(ExifOrientation, RegionsAreThoseOfThePictureThatIsSeen) {
         PictureSettings settings;
         settings.region = {3, 5, 13, 11};
         const Picture part = read_picture(turned, "test", settings).picture;
+        settings.region = {3, 5, 0, 0}; // up to the edges of what is seen
+        const Picture rest = read_picture(turned, "test", settings).picture;
+        ASSERT_EQ(rest.width, whole.width - 3) << n;
+        ASSERT_EQ(rest.height, whole.height - 5) << n;
+        EXPECT_EQ(rest.at(rest.height - 1, rest.width - 1), whole.at(whole.height - 1, whole.width - 1)) << n;
         ASSERT_EQ(part.width, 13) << n;
         ASSERT_EQ(part.height, 11) << n;
         for (int y = 0; y < 11; ++y) {

@@ -181,6 +181,12 @@ TEST(PictureReader, TakesTheRegionAlone) {
             }
         }
     }
+    const Picture rest = picture_of(png_of(samples), {.region = PixelRegion{3, 5, 0, 0}}); // up to the edges
+    ASSERT_EQ(rest.width, 17);
+    ASSERT_EQ(rest.height, 11);
+    EXPECT_EQ(rest.at(10, 16), all.at(15, 19));
+    EXPECT_THAT(error_of(png_of(samples), {.region = PixelRegion{20, 0, 0, 0}}),
+                HasSubstr("the region of 0 x 16 pixels from (20, 0) leaves the picture of 20 x 16"));
     EXPECT_THAT(error_of(png_of(samples), {.region = PixelRegion{15, 0, 6, 1}}),
                 HasSubstr("the region of 6 x 1 pixels from (15, 0) leaves the picture of 20 x 16"));
 }
@@ -201,6 +207,7 @@ TEST(PictureReader, AveragesWhatIsTooLarge) {
         const ReadPicture read = read_picture(bytes, "test", {.most_pixels = 12});
         ASSERT_EQ(read.picture.width, 4); // squares of 3
         ASSERT_EQ(read.picture.height, 3);
+        EXPECT_EQ(read.picture.file_pixels, 3);
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 4; ++column) {
                 double sum = 0.0;

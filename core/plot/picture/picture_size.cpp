@@ -1,0 +1,25 @@
+#include "core/plot/picture/picture_size.h"
+
+#include "core/plot/picture/internal/checks.h"
+
+namespace millwright::plot {
+
+double pixel_pitch(const PictureSize& size, const Picture& picture) {
+    constexpr double mm_per_inch = 25.4;
+    constexpr double thesis_pixel = 0.26;
+    if (size.width) {
+        internal::check_above_zero("a width", *size.width);
+        return *size.width / picture.width;
+    }
+    if (size.dots_per_inch) {
+        internal::check_above_zero("a number of pixels an inch", *size.dots_per_inch);
+        return picture.file_pixels * mm_per_inch / *size.dots_per_inch;
+    }
+    if (size.pixel) {
+        internal::check_above_zero("a pixel", *size.pixel);
+        return picture.file_pixels * *size.pixel;
+    }
+    return picture.pixels_per_mm ? 1.0 / *picture.pixels_per_mm : picture.file_pixels * thesis_pixel;
+}
+
+} // namespace millwright::plot

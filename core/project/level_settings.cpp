@@ -1,0 +1,74 @@
+#include "core/project/level_settings.h"
+
+#include "core/project/internal/people_number.h"
+
+#include <array>
+
+namespace millwright::project {
+
+namespace {
+
+using internal::As;
+using internal::count;
+using internal::number;
+using plot::Level;
+using plot::Tabs;
+
+constexpr std::array<NumberSetting<Level>, 9> of_level{{
+    {"order",
+     "Order",
+     "",
+     "Levels with a smaller one are cut first",
+     -1'000'000,
+     1'000'000,
+     0,
+     count<&Level::order>},
+    {"depth_mm", "Depth", "mm", "Below the top", 0.0, 150.0, 3, number<As::it_is, &Level::depth>},
+    {"passes", "Passes", "", "Of equal depth, one below the other", 1, 1000, 0, count<&Level::passes>},
+    {"feed_mm_per_min",
+     "Feed",
+     "mm/min",
+     "Along the strokes",
+     1.0,
+     1e5,
+     1,
+     number<As::mm_per_min, &Level::cutting>},
+    {"plunge_mm_per_min",
+     "Plunge",
+     "mm/min",
+     "Into the work",
+     1.0,
+     1e5,
+     1,
+     number<As::mm_per_min, &Level::plunging>},
+    {"tool", "Tool", "", "Where it differs the tool is changed by hand", 0, 1000, 0, count<&Level::tool>},
+    {"tabs", "Tabs", "", "Bridges on closed strokes", 0, 1000, 0, count<&Level::tabs, &Tabs::count>},
+    {"tab_width_mm",
+     "Tab width",
+     "mm",
+     "Along the path of the tool's middle",
+     0.1,
+     100.0,
+     1,
+     number<As::it_is, &Level::tabs, &Tabs::width>},
+    {"tab_height_mm",
+     "Tab height",
+     "mm",
+     "Above the depth of the level",
+     0.01,
+     100.0,
+     2,
+     number<As::it_is, &Level::tabs, &Tabs::height>},
+}};
+
+} // namespace
+
+std::span<const NumberSetting<Level>> level_numbers() {
+    return of_level;
+}
+
+const NumberSetting<Level>& level_number(std::string_view id) {
+    return internal::number_row(level_numbers(), id);
+}
+
+} // namespace millwright::project
