@@ -15,6 +15,7 @@
 #include "app/commands/send_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/workbench_command.h"
+#include "app/finite_number.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
 
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
     add_cordic_command(app, chosen);
     add_plot_command(app, chosen);
     add_picture_command(app, chosen);
+    expect_finite_numbers(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {

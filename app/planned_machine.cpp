@@ -1,5 +1,6 @@
 #include "app/planned_machine.h"
 
+#include "app/finite_number.h"
 #include "app/job_keys.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
@@ -40,6 +41,7 @@ std::string fault_of_speed(const std::string& text) {
 void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice) {
     command.add_option("--period", choice.period, "Sampling period of a coordinate stream, s")
         ->type_name("S")
+        ->check(finite_number())
         ->capture_default_str();
     add_record_options(command, choice.record);
     command

@@ -239,7 +239,8 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
     command
         .add_option(
             "--clearance", clearance, "Z of the work in which the tool can go anywhere, for --from-line")
-        ->type_name("Z");
+        ->type_name("Z")
+        ->check(finite_number());
 }
 
 int run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::stop_token& stop) {

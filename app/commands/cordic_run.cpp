@@ -42,12 +42,18 @@ double path_acceleration(const Options& options) {
 }
 
 void run_traced(cordic::Processor& processor, const Options& options) {
+    constexpr std::size_t much = 1U << 20U; // a long run has gigabytes of waves
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
+    FileWriter file(options.trace);
     for (std::int64_t n = 0; n < options.most_clocks && processor.state().stop == cordic::Stop::none; ++n) {
         processor.clock();
         waves.add(processor.state());
+        if (waves.size() >= much) {
+            file.write(waves.take());
+        }
     }
-    write_file(options.trace, waves.take());
+    file.write(waves.take());
+    file.close();
 }
 
 nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const cordic::Published& record) {
@@ -59,7 +65,10 @@ nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const c
                                  {"vy", set.vy},
                                  {"ax", set.ax},
                                  {"ay", set.ay}};
-    if (record.opcode == cordic::Opcode::g00z || record.opcode == cordic::Opcode::g01z) {
+    using cordic::Opcode;
+    const bool in_space = record.opcode == Opcode::g00z || record.opcode == Opcode::g01z ||
+                          record.opcode == Opcode::g02z || record.opcode == Opcode::g03z;
+    if (in_space) {
         const auto height = processor.height_point(record);
         point["z"] = height.z;
         point["vz"] = height.vz;
@@ -153,7 +162,7 @@ bool is_at_an_end(const cordic::Processor& processor,
 }
 
 int run(const Options& options) {
-    const gcode::CordicProgram program = cordic_program(options.source);
+    const gcode::CordicProgram program = cordic_program(options.source, processor_settings(options.choice));
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     const auto supervised = execute(processor, options);
     // Turned the other way, or stepped from elsewhere, the points are not those of the G-code.

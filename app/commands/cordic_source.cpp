@@ -12,6 +12,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -25,15 +26,29 @@ namespace {
 constexpr double least_clock_hz = 1.0;
 constexpr double most_clock_hz = 1e11;
 
+cordic::NumberFormat format_of(const CordicSource& source) {
+    return cordic::parse_number_format(source.format.value_or("f32"));
+}
+
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-gcode::CordicProgram compiled(const CordicSource& source) {
+constexpr std::size_t most_printed = 20; // of errors or warnings
+
+void print_first(const std::vector<Diagnostic>& found) {
+    for (std::size_t n = 0; n < std::min(found.size(), most_printed); ++n) {
+        fmt::print(stderr, "millwright: {}\n", to_text(found[n]));
+    }
+}
+
+gcode::CordicProgram compiled(const CordicSource& source, const cordic::ProcessorSettings& processor) {
     gcode::CordicProgramSettings settings;
-    settings.format = cordic::parse_number_format(source.format);
+    settings.format = format_of(source);
+    settings.processor = processor;
     settings.chord_tolerance = source.tolerance;
     settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
+    settings.lets_arcs_drift = source.whole_arcs;
     settings.rapid_speed = from_mm_per_min(source.rapid_mm_per_min);
     settings.acceleration = source.acceleration;
     settings.leaves_out_other_axes = source.other_axes;
@@ -46,23 +61,42 @@ gcode::CordicProgram compiled(const CordicSource& source) {
     refuse(program.errors());
     gcode::CordicProgram made = builder.take();
     refuse(made.faults);
-    for (const Diagnostic& warning : made.warnings) {
-        fmt::print(stderr, "millwright: {}\n", to_text(warning));
+    print_first(made.warnings);
+    if (made.warnings.size() > most_printed) {
+        fmt::print(stderr, "millwright: {} warnings\n", made.warnings.size());
     }
     return made;
 }
 
-cordic::ProcessorSettings settings_of(const CordicChoice& choice) {
-    cordic::ProcessorSettings settings;
-    if (choice.iterations > 0) {
-        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice.iterations);
+/// An option that says nothing about a program that is made already would be passed over in silence.
+void refuse_options_of_gcode(const CordicSource& source) {
+    for (const CLI::Option* const option : source.of_gcode) {
+        if (option->count() > 0) {
+            throw Error(fmt::format("{} is for G-code", option->get_name()), source.file);
+        }
     }
-    settings.zero = choice.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
-    settings.sense = choice.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
-    settings.publishing = choice.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
-    settings.halves_acceleration = !choice.whole_acceleration;
-    settings.wait_states = choice.wait_states;
-    return settings;
+}
+
+void expect_format(const CordicSource& source, const cordic::NumberFormat& found) {
+    if (source.format && cordic::parse_number_format(*source.format) != found) {
+        throw Error(fmt::format("the program is in {}, not in {}", cordic::to_text(found), *source.format),
+                    source.file,
+                    "leave --format out");
+    }
+}
+
+gcode::CordicProgram loaded(const CordicSource& source) {
+    const std::string bytes = read_file(source.file);
+    cordic::Image image = cordic::parse_image(bytes_of(bytes), source.file);
+    expect_format(source, image.format);
+    return {std::move(image), {}, {}, {}, {}, {}};
+}
+
+gcode::CordicProgram assembled(const CordicSource& source) {
+    auto made = cordic::assemble(read_file(source.file), source.file, format_of(source));
+    refuse(made.errors);
+    expect_format(source, made.image.format);
+    return {std::move(made.image), {}, std::move(made.lines), {}, {}, {}};
 }
 
 } // namespace
@@ -70,23 +104,30 @@ cordic::ProcessorSettings settings_of(const CordicChoice& choice) {
 void add_cordic_source(CLI::App& command, CordicSource& source) {
     command.add_option("FILE", source.file, "G-code, assembler text (.asm) or image (.bin)")->required();
     command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q8.24")
-        ->capture_default_str();
-    command.add_option("--tolerance", source.tolerance, "Farthest that a chord may be from its arc, mm")
-        ->check(CLI::Range(1e-9, 1e3))
-        ->capture_default_str();
-    command.add_option("--rapid", source.rapid_mm_per_min, "Speed of G0, mm/min")
-        ->check(CLI::Range(1e-3, 1e7))
-        ->capture_default_str();
+        ->default_str("f32");
+    source.of_gcode = {
+        command.add_option("--tolerance", source.tolerance, "Farthest that the path may be from its arc, mm")
+            ->check(CLI::Range(1e-9, 1e3))
+            ->capture_default_str(),
+        command.add_option("--rapid", source.rapid_mm_per_min, "Speed of G0, mm/min")
+            ->check(CLI::Range(1e-3, 1e7))
+            ->capture_default_str(),
+        command.add_flag("--thesis-arcs", source.thesis_arcs, "End arcs where their rotations lead"),
+        command.add_flag("--whole-arcs",
+                         source.whole_arcs,
+                         "Do not divide arcs, however far rounding leads them from the tolerance"),
+        command.add_flag("--other-axes", source.other_axes, "Leave out what other axes than X, Y and Z do")};
     command.add_option("--acceleration", source.acceleration, "Amax, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
         ->capture_default_str();
-    command.add_flag("--thesis-arcs", source.thesis_arcs, "End arcs where their rotations lead");
-    command.add_flag("--other-axes", source.other_axes, "Leave out what other axes than X, Y and Z do");
 }
 
 void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
     command.add_option("--iterations", choice.iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
+    command.add_option("--rounding", choice.rounding, "What a fixed-point shift does with the bits it drops")
+        ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}))
+        ->capture_default_str();
     command.add_option("--wait-states", choice.wait_states, "Clocks that a bus cycle waits")
         ->check(CLI::Range(0, 255));
     command.add_flag(
@@ -107,31 +148,40 @@ void add_cordic_clock(CLI::App& command, double& clock_hz) {
 }
 
 void refuse(const std::vector<Diagnostic>& errors) {
-    for (std::size_t n = 1; n < errors.size(); ++n) {
-        fmt::print(stderr, "millwright: {}\n", to_text(errors[n]));
-    }
-    if (!errors.empty()) {
+    if (errors.size() == 1) {
         throw Error(errors.front());
+    }
+    print_first(errors);
+    if (!errors.empty()) {
+        throw Error(fmt::format("{} errors", errors.size()), errors.front().place.file);
     }
 }
 
-gcode::CordicProgram cordic_program(const CordicSource& source) {
+gcode::CordicProgram cordic_program(const CordicSource& source, const cordic::ProcessorSettings& processor) {
     const auto kind = std::filesystem::path(source.file).extension();
-    if (kind == ".bin") {
-        const std::string bytes = read_file(source.file);
-        return {cordic::parse_image(bytes_of(bytes), source.file), {}, {}, {}, {}, {}};
+    if (kind != ".bin" && kind != ".asm") {
+        return compiled(source, processor);
     }
-    if (kind == ".asm") {
-        auto made =
-            cordic::assemble(read_file(source.file), source.file, cordic::parse_number_format(source.format));
-        refuse(made.errors);
-        return {std::move(made.image), {}, std::move(made.lines), {}, {}, {}};
+    refuse_options_of_gcode(source);
+    return kind == ".bin" ? loaded(source) : assembled(source);
+}
+
+cordic::ProcessorSettings processor_settings(const CordicChoice& choice) {
+    cordic::ProcessorSettings settings;
+    if (choice.iterations > 0) {
+        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice.iterations);
     }
-    return compiled(source);
+    settings.rounding = cordic::parse_rounding(choice.rounding);
+    settings.zero = choice.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
+    settings.sense = choice.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
+    settings.publishing = choice.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
+    settings.halves_acceleration = !choice.whole_acceleration;
+    settings.wait_states = choice.wait_states;
+    return settings;
 }
 
 cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image) {
-    const cordic::ProcessorSettings settings = settings_of(choice);
+    const cordic::ProcessorSettings settings = processor_settings(choice);
     if (choice.microprogram.empty()) {
         return {settings, image};
     }

@@ -7,24 +7,28 @@
 
 #include <CLI/App.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace millwright::app {
 
 struct CordicSource {
-    std::string file; ///< G-code, assembler text (.asm) or image (.bin)
-    std::string format = "f32";
+    std::string file;                  ///< G-code, assembler text (.asm) or image (.bin)
+    std::optional<std::string> format; ///< of an image: its own; else f32
     double tolerance = 0.001;
     double rapid_mm_per_min = 3000.0;
     double acceleration = 500.0;
     bool thesis_arcs = false;
+    bool whole_arcs = false;
     bool other_axes = false;
+    std::vector<const CLI::Option*> of_gcode; ///< that mean nothing to other programs
 };
 
 struct CordicChoice {
     std::string microprogram; ///< text file; empty: ours
     int iterations = 0;       ///< 0: the thesis's 29 steps
+    std::string rounding = "truncate";
     int wait_states = 0;
     bool thesis_direction = false;
     bool matlab_zero = false;
@@ -36,12 +40,15 @@ void add_cordic_source(CLI::App& command, CordicSource& source);
 void add_cordic_choice(CLI::App& command, CordicChoice& choice);
 void add_cordic_clock(CLI::App& command, double& clock_hz);
 
-/// Prints all of them; the first ends the request.
+/// Throws Error if there are any: it, or how many they are behind the first of them, which are printed.
 void refuse(const std::vector<Diagnostic>& errors);
 
-/// Throws Error, after printing what else is wrong, if it is no program of the processor. Warnings are
-/// printed.
-[[nodiscard]] gcode::CordicProgram cordic_program(const CordicSource& source);
+[[nodiscard]] cordic::ProcessorSettings processor_settings(const CordicChoice& choice);
+
+/// Made for a processor of such settings. Throws Error, after printing what is wrong, if it is no program of
+/// the processor, and for options that mean nothing to it. Warnings are printed.
+[[nodiscard]] gcode::CordicProgram cordic_program(const CordicSource& source,
+                                                  const cordic::ProcessorSettings& processor = {});
 
 [[nodiscard]] cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image);
 

@@ -30,7 +30,7 @@ struct Diagnostic {
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 
-/// `file:line:column: message (hint)`, leaving out what is not known.
+/// `file:line:column: message (hint)`, without what is not known; bytes that are no text as \xNN.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic);
 
 /// The world is wrong: a file, a value, a port, a display. Ends the request, never the program.

@@ -22,51 +22,6 @@ std::string reason(int error_number) {
     return std::error_code(error_number, std::generic_category()).message();
 }
 
-/// A file being written: closed and removed again unless kept.
-class Draft {
-public:
-    explicit Draft(const fs::path& target) : name_(target.string() + ".XXXXXX") {
-        handle_ = ::mkstemp(name_.data());
-        if (handle_ < 0) {
-            throw Error("cannot write: " + reason(errno), target);
-        }
-    }
-    Draft(const Draft&) = delete;
-    Draft& operator=(const Draft&) = delete;
-    ~Draft() {
-        if (handle_ >= 0) {
-            ::close(handle_);
-            ::unlink(name_.c_str());
-        }
-    }
-
-    void write(std::string_view bytes, const fs::path& target) const {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(handle_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) {
-                continue;
-            }
-            if (written < 0) {
-                throw Error("cannot write: " + reason(errno), target);
-            }
-            bytes.remove_prefix(static_cast<std::size_t>(written));
-        }
-    }
-
-    void rename_to(const fs::path& target, mode_t mode) {
-        if (::fchmod(handle_, mode) != 0 || ::fsync(handle_) != 0 ||
-            ::rename(name_.c_str(), target.c_str()) != 0) {
-            throw Error("cannot write: " + reason(errno), target);
-        }
-        ::close(handle_);
-        handle_ = -1;
-    }
-
-private:
-    std::string name_;
-    int handle_ = -1;
-};
-
 mode_t mode_for(const fs::path& target) {
     struct stat old {};
     if (::stat(target.c_str(), &old) == 0) {
@@ -95,14 +50,57 @@ std::string read_file(const fs::path& file) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
+    FileWriter writer(file);
+    writer.write(bytes);
+    writer.close();
+}
+
+FileWriter::FileWriter(fs::path file) : file_(std::move(file)) {
     std::error_code failure;
-    const fs::path target = fs::is_symlink(file, failure) ? fs::weakly_canonical(file) : file;
-    if (fs::is_directory(target, failure)) {
-        throw Error("cannot write: " + reason(EISDIR), file);
+    if (fs::is_symlink(file_, failure)) {
+        file_ = fs::weakly_canonical(file_);
     }
-    Draft draft(target);
-    draft.write(bytes, target);
-    draft.rename_to(target, mode_for(target));
+    if (fs::is_directory(file_, failure)) {
+        throw Error("cannot write: " + reason(EISDIR), file_);
+    }
+    draft_ = file_.string() + ".XXXXXX";
+    handle_ = ::mkstemp(draft_.data());
+    if (handle_ < 0) {
+        fail();
+    }
+}
+
+FileWriter::~FileWriter() {
+    if (handle_ >= 0) {
+        ::close(handle_);
+        ::unlink(draft_.c_str());
+    }
+}
+
+void FileWriter::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(handle_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written < 0) {
+            fail();
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void FileWriter::close() {
+    if (::fchmod(handle_, mode_for(file_)) != 0 || ::fsync(handle_) != 0 ||
+        ::rename(draft_.c_str(), file_.c_str()) != 0) {
+        fail();
+    }
+    ::close(handle_);
+    handle_ = -1;
+}
+
+void FileWriter::fail() const {
+    throw Error("cannot write: " + reason(errno), file_);
 }
 
 void make_folder(const fs::path& folder) {

@@ -14,6 +14,26 @@ namespace millwright {
 /// link keeps pointing: its target is replaced. Throws Error with the file and the system's reason.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// The same of a file that comes piece by piece and need not be in memory as a whole.
+class FileWriter {
+public:
+    /// Throws Error with the file and the system's reason, as all that follow.
+    explicit FileWriter(std::filesystem::path file);
+    FileWriter(const FileWriter&) = delete;
+    FileWriter& operator=(const FileWriter&) = delete;
+    ~FileWriter(); ///< leaves the old file as it was unless closed
+
+    void write(std::string_view bytes);
+    void close(); ///< renames over the old file; nothing may be written then
+
+private:
+    [[noreturn]] void fail() const;
+
+    std::filesystem::path file_; ///< behind a symbolic link its target
+    std::string draft_;
+    int handle_ = -1;
+};
+
 /// Makes `folder` and its parents where missing. Throws Error if it cannot be made or is not a folder.
 void make_folder(const std::filesystem::path& folder);
 

@@ -41,6 +41,12 @@ struct NumberFormat {
 inline constexpr NumberFormat binary64{};
 inline constexpr NumberFormat binary32{.kind = NumberKind::binary32};
 
+/// The same numbers, rounded in that way.
+[[nodiscard]] constexpr NumberFormat with_rounding(NumberFormat format, Rounding rounding) {
+    format.rounding = rounding;
+    return format;
+}
+
 /// qI.F. Throws Error unless the word has 8 to 64 bits, I is at least 1 and F at most 62.
 [[nodiscard]] NumberFormat
 fixed_format(int integer_bits, int fraction_bits, Rounding rounding = Rounding::truncate);

@@ -22,16 +22,6 @@ constexpr ControlSignals moves =
     bit_of(Control::count_chord) | bit_of(Control::halt) | bit_of(Control::take_height) |
     bit_of(Control::command) | bit_of(Control::next_page);
 
-template <class Arithmetic>
-Kernel<Arithmetic> kernel_with(const Arithmetic& arithmetic, const ProcessorSettings& settings) {
-    return Kernel<Arithmetic>(arithmetic, settings.sequence, settings.zero);
-}
-
-NumberFormat with_rounding(NumberFormat format, Rounding rounding) {
-    format.rounding = rounding;
-    return format;
-}
-
 } // namespace
 
 Processor::Processor(const ProcessorSettings& settings, const Image& image)
@@ -40,8 +30,7 @@ Processor::Processor(const ProcessorSettings& settings, const Image& image)
 Processor::Processor(const ProcessorSettings& settings, const Image& image, Microprogram microprogram)
     : settings_(settings), format_(with_rounding(image.format, settings.rounding)),
       microprogram_(std::make_shared<const Microprogram>(std::move(microprogram))),
-      kernel_(with_arithmetic(
-          format_, [&](const auto& arithmetic) { return AnyKernel(kernel_with(arithmetic, settings)); })) {
+      kernel_(any_kernel(format_, settings.sequence, settings.zero)) {
     if (image.code.size() > most_code) {
         throw Error(fmt::format("the program has {} bytes, the ROM holds {}", image.code.size(), most_code));
     }

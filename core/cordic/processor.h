@@ -2,13 +2,12 @@
 // looked at, copied and compared between any two clocks.
 #pragma once
 
+#include "core/cordic/any_kernel.h"
 #include "core/cordic/interpolation.h"
-#include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
 
 #include <cstdint>
 #include <memory>
-#include <variant>
 #include <vector>
 
 namespace millwright::cordic {
@@ -50,9 +49,6 @@ public:
     void reset();
 
 private:
-    using AnyKernel = std::
-        variant<Kernel<FloatArithmetic<double>>, Kernel<FloatArithmetic<float>>, Kernel<FixedArithmetic>>;
-
     [[nodiscard]] bool condition(Condition condition) const;
     void sequence(const MicroWord& word);
     void use_bus(ControlSignals controls);

@@ -4,6 +4,7 @@
 #include "core/cordic/processor.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ public:
     /// The state after one more clock. Text is added only for what changed.
     void add(const ProcessorState& state);
 
+    /// Bytes of text that take() would give.
+    [[nodiscard]] std::size_t size() const { return text_.size(); }
     /// The text so far; what was taken is not given again.
     [[nodiscard]] std::string take();
 

@@ -96,7 +96,9 @@ void ProcessorBench::compile() {
     running_ = false;
     gcode::CordicProgramSettings wanted;
     wanted.format = choice_.format;
+    wanted.processor = settings();
     wanted.chord_tolerance = choice_.chord_tolerance;
+    wanted.lets_arcs_drift = true; // how far is what a person comes to see
     gcode::CordicProgramBuilder builder(name_, wanted);
     gcode::ReaderSettings reading;
     reading.any_tool = true;

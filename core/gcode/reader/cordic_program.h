@@ -1,14 +1,16 @@
 // From canonical commands to a program of the CORDIC processor: lines of X, Y and Z, arcs, dwell, spindle,
 // tool, coolant and stops as its instructions, with offsets, units and rotation applied. Arcs about Z become
-// chords that the processor turns, of which the last is a line to the programmed end, so that what rounding
-// adds up to on the way does not stay; those of other planes become lines. Positions mm, speeds mm/s. Source:
-// Amorn Chuaichu, "G-Code Processor Implementation Using CORDIC Algorithm", KMITL 2002, table 2.1; the rule
-// for the number of chords is ours (docs/reference/cordic.md#compiler).
+// chords that the processor turns, of which the last is a line to the programmed end; where rounding would
+// lead them astray before that, a line to where a chord ends exactly comes between. Those of other planes
+// become lines. Positions mm, speeds mm/s. Source: Amorn Chuaichu, "G-Code Processor Implementation Using
+// CORDIC Algorithm", KMITL 2002, table 2.1; the rule for the number of chords is ours
+// (docs/reference/cordic.md#compiler).
 #pragma once
 
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
 #include "core/cordic/instruction.h"
+#include "core/cordic/processor_state.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/canon.h"
@@ -28,8 +30,13 @@ enum class ArcEnd : std::uint8_t {
 
 struct CordicProgramSettings {
     cordic::NumberFormat format = cordic::binary32;
-    double chord_tolerance = 0.001; ///< mm
+    /// That the program is made for: arcs are divided as its rotations come out.
+    cordic::ProcessorSettings processor;
+    double chord_tolerance = 0.001; ///< mm: of chords from their arcs, rounding included
     ArcEnd arc_end = ArcEnd::programmed;
+    /// Arcs stay whole however far rounding leads their rotations astray, to look at that; else they are
+    /// divided or, where they end as rotated, a fault.
+    bool lets_arcs_drift = false;
     double rapid_speed = 50.0;          ///< mm/s: Vmax of G00
     double acceleration = 500.0;        ///< mm/s2: Amax
     bool leaves_out_other_axes = false; ///< motion of other axes than X, Y and Z; else it is a fault

@@ -47,6 +47,23 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNoDraft) {
     EXPECT_EQ(file_count(), 2);
 }
 
+TEST_F(Files, PiecesTakeThePlaceOfTheOldFileWhenClosedAndNotBefore) {
+    write_file(in_folder("a.txt"), "old");
+    {
+        FileWriter given_up(in_folder("a.txt"));
+        given_up.write("half");
+    }
+    EXPECT_EQ(read_file(in_folder("a.txt")), "old");
+    FileWriter writer(in_folder("a.txt"));
+    writer.write("one, ");
+    writer.write("two");
+    EXPECT_EQ(read_file(in_folder("a.txt")), "old");
+    writer.close();
+    EXPECT_EQ(read_file(in_folder("a.txt")), "one, two");
+    EXPECT_EQ(file_count(), 1);
+    EXPECT_THROW(FileWriter(in_folder("missing/a.txt")), Error);
+}
+
 TEST_F(Files, WritingThroughALinkKeepsTheLink) {
     write_file(in_folder("real.txt"), "old");
     fs::create_symlink("real.txt", in_folder("link.txt"));

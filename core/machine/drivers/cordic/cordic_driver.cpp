@@ -83,6 +83,7 @@ std::string CordicDriver::remark() const {
 
 gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {
     gcode::CordicProgramSettings settings = options_.program;
+    settings.processor = options_.processor;
     settings.start = start;
     gcode::CordicProgramBuilder builder(program_name, settings);
     gcode::ReaderSettings reading;

@@ -18,7 +18,7 @@
 namespace millwright::machine {
 
 struct CordicDriverOptions {
-    gcode::CordicProgramSettings program; ///< but for the start, which is where the machine stands
+    gcode::CordicProgramSettings program; ///< but for the start and the processor
     cordic::ProcessorSettings processor;
     double clock_hz = 8e6;                  ///< for the report: which set-points would come late
     std::int64_t most_clocks = 200'000'000; ///< a program that takes more is refused

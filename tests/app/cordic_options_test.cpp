@@ -1,0 +1,149 @@
+// What the cordic commands make of their options: none is passed over in silence, no number is none.
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string arc = "assets/samples/thesis-arc.ngc";
+
+class CordicOptions : public ::testing::Test {
+protected:
+    std::string written(const std::string& name, const std::string& text) const {
+        const auto file = folder_.path() / name;
+        write_content(file, text);
+        return file.string();
+    }
+    [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+private:
+    ScratchFolder folder_;
+};
+
+TEST_F(CordicOptions, RefuseArcsThatTheFormatCannotKeepWithinTheTolerance) {
+    const std::string file = written("f10.ngc", "G21 G90\nF60\nG2 X0 Y0 I10 J0\nM2\n");
+    const Ended coarse = run({"cordic", "run", file, "--format", "q24.8", "--tolerance", "1e-7"});
+    EXPECT_EQ(coarse.exit_code, 1);
+    EXPECT_EQ(coarse.out, "");
+    EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: q24.8 holds the end of a chord 0.00"));
+    const Ended whole = run({"cordic", "run", file, "--format", "q12.16", "--whole-arcs", "--json"});
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    const auto error_of = [](const Ended& ended) {
+        return nlohmann::json::parse(ended.out).at("errors").at("position_mm").get<double>();
+    };
+    EXPECT_GT(error_of(whole), 0.001);
+    const Ended divided = run({"cordic", "run", file, "--format", "q12.16", "--json"});
+    ASSERT_EQ(divided.exit_code, 0) << divided.err;
+    EXPECT_LT(error_of(divided), 0.001);
+}
+
+TEST_F(CordicOptions, TellTheWayOfRoundingThatTheProcessorUses) {
+    const std::string file = written("arc.ngc", "G21\nF60\nG3 X0 Y0 I-5 J0\nM2\n");
+    std::vector<std::string> answers;
+    for (const char* rounding : {"truncate", "nearest", "nearest-even"}) {
+        const Ended ended =
+            run({"cordic", "run", file, "--format", "q10.22", "--json", "--rounding", rounding});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const auto answer = nlohmann::json::parse(ended.out);
+        EXPECT_LT(answer.at("errors").at("position_mm").get<double>(), 0.001);
+        answers.push_back(answer.at("points").dump());
+    }
+    EXPECT_NE(answers[0], answers[1]);
+    EXPECT_NE(answers[1], answers[2]);
+    EXPECT_EQ(run({"cordic", "run", file, "--rounding", "up"}).exit_code, 2);
+}
+
+TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
+    const std::vector<std::vector<std::string>> uses{{"cordic", "run", arc, "--clock"},
+                                                     {"cordic", "run", arc, "--tolerance"},
+                                                     {"cordic", "run", arc, "--rapid"},
+                                                     {"cordic", "run", arc, "--acceleration"},
+                                                     {"cordic", "run", arc, "--jerk"},
+                                                     {"cordic", "run", arc, "--period"},
+                                                     {"cordic", "run", arc, "--steps"},
+                                                     {"cordic", "run", arc, "--timer"},
+                                                     {"cordic", "run", arc, "--plc", "x", "--scan"},
+                                                     {"cordic", "sew", arc, "--needle-rpm"},
+                                                     {"cordic", "sew", arc, "--needle-down"},
+                                                     {"cordic", "rotate", "1", "0"},
+                                                     {"cordic", "vector", "1"},
+                                                     {"run", "x.json", "--driver", "virtual", "--period"},
+                                                     {"run", "x.json", "--driver", "cordic", "--clock"},
+                                                     {"run", "x.json", "--driver", "virtual", "--clearance"}};
+    for (const auto& use : uses) {
+        for (const char* none : {"nan", "-NaN", "inf", "-infinity", "1e999"}) {
+            std::vector<std::string> words = use;
+            words.emplace_back(none);
+            const Ended ended = run(words);
+            EXPECT_EQ(ended.exit_code, 2) << use.back() << " " << none << "\n" << ended.err;
+            EXPECT_EQ(ended.out, "");
+        }
+    }
+    EXPECT_THAT(run({"cordic", "run", arc, "--clock", "nan"}).err,
+                HasSubstr("--clock: \"nan\" is no finite number"));
+}
+
+TEST_F(CordicOptions, OfGCodeAreRefusedForProgramsThatAreMadeAlready) {
+    const std::string image = path("arc.bin");
+    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image, "--format", "q10.22"}).exit_code, 0);
+    const std::string text = written("p.asm", ".format q10.22\nHLT\n");
+    for (const std::string& file : {image, text}) {
+        EXPECT_EQ(run({"cordic", "run", file, "--format", "q10.22"}).exit_code, 0);
+        const Ended other = run({"cordic", "run", file, "--format", "f64"});
+        EXPECT_EQ(other.exit_code, 1);
+        EXPECT_THAT(other.err, HasSubstr("the program is in q10.22, not in f64"));
+        const Ended chords = run({"cordic", "run", file, "--tolerance", "0.1"});
+        EXPECT_EQ(chords.exit_code, 1);
+        EXPECT_THAT(chords.err, HasSubstr("--tolerance is for G-code"));
+    }
+}
+
+TEST_F(CordicOptions, WriteTheHeightOfEveryPointInSpace) {
+    const std::string file = written("helix.ngc", "G21 F600\nG3 X0 Y0 Z-4 I-5 J0\nG1 X5\nM2\n");
+    const Ended ended = run({"cordic", "run", file, "--format", "f64", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto points = nlohmann::json::parse(ended.out).at("points");
+    double before = 0.0;
+    for (std::size_t n = 0; n + 1 < points.size(); ++n) {
+        const double z = points[n].at("z").get<double>();
+        EXPECT_LT(z, before);
+        EXPECT_LT(points[n].at("vz").get<double>(), 0.0);
+        EXPECT_LT(points[n].at("az").get<double>(), 0.0);
+        before = z;
+    }
+    EXPECT_EQ(before, -4.0);
+    EXPECT_FALSE(points.back().contains("z")); // level
+}
+
+TEST_F(CordicOptions, PrintErrorsInTheirOrderAndNotWithoutEnd) {
+    std::string text;
+    for (int n = 0; n < 5'000; ++n) {
+        text += "MOV Q, 1\n";
+    }
+    const Ended ended = run({"cordic", "run", written("many.asm", text)});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_LE(std::ranges::count(ended.err, '\n'), 25);
+    EXPECT_LT(ended.err.find("many.asm:1:"), ended.err.find("many.asm:2:"));
+    EXPECT_THAT(ended.err, HasSubstr("many.asm: 5000 errors"));
+}
+
+TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
+    const Ended ended = run({"cordic", "run", written("raw.asm", "MOV \x1b[31m\x07\xff, 1\n")});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("raw.asm:1:5: \"\\x1b[31m\\x07\\xff\" is no register"));
+    const Ended umlaut = run({"cordic", "run", written("word.asm", "MOV \xc3\x84, 1\n")});
+    EXPECT_THAT(umlaut.err, HasSubstr("\"\xc3\x84\" is no register"));
+}
+
+} // namespace
+} // namespace millwright::test

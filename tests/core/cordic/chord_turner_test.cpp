@@ -1,0 +1,89 @@
+#include "core/cordic/chord_turner.h"
+
+#include "core/cordic/assembler.h"
+#include "core/cordic/processor.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace millwright::cordic {
+namespace {
+
+const std::array<NumberFormat, 5> formats{
+    binary64, binary32, fixed_format(8, 24), fixed_format(6, 10), fixed_format(10, 40)};
+
+/// X0, Y0, Z0, XI, YJ, Dz and Z are loaded, and so many chords turned.
+Image helix(const NumberFormat& format, const std::string& opcode) {
+    const std::string text =
+        "MOV X0, 3.25\nMOV Y0, -1.5\nMOV Z0, 0.75\nMOV XI, 1.125\nMOV YJ, 0.5\nMOV Vmax, 1\n"
+        "MOV Amax, 1\nMOV Dz, 0.1\nMOV Z, 0.01\nMOV N, 40\n" +
+        opcode + "\nHLT\n";
+    Assembled made = assemble(text, "helix.asm", format);
+    EXPECT_TRUE(made.errors.empty());
+    return made.image;
+}
+
+TEST(ChordTurner, EndsEachChordWhereTheProcessorDoesBitByBit) {
+    for (const NumberFormat& format : formats) {
+        for (const Rounding rounding : {Rounding::truncate, Rounding::nearest_even}) {
+            for (const bool clockwise : {false, true}) {
+                ProcessorSettings settings{.rounding = rounding};
+                if (clockwise) {
+                    settings.sequence = classic_sequence(CoordinateSystem::circular, 20);
+                }
+                Processor processor(settings, helix(format, clockwise ? "G02Z" : "G03Z"));
+                processor.run(1'000'000);
+                ASSERT_EQ(processor.state().stop, Stop::halted);
+                ASSERT_EQ(processor.published().size(), 40U);
+                const auto of = [&](Register name) { return register_of(processor.state(), name); };
+                const ArcWords arc{
+                    of(Register::XI), of(Register::YJ), of(Register::Dz), of(Register::Z), clockwise};
+                const ChordTurner turner(format, settings);
+                Processor begun(settings, helix(format, "NOP"));
+                begun.run(1'000'000);
+                PlaceWords at{register_of(begun.state(), Register::X0),
+                              register_of(begun.state(), Register::Y0),
+                              register_of(begun.state(), Register::Z0)};
+                for (const Published& record : processor.published()) {
+                    const auto next = turner.next(arc, at);
+                    ASSERT_TRUE(next.has_value());
+                    at = *next;
+                    EXPECT_EQ(at, (PlaceWords{record.words[0], record.words[1], record.words[6]}))
+                        << to_text(format);
+                }
+            }
+        }
+    }
+}
+
+TEST(ChordTurner, KnowsTheAngleThatIsReallyTurned) {
+    const ChordTurner turner(binary64, {});
+    for (const double angle : {0.001, 0.1, 0.7853}) {
+        const auto word = FloatArithmetic<double>().to_word(angle);
+        const auto end = turner.next({.dz = word}, {.x = FloatArithmetic<double>().to_word(1.0)});
+        ASSERT_TRUE(end.has_value());
+        EXPECT_NEAR(std::atan2(turner.number(end->y), turner.number(end->x)), turner.turned(word), 2e-15);
+        EXPECT_NEAR(turner.turned(word), angle, 6e-8);
+        EXPECT_NE(turner.turned(word), angle);
+    }
+}
+
+TEST(ChordTurner, SaysNothingWhereTheProcessorWouldStop) {
+    const FixedArithmetic arithmetic(fixed_format(4, 12));
+    bool overflow = false;
+    const auto word = [&](double value) {
+        return arithmetic.to_word(arithmetic.from_double(value, overflow));
+    };
+    const ChordTurner turner(fixed_format(4, 12), {});
+    EXPECT_TRUE(turner.next({.dz = word(0.5)}, {.x = word(4.0)}).has_value());
+    EXPECT_FALSE(turner.next({.dz = word(0.001)}, {.x = word(7.0)}).has_value()); // times the gain: 8.9
+    EXPECT_FALSE(turner.next({.dz = word(1.8)}, {.x = word(1.0)}).has_value());   // beyond 97.9 degrees
+    EXPECT_FALSE(turner.next({.rise = word(5.0)}, {.x = word(1.0), .z = word(5.0)}).has_value());
+    EXPECT_FALSE(overflow);
+}
+
+} // namespace
+} // namespace millwright::cordic
