@@ -1,5 +1,6 @@
 #include "app/series.h"
 
+#include "app/finite_number.h"
 #include "app/question.h"
 #include "core/base/error.h"
 #include "core/machine/job_queue.h"

@@ -201,6 +201,14 @@ void CordicPath::whole_arc(const DividedTurn& arc, const FeedOf& feed) {
         rotate(arc, 0, {turn.chords, rotations.end}, feed);
         return;
     }
+    if (!(rotations.aside > slack_of(turn))) {
+        code_.fault({feed.source, 'G'},
+                    fmt::format("{} cannot turn the chords of an arc of radius {:.3g} mm",
+                                to_text(settings_.format),
+                                turn.radius()),
+                    "choose a number format with more bits");
+        return;
+    }
     code_.fault({feed.source, 'G'},
                 fmt::format("rounding in {} leads this arc {:.3g} mm astray, too much for a chord tolerance "
                             "of {:.3g} mm",

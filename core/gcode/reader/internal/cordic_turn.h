@@ -49,7 +49,7 @@ struct Rotations {
 };
 
 /// As many chords of `turn` behind its first `k` as `turner` turns from `from` without any of them ending
-/// farther than `slack` mm from its place, at most `most`.
+/// farther than `slack` mm from its place, or where it began, at most `most`.
 [[nodiscard]] Rotations rotations_within(const cordic::ChordTurner& turner,
                                          const cordic::ArcWords& words,
                                          const CordicTurn& turn,

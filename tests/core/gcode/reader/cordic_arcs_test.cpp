@@ -197,6 +197,11 @@ TEST(CordicArcs, ThatEndAsRotatedAreRefusedWhereRoundingLeadsThemAstray) {
     ASSERT_EQ(program.faults.size(), 1U);
     EXPECT_EQ(program.faults[0].place.line, 3);
     EXPECT_THAT(program.faults[0].message, HasSubstr("rounding in q12.16 leads this arc"));
+    rotated.chord_tolerance = 0.1;
+    const CordicProgram small = circle(0.003, cordic::fixed_format(8, 6), rotated);
+    ASSERT_EQ(small.faults.size(), 1U);
+    EXPECT_THAT(small.faults[0].message,
+                HasSubstr("q8.6 cannot turn the chords of an arc of radius 0.003 mm"));
 }
 
 TEST(CordicArcs, MayDriftWhereThatIsWhatAPersonWantsToSee) {
