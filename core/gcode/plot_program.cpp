@@ -42,6 +42,8 @@ public:
                 {},
                 "take a larger step-over or pitch, fewer pixels or passes, or a part of the drawing");
         }
+        constexpr std::size_t others = 8; // up, spindle, end
+        program_.blocks.reserve(program_.blocks.size() + path.size() + others);
         if (!path.empty()) {
             // Up first: nobody knows what stands between the tool and the first stroke.
             move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));

@@ -57,6 +57,8 @@ public:
         result_.program.machine = program.machine;
         result_.program.axes = program.axes;
         result_.program.start = program.start;
+        result_.program.blocks.reserve(program.blocks.size());
+        result_.wording.blocks.reserve(program.blocks.size());
         meant_ = program.start;
     }
 
