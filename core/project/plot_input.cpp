@@ -25,7 +25,7 @@ std::string ending_of(const fs::path& file) {
 } // namespace
 
 bool is_picture_file(const fs::path& file) {
-    constexpr std::array<std::string_view, 4> endings{".png", ".jpg", ".jpeg", ".bmp"};
+    constexpr std::array<std::string_view, 6> endings{".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm"};
     return std::ranges::find(endings, ending_of(file)) != endings.end();
 }
 

@@ -67,7 +67,7 @@ struct PlotInput {
     friend bool operator==(const PlotInput&, const PlotInput&) = default;
 };
 
-/// By the name: .png, .jpg, .jpeg, .bmp.
+/// By the name: .png, .jpg, .jpeg, .bmp, .pgm, .ppm.
 [[nodiscard]] bool is_picture_file(const std::filesystem::path& file);
 /// A file of a path that was made before: .path.
 [[nodiscard]] bool is_path_file(const std::filesystem::path& file);

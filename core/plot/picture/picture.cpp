@@ -40,9 +40,11 @@ ReadPicture read_picture(std::string_view bytes,
         internal::read_png_rows(bytes, sink);
     } else if (bytes.starts_with("BM")) {
         internal::read_bmp_rows(bytes, sink);
+    } else if (bytes.starts_with("P5") || bytes.starts_with("P6")) {
+        internal::read_pnm_rows(bytes, sink);
     } else {
         sink.fail(bytes.empty() ? "the file is empty" : "this is no picture that can be read",
-                  "PNG, JPEG and BMP files can be read");
+                  "PNG, JPEG, BMP, PGM and PPM files can be read");
     }
     return sink.end();
 }

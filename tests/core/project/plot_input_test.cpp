@@ -11,6 +11,7 @@ TEST(PlotInput, FilesAreToldByTheirNames) {
     EXPECT_TRUE(is_plot_file("sign.PLT"));
     EXPECT_TRUE(is_plot_file("photo.JPeG"));
     EXPECT_TRUE(is_picture_file("photo.bmp"));
+    EXPECT_TRUE(is_picture_file("photo.pgm"));
     EXPECT_FALSE(is_picture_file("sign.plt"));
     EXPECT_TRUE(is_path_file("sign.path"));
     EXPECT_FALSE(is_plot_file("sign.ngc"));

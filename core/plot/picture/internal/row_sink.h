@@ -61,5 +61,7 @@ private:
 void read_png_rows(std::string_view bytes, RowSink& sink);
 void read_jpeg_rows(std::string_view bytes, RowSink& sink);
 void read_bmp_rows(std::string_view bytes, RowSink& sink);
+/// `bytes` begin with P5 or P6.
+void read_pnm_rows(std::string_view bytes, RowSink& sink);
 
 } // namespace millwright::plot::internal

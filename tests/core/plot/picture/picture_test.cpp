@@ -168,6 +168,40 @@ TEST(PictureReader, ReadsBmpAsStbDoes) {
     }
 }
 
+/// Of so many channels, with samples up to `most`.
+std::string pnm_of(const Samples& samples, int most, const std::string& comment = "") {
+    std::string bytes = samples.channels == 3 ? "P6" : "P5";
+    bytes += "\n" + comment + std::to_string(samples.width) + " " + std::to_string(samples.height) + "\n" +
+             std::to_string(most) + "\n";
+    for (const std::uint16_t value : samples.values) {
+        if (most > 255) {
+            bytes += static_cast<char>(value >> 8U);
+        }
+        bytes += static_cast<char>(value);
+    }
+    return bytes;
+}
+
+TEST(PictureReader, ReadsPgmAndPpmAsStbDoes) {
+    const std::string colours = pnm_of(noise(7, 5, 3, 8), 255, "# a comment of 9 9\n");
+    EXPECT_EQ(picture_of(colours), by_stb(colours, false, mean));
+    const std::string gray = pnm_of(noise(7, 5, 1, 8), 255);
+    EXPECT_EQ(picture_of(gray), by_stb(gray, false, mean));
+    const Samples wide = noise(7, 5, 1, 16);
+    EXPECT_EQ(picture_of(pnm_of(wide, 65535)).gray, wide.values);
+    const Picture of_ten = picture_of(pnm_of({3, 1, 1, {0, 5, 10}}, 10));
+    EXPECT_EQ(of_ten.gray, (std::vector<std::uint16_t>{0, 32768, 65535}));
+}
+
+TEST(PictureReader, SaysWhatIsWrongInAPnm) {
+    EXPECT_THAT(error_of("P5"), HasSubstr("the PNM has no width at byte 2"));
+    EXPECT_THAT(error_of("P5 3 # no more"), HasSubstr("the PNM has no height"));
+    EXPECT_THAT(error_of("P5 3 2 70000\n"), HasSubstr("a largest value of 70000"));
+    EXPECT_THAT(error_of("P6 2 2 255\n12345678901"), HasSubstr("cut off: 22 bytes where its size needs 23"));
+    EXPECT_THAT(error_of("P5 99999999999 2 255\n"), HasSubstr("is too large"));
+    EXPECT_THAT(error_of(pnm_of({1, 1, 1, {11}}, 10)), HasSubstr("a sample of 11, above its largest value"));
+}
+
 TEST(PictureReader, TakesTheRegionAlone) {
     const Samples samples = noise(20, 16, 1, 8);
     const Picture all = picture_of(png_of(samples));
@@ -259,7 +293,8 @@ TEST(PictureReader, SaysWhatIsWrong) {
     const std::string jpeg = jpeg_of(noise(40, 40, 3, 8));
     const std::string bmp = bmp_of(noise(20, 20, 3, 8), 24, false);
     EXPECT_THAT(error_of(""), HasSubstr("bad.png: the file is empty"));
-    EXPECT_THAT(error_of("GIF89a"), HasSubstr("this is no picture that can be read (PNG, JPEG and BMP"));
+    EXPECT_THAT(error_of("GIF89a"),
+                HasSubstr("this is no picture that can be read (PNG, JPEG, BMP, PGM and PPM"));
     EXPECT_THAT(error_of(png.substr(0, 12)), HasSubstr("damaged in its head: the file ends there"));
     EXPECT_THAT(error_of(png.substr(0, png.size() / 2)), HasSubstr("the PNG is damaged in row"));
     EXPECT_THAT(error_of(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read in its head"));
