@@ -29,6 +29,7 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                      "The machine stands where the controller says: somebody has looked");
     command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
     command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
+    command.add_flag("--single-block", choice.single_block, "Rest after each block, from the first on");
     return *command
                 .add_option("--port",
                             choice.port,
@@ -64,6 +65,9 @@ void Controller::connect() {
     if (choice_.optional_stop) {
         driver_->set_optional_stop(true);
     }
+    if (choice_.single_block) {
+        driver_->set_single_block(true);
+    }
     const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver_.get());
     const std::string name = grbl != nullptr ? "Grbl " + grbl->readout().version : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
@@ -98,7 +102,7 @@ Controller::run(const machine::Job& job, const std::string& log_folder, const st
     show_warnings(job);
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
     ProgressPrinter printer;
-    const JobKeys keys(dispatcher, choice_.keys, choice_.optional_stop);
+    const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});
     const Progress progress([](const Progress::Report&) {}, stop);
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
         printer.show(report_of(report, keys.listening()));

@@ -18,8 +18,8 @@ class Option;
 
 namespace millwright::app {
 
-/// Which controller, and what the options --port, --one-by-one, --unlock, --trust-position, --keys and
-/// --optional-stop say.
+/// Which controller, and what the options --port, --one-by-one, --unlock, --trust-position, --keys,
+/// --optional-stop and --single-block say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
@@ -28,7 +28,8 @@ struct ControllerChoice {
     bool trust_position = false; ///< a person has looked: the machine stands where the controller says
     bool keys = false;           ///< of JobKeys also from an input that is no terminal
     bool optional_stop = false;
-    std::string axes = "XYZ"; ///< of a LinuxCNC
+    bool single_block = false; ///< from the first block on
+    std::string axes = "XYZ";  ///< of a LinuxCNC
 };
 
 /// Adds these to `command`; returns --port.

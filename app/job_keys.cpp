@@ -51,8 +51,8 @@ private:
 
 } // namespace
 
-JobKeys::JobKeys(machine::Dispatcher& dispatcher, bool always, bool optional_stop)
-    : dispatcher_(dispatcher), optional_stop_(optional_stop) {
+JobKeys::JobKeys(machine::Dispatcher& dispatcher, bool always, JobSwitches now)
+    : dispatcher_(dispatcher), switches_(now) {
     if (!always && !is_own_terminal()) {
         return;
     }
@@ -97,11 +97,11 @@ void JobKeys::obey(char key) {
         case 'q':
             return dispatcher_.stop();
         case 'b':
-            single_block_ = !single_block_;
-            return dispatcher_.set_single_block(single_block_);
+            switches_.single_block = !switches_.single_block;
+            return dispatcher_.set_single_block(switches_.single_block);
         case 'o':
-            optional_stop_ = !optional_stop_;
-            return dispatcher_.set_optional_stop(optional_stop_);
+            switches_.optional_stop = !switches_.optional_stop;
+            return dispatcher_.set_optional_stop(switches_.optional_stop);
         case '+':
         case '-':
             overrides_.feed =

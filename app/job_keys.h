@@ -8,11 +8,16 @@
 
 namespace millwright::app {
 
+struct JobSwitches {
+    bool optional_stop = false;
+    bool single_block = false;
+};
+
 class JobKeys {
 public:
     /// Listens to standard input while it is this program's terminal; to any standard input if `always`.
-    /// `optional_stop`: how the switch is now.
-    JobKeys(machine::Dispatcher& dispatcher, bool always, bool optional_stop);
+    /// `now`: how the switches are.
+    JobKeys(machine::Dispatcher& dispatcher, bool always, JobSwitches now);
     JobKeys(const JobKeys&) = delete;
     JobKeys& operator=(const JobKeys&) = delete;
     ~JobKeys();
@@ -25,8 +30,7 @@ private:
 
     machine::Dispatcher& dispatcher_;
     machine::Overrides overrides_;
-    bool single_block_ = false;
-    bool optional_stop_;
+    JobSwitches switches_;
     int over_ = -1;       ///< readable when nobody listens any more
     std::jthread thread_; // last: it uses what stands before it
 };

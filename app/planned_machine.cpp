@@ -76,7 +76,9 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
         },
         stop);
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
-    const JobKeys keys(dispatcher, choice_.controller.keys, choice_.controller.optional_stop);
+    const JobKeys keys(dispatcher,
+                       choice_.controller.keys,
+                       {choice_.controller.optional_stop, choice_.controller.single_block});
     machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
         begun = true;
         printer.show(report_of(report, keys.listening()));
@@ -93,6 +95,7 @@ void PlannedMachine::connect(const machine::Job& job) {
         driver_ = make_driver(job);
         driver_->connect();
         driver_->set_optional_stop(choice_.controller.optional_stop);
+        driver_->set_single_block(choice_.controller.single_block);
     } else if (job.machine->name() != model_) {
         throw Error(
             fmt::format(

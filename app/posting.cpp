@@ -65,6 +65,7 @@ PostedText posted(const gcode::Program& program,
                                            .line_numbers = choice.line_numbers,
                                            .path_tolerance = path_tolerance_of(program)},
                                   .arc_tolerance = choice.arc_tolerance,
+                                  .tip_tolerance = choice.tip_tolerance,
                                   .file = name + "." + result.format.extension});
     return result;
 }

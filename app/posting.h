@@ -12,10 +12,11 @@ class Option;
 
 namespace millwright::app {
 
-/// What the options --post, --arcs and --line-numbers say.
+/// What the options --post, --arcs and --line-numbers say; --tip-tolerance is of `gcode convert` alone.
 struct PostChoice {
     std::string post = "linuxcnc"; ///< shipped post or post file
     double arc_tolerance = 0.0;    ///< mm; 0: no arcs
+    double tip_tolerance = 0.0;    ///< of ReleaseSettings, mm
     bool line_numbers = false;
 };
 

@@ -120,7 +120,10 @@ private:
 
     void take_up() {
         if (left().empty()) {
-            throw Error("there is nothing to go on with", file_);
+            throw Error("there is nothing to go on with",
+                        file_,
+                        "a command of one file leaves a log alone: millwright jobs " + choice_.log +
+                            " tells how that one goes on");
         }
         for (const QueuedJob& job : left()) {
             load_or_leave_out(job);

@@ -376,6 +376,14 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
                     options->chord_length,
                     "Cut arcs into equal parts no longer than so many mm, as the thesis of 2006")
         ->check(CLI::Range(shortest_chord, longest_chord));
+    options->post.tip_tolerance = 0.01;
+    converting
+        .add_option("--tip-tolerance",
+                    options->post.tip_tolerance,
+                    "For posts that keep the tool's tip: cut feeds until it stays so near to the way of "
+                    "straight axes, mm; 0: do not")
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
     add_post_options(converting, options->post).required();
     converting.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });

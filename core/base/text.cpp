@@ -28,4 +28,9 @@ std::string clock_time(double seconds) {
     return fmt::format("{:02}:{:02}:{:02}", whole / hour, whole % hour / minute, whole % minute);
 }
 
+std::string short_time(double seconds) {
+    constexpr double minute = 60.0;
+    return seconds < minute ? fixed(seconds, 2) + " s" : clock_time(seconds);
+}
+
 } // namespace millwright

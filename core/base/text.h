@@ -13,5 +13,7 @@ namespace millwright {
 
 /// hh:mm:ss of a duration, rounded up to a whole second.
 [[nodiscard]] std::string clock_time(double seconds);
+/// The same from a minute on; a shorter one as "0.16 s".
+[[nodiscard]] std::string short_time(double seconds);
 
 } // namespace millwright

@@ -39,10 +39,10 @@ std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, dou
     const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}",
                                              status.executed_blocks,
                                              blocks,
-                                             clock_time(elapsed));
+                                             short_time(elapsed));
     switch (end) {
     case JobEnd::done:
-        return fmt::format("All {} blocks were executed in {}.", blocks, clock_time(elapsed));
+        return fmt::format("All {} blocks were executed in {}.", blocks, short_time(elapsed));
     case JobEnd::stopped:
         return fmt::format("The machine was stopped: {}.", executed);
     case JobEnd::cancelled:

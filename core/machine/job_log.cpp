@@ -286,10 +286,13 @@ void JobLog::append(const std::string& line) {
     while (!rest.empty()) {
         const ssize_t written = ::write(handle_, rest.data(), rest.size());
         if (written < 0 && errno != EINTR) {
-            throw Error("cannot write the job log: " + reason(errno), file_);
+            const int why = errno;
+            (void)::ftruncate(handle_, size_); // where that fails, the line stays torn
+            throw Error("cannot write the job log: " + reason(why), file_);
         }
         rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
     }
+    size_ += std::ssize(bytes);
 }
 
 int ReadLog::allowed_blocks() const {

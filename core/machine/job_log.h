@@ -5,6 +5,7 @@
 
 #include "core/machine/job.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -70,7 +71,8 @@ public:
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
-    /// Each appends one line, the start first. Throws Error if it did not get to the system whole.
+    /// Each appends one line, the start first. Throws Error if it did not get to the system whole; what did
+    /// is taken back, so that another line can follow.
     void write(const LogStart& start);
     void write(const LogRecord& record);
 
@@ -79,6 +81,7 @@ private:
 
     std::filesystem::path file_;
     int handle_ = -1;
+    std::int64_t size_ = 0; ///< bytes of whole lines
     std::vector<gcode::ProgramAxis> axes_;
 };
 

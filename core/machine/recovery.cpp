@@ -24,7 +24,7 @@ std::string sentence_of(const JobStory& story) {
     if (!story.broken_off()) {
         return fmt::format("{} after {}: {} of {} blocks were executed for certain.",
                            to_text(*story.end),
-                           clock_time(story.time),
+                           short_time(story.time),
                            story.executed_blocks,
                            blocks);
     }
@@ -38,7 +38,7 @@ std::string sentence_of(const JobStory& story) {
     return fmt::format(
         "Millwright ended while the job ran, after {} or later: {} of {} blocks were executed for "
         "certain{}; of the next {} nobody knows{}.",
-        clock_time(story.time),
+        short_time(story.time),
         story.executed_blocks,
         blocks,
         where,

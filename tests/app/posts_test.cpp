@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace millwright::test {
 namespace {
 
@@ -36,6 +39,19 @@ TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
     const Ended file = convert("ac-table", "fanuc-tcp", {"--out", out});
     EXPECT_EQ(file.exit_code, 0) << file.err;
     EXPECT_THAT(content_of(out), StartsWith("%\nO1000 (PART)\n"));
+}
+
+/// A tilt by 40 degrees 60 mm beside the axis: 60 mm (1 - cos 20 degrees) is 3.6 mm.
+TEST_F(Posts, ConvertCutsFeedsUntilTheTipStaysOnTheProgramsWay) {
+    write_content(part, "G21 G90 G94\nG0 X0 Y60 Z50\nG0 A0 C0\nG1 Z0 F600\nG1 X30 A40\nM2\n");
+    const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+    const Ended whole = convert("ac-table", "fanuc-tcp", {"--tip-tolerance", "0"});
+    const Ended near = convert("ac-table", "fanuc-tcp");
+    ASSERT_EQ(near.exit_code, 0) << near.err;
+    EXPECT_GT(lines(near.out), lines(whole.out) + 3);
+    const auto most = [](const std::string& err) { return std::stod(err.substr(err.find("at most ") + 8)); };
+    EXPECT_GT(most(whole.err), 0.5);
+    EXPECT_LE(most(near.err), 0.012);
 }
 
 TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {

@@ -74,6 +74,19 @@ TEST_F(Send, ObeysKeysWhileItRuns) {
     EXPECT_EQ(last_record(logs).at("end"), "done");
 }
 
+TEST_F(Send, RestsAfterTheFirstBlockWhereThatIsWanted) {
+    write_content(file, "G21 G90 F3000\nG1 X10\nG1 X0\nM30\n");
+    Emulator emulator(port, {"--speed", "20"});
+    auto listening = words();
+    listening.insert(listening.end(), {"--keys", "--single-block"});
+    Program sender(listening);
+    sender.wait_for_error_text("single block: line 2 comes next");
+    sender.type("b");
+    sender.type("r");
+    const Ended ended = sender.end();
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
 TEST_F(Send, IsStoppedByItsKey) {
     write_content(file, zigzag(2000));
     Emulator emulator(port, {"--speed", "5"});

@@ -74,6 +74,12 @@ TEST_F(Series, NobodyIsAskedWhereThatIsWanted) {
     EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));
 }
 
+TEST_F(Series, OfOneFileAloneIsNothingToContinueAndTheLogIsNamed) {
+    const Ended ended = send({"--continue"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("millwright jobs " + logs));
+}
+
 TEST_F(Series, AFaultHoldsWhatFollows) {
     a = file("a", 500);
     {

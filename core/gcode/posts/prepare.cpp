@@ -47,10 +47,12 @@ AxisPositions at_rotary_zero(const MachineModel& machine, AxisPositions position
     return positions;
 }
 
+constexpr int most_pieces = 4096; // of a move
+
 class Preparer {
 public:
-    Preparer(const Program& program, const MachineModel& machine, const PostFormat& format)
-        : machine_(machine), format_(format),
+    Preparer(const Program& program, const MachineModel& machine, const PostFormat& format, double tolerance)
+        : machine_(machine), format_(format), tip_tolerance_(tolerance),
           all_(AxisSet::all(machine.axis_count())), digits_{format.numbers.length.decimals,
                                                             format.numbers.angle.decimals,
                                                             format.length_unit()} {
@@ -96,6 +98,7 @@ public:
 private:
     const MachineModel& machine_;
     const PostFormat& format_;
+    double tip_tolerance_; ///< of feeds, mm; 0: they are not cut
     AxisSet all_;
     internal::WrittenDigits digits_;
     PreparedProgram result_;
@@ -173,11 +176,12 @@ private:
             switch_tip_on(block);
         }
         if (block.kind == BlockKind::rapid) {
-            cut_rapid(std::move(block));
-            return;
+            const int pieces = pieces_within(block, format_.tip->rapid_tolerance);
+            cut(std::move(block), pieces);
+        } else {
+            const int pieces = tip_tolerance_ > 0.0 ? pieces_of_feed(block) : 1;
+            cut(std::move(block), pieces);
         }
-        result_.tip_deviation = std::max(result_.tip_deviation, deviation(here(), block.target));
-        append(std::move(block), true);
     }
 
     /// Before `block`: the rotary axes to zero, and before a feed a word about where the tip is.
@@ -216,15 +220,16 @@ private:
         return largest;
     }
 
-    void cut_rapid(Block block) {
-        constexpr int most_pieces = 4096;
+    /// A power of two: so many straight ways of the tip stay within `tolerance` of the axes' own, as far as
+    /// `most_pieces` do.
+    [[nodiscard]] int pieces_within(const Block& block, double tolerance) const {
         const AxisPositions from = here();
         const AxisPositions way = block.target - from;
         int pieces = 1;
         const auto at = [&](int k) -> AxisPositions { return from + static_cast<double>(k) / pieces * way; };
         const auto near_enough = [&] {
             for (int k = 0; k < pieces; ++k) {
-                if (deviation(at(k), at(k + 1)) > format_.tip->rapid_tolerance) {
+                if (deviation(at(k), at(k + 1)) > tolerance) {
                     return false;
                 }
             }
@@ -233,11 +238,45 @@ private:
         while (!near_enough() && pieces < most_pieces) {
             pieces *= 2;
         }
+        return pieces;
+    }
+
+    [[nodiscard]] int pieces_of_feed(const Block& block) const {
+        const int pieces = pieces_within(block, tip_tolerance_);
+        const AxisPositions step = (block.target - here()) / pieces;
+        if (const double off = deviation(here(), here() + step); off > tip_tolerance_) {
+            throw Error(
+                Diagnostic{{{}, block.source_line, 0, -1},
+                           fmt::format("in {} pieces the tip still leaves the way of straight axes by "
+                                       "{:.4f} mm, more than {:.4f}",
+                                       pieces,
+                                       off,
+                                       tip_tolerance_),
+                           "take a greater tolerance"});
+        }
+        return pieces;
+    }
+
+    /// Each piece takes its share of the time.
+    void cut(Block block, int pieces) {
+        const AxisPositions from = here();
+        const AxisPositions way = block.target - from;
+        block.duration /= pieces;
+        if (block.kind == BlockKind::feed && pieces > 1 && format_.feed.mode == FeedWriting::inverse_time) {
+            keep_to_digits(block);
+        }
         for (int k = 1; k < pieces; ++k) {
             Block piece = block;
             piece.path_point = -1;
-            piece.target = rounded(at(k));
-            append(std::move(piece), true);
+            piece.target = rounded(from + static_cast<double>(k) / pieces * way);
+            append_for_tip(std::move(piece));
+        }
+        append_for_tip(std::move(block));
+    }
+
+    void append_for_tip(Block block) {
+        if (block.kind == BlockKind::feed) {
+            result_.tip_deviation = std::max(result_.tip_deviation, deviation(here(), block.target));
         }
         append(std::move(block), true);
     }
@@ -279,14 +318,15 @@ private:
     int last_ = 0;
 };
 
-PreparedProgram prepare(const Program& program, const MachineModel& machine, const PostFormat& format) {
+PreparedProgram
+prepare(const Program& program, const MachineModel& machine, const PostFormat& format, double tip_tolerance) {
     expects(static_cast<int>(program.axes.size()) == machine.axis_count(), "a program is for its machine");
     refuse_missing_axes(program, format);
     if (format.positions == PositionsOf::tip) {
         check_letters_of_tip(machine);
     }
     const Ends ends(program, machine);
-    Preparer preparer(program, machine, format);
+    Preparer preparer(program, machine, format, tip_tolerance);
     for (int n = 0; n < program.block_count(); ++n) {
         preparer.add(program.blocks[static_cast<std::size_t>(n)], ends.contain(n));
     }

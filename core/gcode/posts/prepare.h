@@ -24,12 +24,17 @@ struct PreparedProgram {
 ///   frame from where the table stands at that moment;
 /// - other rapids are cut until the straight way of the tip stays near to the axes' own, which was found
 /// clear;
-/// - feeds stay single blocks: the tip goes straight where the axes alone would swing it.
+/// - feeds stay single blocks, and the tip goes straight where the axes alone would swing it; with a
+///   `tip_tolerance` (mm, more than 0), for programs that mean the swing, they are cut until it stays so
+///   near.
 /// Durations of feeds become those that inverse time can say; with feeds a minute they keep their speed in
 /// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out.
-/// Throws Error naming the axes that the control lacks, or the block whose
-/// rounded position the machine cannot reach. Throws Defect unless `program` is for `machine`.
-[[nodiscard]] PreparedProgram
-prepare(const Program& program, const kinematics::MachineModel& machine, const PostFormat& format);
+/// Throws Error naming the axes that the control lacks, the block whose rounded position the machine cannot
+/// reach, or the line that no number of pieces keeps within the tolerance. Throws Defect unless `program` is
+/// for `machine`.
+[[nodiscard]] PreparedProgram prepare(const Program& program,
+                                      const kinematics::MachineModel& machine,
+                                      const PostFormat& format,
+                                      double tip_tolerance = 0.0);
 
 } // namespace millwright::gcode

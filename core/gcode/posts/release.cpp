@@ -11,7 +11,7 @@ ReleasedText release(const Program& program,
                      const kinematics::MachineModel& machine,
                      const PostFormat& format,
                      const ReleaseSettings& settings) {
-    PreparedProgram ready = prepare(program, machine, format);
+    PreparedProgram ready = prepare(program, machine, format, settings.tip_tolerance);
     if (settings.arc_tolerance > 0.0) {
         ready.wording.arcs = fit_arcs(ready.program, ready.wording, format, settings.arc_tolerance);
     }

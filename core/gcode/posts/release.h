@@ -13,6 +13,7 @@ namespace millwright::gcode {
 struct ReleaseSettings {
     TextSettings text = {};
     double arc_tolerance = 0.0;                 ///< mm; 0: no arcs
+    double tip_tolerance = 0.0;                 ///< as prepare() has it, mm; 0: feeds are not cut
     std::filesystem::path file = "the program"; ///< called so in diagnostics
 };
 

@@ -7,6 +7,7 @@
 #include "core/gcode/reader/internal/held_moves.h"
 #include "core/gcode/reader/internal/number.h"
 #include "core/gcode/reader/internal/offsets.h"
+#include "core/gcode/reader/word_column.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,12 @@ std::vector<std::filesystem::path> folders_for(const std::filesystem::path& file
 bool is_percent(std::string_view line) {
     Cursor cursor(line);
     return cursor.take('%') && cursor.at_end();
+}
+
+bool says_the_end(std::string_view line) {
+    constexpr double m2 = 2.0;
+    constexpr double m30 = 30.0;
+    return column_of_word(line, 'M', m2) > 0 || column_of_word(line, 'M', m30) > 0;
 }
 
 } // namespace
@@ -78,6 +85,7 @@ struct Interpreter::Parts {
     bool stopped = false;
     bool seen_text = false;   ///< a line that is not blank
     bool in_percents = false; ///< the program began with %
+    bool end_refused = false; ///< there is an end, in a line with something wrong
     bool watching_turns = false;
 };
 
@@ -128,6 +136,7 @@ bool Interpreter::Parts::step() {
         }
     } catch (const Refusal& refusal) {
         report(files.place(), refusal);
+        end_refused = end_refused || says_the_end(text);
     }
     if (run.ended && in_percents) {
         look_for_percent();
@@ -187,7 +196,7 @@ void Interpreter::Parts::end_of_text() {
         if (!seen_text) {
             internal::refuse(1, "there is nothing in the program");
         }
-        if (!is_grbl()) {
+        if (!is_grbl() && !end_refused) {
             internal::refuse(1, "the program does not end: M2, M30 or % is missing");
         }
     } catch (const Refusal& refusal) {
@@ -204,7 +213,8 @@ void Interpreter::Parts::reset() {
 
 void Interpreter::Parts::execute(std::string_view text) {
     if (files.cut() || (!is_grbl() && text.size() > longest_line)) {
-        internal::refuse(1, fmt::format("a line has at most {} characters", longest_line));
+        internal::refuse(static_cast<int>(longest_line) + 1,
+                         fmt::format("a line has at most {} characters", longest_line));
     }
     Cursor cursor(text);
     if (cursor.at_end()) {

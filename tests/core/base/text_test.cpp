@@ -45,6 +45,12 @@ TEST(ClockTime, RoundsUpToWholeSeconds) {
     EXPECT_EQ(clock_time(3725.0), "01:02:05");
 }
 
+TEST(Text, ShowsShortTimesInSeconds) {
+    EXPECT_EQ(short_time(0.163), "0.16 s");
+    EXPECT_EQ(short_time(59.2), "59.20 s");
+    EXPECT_EQ(short_time(61.0), "00:01:01");
+}
+
 TEST(ExactlyEqual, IsEqualityAndNothingElse) {
     EXPECT_TRUE(exactly_equal(0.0, -0.0));
     EXPECT_FALSE(exactly_equal(1.0, std::nextafter(1.0, 2.0)));

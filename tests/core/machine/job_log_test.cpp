@@ -7,7 +7,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -73,6 +75,31 @@ TEST(JobLog, IsOnDiskBeforeTheNextThingHappens) {
     log.write(start());
     log.write(record(LogEvent::executed, 0.5, 4));
     EXPECT_EQ(read_job_log(log.file()).executed_blocks(), 4);
+}
+
+/// As when the disk is full for a while.
+TEST(JobLog, GoesOnBehindALineThatDidNotFit) {
+    const test::TemporaryFolder folder;
+    JobLog log(folder.path(), "full");
+    log.write(start());
+    LogRecord next = record(LogEvent::executed, 0.5, 4);
+    log.write(next);
+    const auto whole = std::filesystem::file_size(log.file());
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit tight = before;
+    tight.rlim_cur = whole + 20;
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+    EXPECT_THROW(log.write(next), Error);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    (void)std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(std::filesystem::file_size(log.file()), whole);
+    next.text = "the end";
+    log.write(next);
+    const ReadLog read = read_job_log(log.file());
+    ASSERT_EQ(read.records.size(), 2U);
+    EXPECT_EQ(read.records.back().text, "the end");
 }
 
 TEST(JobLog, ToleratesALastLineCutOffAnywhere) {

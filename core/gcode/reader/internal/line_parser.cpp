@@ -28,6 +28,9 @@ constexpr double code_within = 0.001;
     if (cursor.column() == 1 && (c == '\xFF' || c == '\xFE')) {
         refuse(1, "the text is UTF-16", "save it as plain text");
     }
+    if (c == '\0' && !cursor.at_end()) {
+        refuse(cursor.column(), "byte 0x00 is in no text: this is a binary file", "choose a program");
+    }
     if (c < ' ' || c > '~') {
         refuse(cursor.column(),
                fmt::format("byte 0x{:02X} is no character of a program", static_cast<unsigned char>(c)));

@@ -92,12 +92,17 @@ private:
         }
     }
 
+    /// Asio says "End of file" where nothing is a file.
+    [[nodiscard]] static std::string reason_of(const boost::system::error_code& failure) {
+        return failure == boost::asio::error::eof ? "the other end closed it" : failure.message();
+    }
+
     void read_more() {
         stream_.async_read_some(boost::asio::buffer(chunk_),
                                 [this](const boost::system::error_code& failure, std::size_t count) {
                                     const std::scoped_lock lock(mutex_);
                                     if (failure) {
-                                        give_up(failure.message());
+                                        give_up(reason_of(failure));
                                         return;
                                     }
                                     received_.append(chunk_.data(), count);
@@ -122,7 +127,7 @@ private:
                                          const std::scoped_lock inner(mutex_);
                                          sending_.clear();
                                          if (failure) {
-                                             give_up(failure.message());
+                                             give_up(reason_of(failure));
                                          }
                                      }
                                      write_more();

@@ -155,6 +155,50 @@ TEST_P(TipPrograms, KeepRapidsWhereTheyWereFoundClear) {
     EXPECT_GT(feeds, 0.01); // or there would be nothing to tell apart
 }
 
+TEST_P(TipPrograms, KeepFeedsOnTheWayOfStraightAxesWhereThatIsMeant) {
+    constexpr double tolerance = 0.01; // mm
+    const PreparedProgram near = prepare(now.program, now.machine, now.format, tolerance);
+    double largest = 0.0;
+    double before = 0.0;
+    double after = 0.0;
+    for (int n = 0; n < near.program.block_count(); ++n) {
+        const Block& block = near.program.blocks[static_cast<std::size_t>(n)];
+        if (block.kind == BlockKind::feed && near.wording.blocks[static_cast<std::size_t>(n)].tip) {
+            largest = std::max(largest, swing(now.machine, position_before(near.program, n), block.target));
+            after += block.duration;
+        }
+    }
+    for (const Block& block : now.ready.program.blocks) {
+        before += block.kind == BlockKind::feed ? block.duration : 0.0;
+    }
+    EXPECT_GT(now.ready.tip_deviation, 2.0 * tolerance);
+    EXPECT_LT(largest, 1.02 * tolerance + 0.002); // and the digits
+    EXPECT_NEAR(near.tip_deviation, largest, 0.02 * largest);
+    EXPECT_GT(near.program.block_count(), now.ready.program.block_count());
+    EXPECT_NEAR(after, before, 0.01 * before); // the same time, but for the digits of inverse time
+}
+
+TEST(PreparedProgram, SaysWhichLineNoNumberOfPiecesKeepsNearEnough) {
+    const auto machine = test::machine("ac-table");
+    Program program = test::empty_program(machine);
+    AxisPositions from = AxisPositions::Zero(5);
+    AxisPositions to = from;
+    to[0] = 200.0;
+    to[machine.axis_index('C')] = 3.0;
+    test::add_move(program, from);
+    test::add_move(program, to);
+    program.blocks.back().kind = BlockKind::feed;
+    program.blocks.back().duration = 10.0;
+    program.blocks.back().source_line = 7;
+    try {
+        (void)prepare(program, machine, post("fanuc-tcp"), 1e-9);
+        FAIL() << "no digits are so fine";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.diagnostic().place.line, 7);
+        EXPECT_THAT(error.what(), testing::HasSubstr("the tip still leaves the way of straight axes"));
+    }
+}
+
 TEST_P(TipPrograms, KeepEveryBlockOfTheProgramInItsPlace) {
     std::size_t at = 0;
     for (const Block& block : now.program.blocks) {

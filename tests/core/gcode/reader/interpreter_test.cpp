@@ -102,7 +102,7 @@ TEST(Interpreter, AnEndlessLoopEnds) {
 
 TEST(Interpreter, LongLinesAreRefusedWithoutKeepingThem) {
     const std::string long_line = "G0 X1 (" + std::string(10'000'000, 'a') + ")\n";
-    EXPECT_EQ(error_of("G0 X5\n" + long_line + "X6"), "2:1: a line has at most 254 characters");
+    EXPECT_EQ(error_of("G0 X5\n" + long_line + "X6"), "2:255: a line has at most 254 characters");
     ReaderSettings settings;
     settings.most_errors = 10;
     EXPECT_EQ(read("G0 X5\n" + long_line + "X6", settings).moves.size(), 2U);
@@ -113,7 +113,7 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
                             "ELF\0\x02\n",
                             13);
     EXPECT_EQ(error_of(bytes), "2:1: byte 0x7F is no character of a program");
-    EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 is no character of a program");
+    EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 is in no text: this is a binary file");
     EXPECT_EQ(error_of("\xEF\xBB\xBFG0 X1\n"), "1:1: a byte order mark (of UTF-8) begins no word");
     EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the text is UTF-16");
 }
