@@ -34,8 +34,11 @@ void add_cordic_plc_options(CLI::App& command, CordicPlcOptions& options) {
         ->needs(logic);
 }
 
-cordic::SupervisedRun
-run_with_logic(cordic::Processor& processor, const CordicPlcOptions& options, double clock_hz) {
+cordic::SupervisedRun run_with_logic(cordic::Processor& processor,
+                                     std::span<const cordic::CodeLine> lines,
+                                     const std::filesystem::path& file,
+                                     const CordicPlcOptions& options,
+                                     double clock_hz) {
     cordic::PlcProgram program = cordic::assemble_plc(read_file(options.logic), options.logic);
     refuse(program.errors);
     cordic::SupervisedSettings settings;
@@ -45,6 +48,8 @@ run_with_logic(cordic::Processor& processor, const CordicPlcOptions& options, do
         settings.inputs = std::move(read.changes);
     }
     constexpr double milliseconds = 1e-3;
+    settings.lines = lines;
+    settings.file = file;
     settings.clock_hz = clock_hz;
     settings.scan_seconds = milliseconds * options.scan_ms;
     settings.records_ahead = options.records_ahead;

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
+#include <span>
 #include <string>
 
 namespace CLI {
@@ -23,10 +25,13 @@ struct CordicPlcOptions {
 
 void add_cordic_plc_options(CLI::App& command, CordicPlcOptions& options);
 
-/// Runs `processor` with the logic. Throws Error, after printing what else is wrong, for what does not
-/// assemble.
-[[nodiscard]] cordic::SupervisedRun
-run_with_logic(cordic::Processor& processor, const CordicPlcOptions& options, double clock_hz);
+/// Runs `processor`, whose program `file` it is, with the logic. Throws Error, after printing what else is
+/// wrong, for what does not assemble.
+[[nodiscard]] cordic::SupervisedRun run_with_logic(cordic::Processor& processor,
+                                                   std::span<const cordic::CodeLine> lines,
+                                                   const std::filesystem::path& file,
+                                                   const CordicPlcOptions& options,
+                                                   double clock_hz);
 
 void print(const cordic::SupervisedRun& run);
 [[nodiscard]] nlohmann::ordered_json json_of(const cordic::SupervisedRun& run);

@@ -14,11 +14,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace millwright::app {
 
@@ -30,6 +32,8 @@ struct Options {
     CordicMotionOptions motion;
     CordicPlcOptions plc;
     std::string trace;
+    std::string ram;     ///< what the host has left there; empty: nothing
+    std::string ram_out; ///< and what it finds there then
     double clock_hz = 8e6;
     std::int64_t most_clocks = 1'000'000'000;
     bool json = false;
@@ -89,6 +93,7 @@ nlohmann::ordered_json json_of(const cordic::Processor& processor,
                         {"fetch", report.clocks.fetch},
                         {"immediate", report.clocks.immediate},
                         {"publish", report.clocks.publish},
+                        {"data", report.clocks.data},
                         {"control", report.clocks.control()}};
     answer["seconds"] = report.seconds;
     if (has_exact) {
@@ -118,14 +123,16 @@ void print(const cordic::RunReport& report, const cordic::Processor& processor, 
                report.published,
                processor.commanded().size(),
                cordic::to_text(report.stop));
-    fmt::print("{} clocks, {:.6g} ms: {} CORDIC, {} fetch, {} immediates, {} publishing, {} control\n",
-               report.clocks.total,
-               1e3 * report.seconds,
-               report.clocks.cordic,
-               report.clocks.fetch,
-               report.clocks.immediate,
-               report.clocks.publish,
-               report.clocks.control());
+    fmt::print(
+        "{} clocks, {:.6g} ms: {} CORDIC, {} fetch, {} immediates, {} publishing, {} data, {} control\n",
+        report.clocks.total,
+        1e3 * report.seconds,
+        report.clocks.cordic,
+        report.clocks.fetch,
+        report.clocks.immediate,
+        report.clocks.publish,
+        report.clocks.data,
+        report.clocks.control());
     if (has_exact) {
         fmt::print("largest errors: position {:.3g} mm, speed {:.3g} of the feed\n",
                    report.position_error,
@@ -138,9 +145,20 @@ void print(const cordic::RunReport& report, const cordic::Processor& processor, 
     }
 }
 
-std::optional<cordic::SupervisedRun> execute(cordic::Processor& processor, const Options& options) {
+void fill_ram(cordic::Processor& processor, const Options& options) {
+    const std::string bytes = options.ram.empty() ? std::string() : read_file(options.ram);
+    std::vector<std::uint8_t>& ram = processor.memory().ram;
+    if (bytes.size() > ram.size()) {
+        throw Error(fmt::format("{} bytes, the RAM holds {}", bytes.size(), ram.size()), options.ram);
+    }
+    std::ranges::copy(bytes, ram.begin());
+}
+
+std::optional<cordic::SupervisedRun>
+execute(cordic::Processor& processor, const gcode::CordicProgram& program, const Options& options) {
     if (!options.plc.logic.empty()) {
-        return run_with_logic(processor, options.plc, options.clock_hz);
+        return run_with_logic(
+            processor, program.code_lines, options.source.file, options.plc, options.clock_hz);
     }
     if (options.trace.empty()) {
         processor.run(options.most_clocks);
@@ -164,7 +182,12 @@ bool is_at_an_end(const cordic::Processor& processor,
 int run(const Options& options) {
     const gcode::CordicProgram program = cordic_program(options.source, processor_settings(options.choice));
     cordic::Processor processor = cordic_processor(options.choice, program.image);
-    const auto supervised = execute(processor, options);
+    fill_ram(processor, options);
+    const auto supervised = execute(processor, program, options);
+    if (!options.ram_out.empty()) {
+        const auto& ram = processor.memory().ram;
+        write_file(options.ram_out, {reinterpret_cast<const char*>(ram.data()), ram.size()});
+    }
     // Turned the other way, or stepped from elsewhere, the points are not those of the G-code.
     const bool has_exact = !program.points.empty() && !options.choice.thesis_direction;
     const auto exact = has_exact ? std::span(program.points) : std::span<const cordic::ExactPoint>();
@@ -206,6 +229,10 @@ void add_cordic_run(CLI::App& group, Command& chosen) {
     add_cordic_clock(command, options->clock_hz);
     CLI::Option* const trace =
         command.add_option("--trace", options->trace, "Write waves for GTKWave (VCD)")->type_name("FILE");
+    command.add_option("--ram", options->ram, "What the host has written to the dual-port RAM")
+        ->type_name("FILE");
+    command.add_option("--ram-out", options->ram_out, "Write what is in the RAM at the end")
+        ->type_name("FILE");
     add_cordic_choice(command, options->choice);
     command.add_option("--clocks", options->most_clocks, "Stop after so many")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))

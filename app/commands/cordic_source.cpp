@@ -99,6 +99,13 @@ gcode::CordicProgram assembled(const CordicSource& source) {
     return {std::move(made.image), {}, std::move(made.lines), {}, {}, {}};
 }
 
+/// What only a microprogram of one's own comes to.
+bool is_of_microprogram(cordic::Stop stop) {
+    using cordic::Stop;
+    return stop == Stop::stack_overflow || stop == Stop::stack_underflow || stop == Stop::microprogram_end ||
+           stop == Stop::too_many_bytes || stop == Stop::too_many_steps;
+}
+
 } // namespace
 
 void add_cordic_source(CLI::App& command, CordicSource& source) {
@@ -202,10 +209,11 @@ Error not_at_its_end(const cordic::Processor& processor,
         return Error(fmt::format("the program is not at its end after {} clocks", state.clocks.total),
                      source.file);
     }
-    const bool stack =
-        state.stop == cordic::Stop::stack_overflow || state.stop == cordic::Stop::stack_underflow;
-    if (stack && !choice.microprogram.empty()) {
-        const int line = processor.microprogram().lines[state.sequencer.address];
+    if (is_of_microprogram(state.stop) && !choice.microprogram.empty()) {
+        const cordic::Microprogram& program_of_words = processor.microprogram();
+        const int last = std::max(program_of_words.count - 1, 0);
+        const int at = std::min<int>(state.sequencer.address, last);
+        const int line = program_of_words.lines[static_cast<std::size_t>(at)];
         return Error(Diagnostic{{choice.microprogram, line, 1, -1}, std::string(to_text(state.stop)), {}});
     }
     return Error(cordic::stop_diagnostic(state, program.code_lines, source.file));

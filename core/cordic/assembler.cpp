@@ -24,6 +24,7 @@ public:
     }
 
     Assembled assemble(std::string_view text) {
+        text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;
             words_ = words_of(take_line(text));
@@ -71,6 +72,8 @@ private:
             add({.opcode = known->opcode}, word.column);
         } else if (name == "MOV") {
             read_mov(word.column);
+        } else if (name == "LD" || name == "ST") {
+            read_transfer(name == "LD" ? Opcode::ld : Opcode::st, word.column);
         } else if (name == ".FORMAT") {
             read_format();
         } else if (name == ".BYTE") {
@@ -80,7 +83,7 @@ private:
         } else {
             fail(word.column,
                  fmt::format("\"{}\" is no instruction", word.text),
-                 "MOV, G00 to G04, G00Z to G03Z, M00 to M09, M30, MUSER, PAGE, NOP or HLT");
+                 "MOV, LD, ST, G00 to G04, G00Z to G03Z, M00 to M09, M30, MUSER, PAGE, NOP or HLT");
             return;
         }
         if (more() && (result_.errors.empty() || result_.errors.back().place.line != line_)) {
@@ -146,38 +149,76 @@ private:
         result_.image.code.push_back(static_cast<std::uint8_t>(number));
     }
 
-    void read_mov(int mov_column) {
+    /// REGISTER and comma; something stands behind them.
+    std::optional<Register> read_register(bool is_loaded) {
         const auto target = more() ? register_of(words_[at_].text) : std::nullopt;
         if (!target) {
             fail(column(),
                  more() ? fmt::format("\"{}\" is no register", words_[at_].text) : "a register is missing");
-            return;
+            return std::nullopt;
         }
-        if (static_cast<int>(*target) >= loaded_register_count) {
+        if (is_loaded && static_cast<int>(*target) >= loaded_register_count) {
             fail(column(), fmt::format("{} is computed and cannot be loaded", to_text(*target)));
-            return;
+            return std::nullopt;
         }
         ++at_;
         if (!more() || words_[at_].text != ",") {
             fail(column(), "a comma is missing behind the register");
-            return;
+            return std::nullopt;
         }
         ++at_;
         if (!more()) {
             fail(column(), "a number is missing");
-            return;
+            return std::nullopt;
         }
-        const auto immediate = immediate_of(*target, words_[at_]);
-        ++at_;
+        return target;
+    }
+    void read_mov(int mov_column) {
+        const auto target = read_register(true);
+        const auto immediate = target ? immediate_of(*target, words_[at_]) : std::nullopt;
         if (immediate) {
+            ++at_;
             add({Opcode::mov, *target, *immediate}, mov_column);
         }
+    }
+    /// LD or ST of a register at an address.
+    void read_transfer(Opcode opcode, int opcode_column) {
+        const auto target = read_register(opcode == Opcode::ld);
+        const auto address = target ? address_of(opcode, words_[at_]) : std::nullopt;
+        if (!address) {
+            return;
+        }
+        const Instruction instruction{opcode, *target, *address};
+        if (!is_possible(instruction, result_.image.format)) {
+            fail(column(),
+                 fmt::format("{} bytes at \"{}\" are not all {}",
+                             immediate_bytes(result_.image.format),
+                             words_[at_].text,
+                             opcode == Opcode::ld ? "on the bus"
+                                                  : "in the RAM or the motion controller's port"));
+            return;
+        }
+        ++at_;
+        add(instruction, opcode_column);
+    }
+    /// A number; of LD also a label of this page.
+    std::optional<Word> address_of(Opcode opcode, const LineWord& word) {
+        if (is_name(word.text) && opcode == Opcode::ld) { // labels lie in the ROM
+            open_.push_back({result_.image.code.size() + 1, std::string(word.text), line_, word.column});
+            return Word{0};
+        }
+        long long number = 0;
+        if (!read_number(word.text, number) || number < 0 || number > 0xffff) {
+            fail(word.column, fmt::format("\"{}\" is no address from 0 to 65535", word.text));
+            return std::nullopt;
+        }
+        return static_cast<Word>(number);
     }
 
     /// Bits (0x...), a number of the format, a whole number for N, PC and P, or a label for PC.
     std::optional<Word> immediate_of(Register target, const LineWord& word) {
         const bool bits = word.text.starts_with("0x") || word.text.starts_with("0X");
-        if (bits) {
+        if (bits && !is_whole(target)) {
             return bits_of(word);
         }
         if (target == Register::PC && is_name(word.text)) {
@@ -186,7 +227,7 @@ private:
         }
         if (is_whole(target)) {
             long long number = 0;
-            const long long most = target == Register::PC ? 0xffff : 0xffffffff;
+            const auto most = static_cast<long long>(most_of(target));
             if (!read_number(word.text, number) || number < 0 || number > most) {
                 fail(word.column, fmt::format("\"{}\" is no whole number from 0 to {}", word.text, most));
                 return std::nullopt;
@@ -256,8 +297,7 @@ private:
 std::string immediate_text(const Instruction& instruction, const NumberFormat& format) {
     std::string bits = fmt::format("{:#x}", instruction.immediate);
     if (is_whole(instruction.target)) {
-        const Word most = instruction.target == Register::PC ? 0xffffU : 0xffffffffU;
-        return instruction.immediate <= most ? fmt::format("{}", instruction.immediate) : bits;
+        return fmt::format("{}", instruction.immediate);
     }
     return with_arithmetic(format, [&](const auto& arithmetic) {
         bool overflow = false;
@@ -279,10 +319,13 @@ std::string immediate_text(const Instruction& instruction, const NumberFormat& f
 }
 
 std::string instruction_text(const Instruction& instruction, const NumberFormat& format) {
-    if (instruction.opcode != Opcode::mov) {
-        return std::string(to_text(instruction.opcode));
+    if (instruction.opcode == Opcode::mov) {
+        return fmt::format("MOV {}, {}", to_text(instruction.target), immediate_text(instruction, format));
     }
-    return fmt::format("MOV {}, {}", to_text(instruction.target), immediate_text(instruction, format));
+    const std::string name(to_text(instruction.opcode));
+    return operand_bytes(instruction.opcode, format) == 0
+               ? name
+               : fmt::format("{} {}, {:#06x}", name, to_text(instruction.target), instruction.immediate);
 }
 
 /// A page of the ROM, or what there is of the last one, which begins at `offset` of the code.
@@ -293,7 +336,10 @@ std::string page_text(std::span<const std::uint8_t> page, std::size_t offset, co
     }
     std::string text;
     for (std::size_t at = 0; at < end;) {
-        const auto found = decode(page.subspan(at, end - at), format);
+        auto found = decode(page.subspan(at, end - at), format);
+        if (found && !is_possible(found->instruction, format)) {
+            found.reset(); // as bytes, which is what the assembler would take
+        }
         const std::string line =
             found ? instruction_text(found->instruction, format) : fmt::format(".byte {:#04x}", page[at]);
         text += fmt::format("        {:<32}; {:04x}\n", line, code_address_at(offset + at));

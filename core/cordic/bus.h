@@ -5,8 +5,8 @@
 // The ROM may have up to 256 pages of 32 KB, of which a counter beside the address bus selects one; the
 // instruction PAGE counts it up (the thesis's own test system has a port for a page of memory, appendix A).
 //
-// A cycle is one clock with ALE and the address, then one clock with the strobe (PSEN for the program, WR for
-// the motion controller) and the data, and a clock more for each wait state.
+// A cycle is one clock with ALE and the address, then one clock with the strobe (PSEN for the program, RD for
+// data, WR for data and the motion controller) and the data, and a clock more for each wait state.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@
 namespace millwright::cordic {
 
 inline constexpr std::uint16_t ram_begin = 0x8000; ///< below: program ROM
-inline constexpr int rom_size = ram_begin;         ///< of one page
+inline constexpr std::uint32_t last_address = 0xffff;
+inline constexpr int rom_size = ram_begin; ///< of one page
 inline constexpr int most_pages = 256;
 inline constexpr std::uint16_t port_begin = 0xc000; ///< from here: the motion controller
 inline constexpr std::uint8_t command_port = 0x80;  ///< behind port_begin: opcode and parameter of a command
@@ -57,7 +58,12 @@ struct BusPins {
     friend bool operator==(const BusPins&, const BusPins&) = default;
 };
 
-enum class BusCycle : std::uint8_t { none, fetch, read, write };
+enum class BusCycle : std::uint8_t {
+    none,
+    fetch, ///< of the program, with PSEN
+    read,  ///< of data, with RD
+    write
+};
 
 struct BusState {
     BusCycle cycle = BusCycle::none; ///< that is under way after its address clock

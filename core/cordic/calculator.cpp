@@ -112,6 +112,8 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, double x, doub
         refuse(overflow, format);
         Polar answer;
         answer.length = std::ldexp(arithmetic.to_double(found.x), -shift);
+        (void)arithmetic.from_double(answer.length, overflow);
+        refuse(overflow, format);
         answer.angle_deg =
             to_degrees(arithmetic.to_double(found.z)) + right_angle_deg * quarter_turns_of(folded);
         answer.length_error = std::abs(answer.length - std::hypot(x, y));

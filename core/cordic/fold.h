@@ -60,10 +60,13 @@ template <class Number> [[nodiscard]] constexpr int quarter_turns_of(const Folde
 
 /// How far to shift (x, y) to the left (to the right if negative) so that vectoring has all digits of the
 /// word and cannot overflow: a short vector in fixed point has a coarse direction otherwise. Floating point
-/// needs none.
+/// needs that only where its parts would come near the numbers that have lost digits (subnormal ones).
 template <class T>
-[[nodiscard]] constexpr int normalising_shift(const FloatArithmetic<T>& /*format*/, T /*x*/, T /*y*/) {
-    return 0;
+[[nodiscard]] constexpr int normalising_shift(const FloatArithmetic<T>& /*format*/, T x, T y) {
+    constexpr bool is_double = std::is_same_v<T, double>;
+    constexpr T least = power_of_two<T>(is_double ? -900 : -70);
+    const T size = std::max(x < T{0} ? -x : x, y < T{0} ? -y : y);
+    return size < least && size > T{0} ? (is_double ? 200 : 100) : 0;
 }
 [[nodiscard]] constexpr int normalising_shift(const FixedArithmetic& format, std::int64_t x, std::int64_t y) {
     const auto bits = [](std::int64_t v) {
@@ -75,8 +78,8 @@ template <class T>
 }
 
 template <class T>
-[[nodiscard]] constexpr T normalised(const FloatArithmetic<T>& /*format*/, T value, int /*shift*/) {
-    return value;
+[[nodiscard]] constexpr T normalised(const FloatArithmetic<T>& /*format*/, T value, int shift) {
+    return value * power_of_two<T>(shift);
 }
 [[nodiscard]] constexpr std::int64_t
 normalised(const FixedArithmetic& format, std::int64_t value, int shift) {

@@ -22,6 +22,7 @@ PlcBit input_of(std::string_view name) {
 
 ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name) {
     ReadInputs read;
+    text = without_byte_order_mark(text);
     for (int line = 1; !text.empty(); ++line) {
         const std::vector<LineWord> words = words_of(take_line(text));
         const auto fail = [&](std::size_t at, std::string message) {

@@ -79,11 +79,14 @@ std::span<const NamedOpcode> named_opcodes() {
 
 std::string_view to_text(Opcode opcode) {
     const auto* const found = std::ranges::find(plain, opcode, &NamedOpcode::opcode);
-    return found == plain.end() ? std::string_view("MOV") : found->name;
+    if (found != plain.end()) {
+        return found->name;
+    }
+    return opcode < Opcode::ld ? "MOV" : opcode < Opcode::st ? "LD" : "ST";
 }
 
 bool is_command(Opcode opcode) {
-    return opcode == Opcode::g04 || opcode >= Opcode::m00;
+    return opcode == Opcode::g04 || (opcode >= Opcode::m00 && opcode <= Opcode::muser);
 }
 
 bool takes_parameter(Opcode opcode) {
@@ -99,14 +102,38 @@ bool takes_parameter(Opcode opcode) {
     }
 }
 
+int operand_bytes(Opcode opcode, const NumberFormat& format) {
+    switch (opcode) {
+    case Opcode::mov:
+        return immediate_bytes(format);
+    case Opcode::ld:
+    case Opcode::st:
+        return address_bytes;
+    default:
+        return 0;
+    }
+}
+
+bool is_possible(const Instruction& instruction, const NumberFormat& format) {
+    const Word last = instruction.immediate + static_cast<Word>(immediate_bytes(format)) - 1;
+    switch (instruction.opcode) {
+    case Opcode::mov:
+        return !is_whole(instruction.target) || instruction.immediate <= most_of(instruction.target);
+    case Opcode::ld:
+        return last <= last_address;
+    case Opcode::st:
+        return last <= last_address && instruction.immediate >= ram_begin;
+    default:
+        return true;
+    }
+}
+
 void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format) {
     const auto opcode = static_cast<std::uint8_t>(instruction.opcode);
-    if (instruction.opcode != Opcode::mov) {
-        code.push_back(opcode);
-        return;
-    }
-    code.push_back(static_cast<std::uint8_t>(opcode + static_cast<unsigned>(instruction.target)));
-    for (int byte = 0; byte < immediate_bytes(format); ++byte) {
+    const int operand = operand_bytes(instruction.opcode, format);
+    const unsigned row = operand > 0 ? static_cast<unsigned>(instruction.target) : 0U;
+    code.push_back(static_cast<std::uint8_t>(opcode + row));
+    for (int byte = 0; byte < operand; ++byte) {
         code.push_back(static_cast<std::uint8_t>(instruction.immediate >> (8 * byte)));
     }
 }
@@ -115,14 +142,13 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFo
     if (code.empty()) {
         return std::nullopt;
     }
-    const int target = code[0] - static_cast<int>(Opcode::mov);
-    if (target >= 0 && target < loaded_register_count) {
-        const auto size = static_cast<std::size_t>(immediate_bytes(format));
+    if (const auto target = register_in(code[0])) {
+        const auto opcode = static_cast<Opcode>(code[0] - static_cast<unsigned>(*target));
+        const auto size = static_cast<std::size_t>(operand_bytes(opcode, format));
         if (code.size() <= size) {
             return std::nullopt;
         }
-        return Decoded{{Opcode::mov, static_cast<Register>(target), little_endian(code.subspan(1, size))},
-                       1 + immediate_bytes(format)};
+        return Decoded{{opcode, *target, little_endian(code.subspan(1, size))}, 1 + static_cast<int>(size)};
     }
     for (const NamedOpcode& known : plain) {
         if (code[0] == static_cast<std::uint8_t>(known.opcode)) {

@@ -50,6 +50,10 @@ inline constexpr int loaded_register_count = 16; ///< those that Mov can load
 [[nodiscard]] constexpr bool is_whole(Register name) {
     return name == Register::N || name == Register::PC || name == Register::P;
 }
+/// The greatest number of a register of whole numbers.
+[[nodiscard]] constexpr Word most_of(Register name) {
+    return name == Register::PC ? 0xffffU : 0xffffffffU;
+}
 
 enum class Opcode : std::uint8_t {
     nop = 0x00,
@@ -77,9 +81,25 @@ enum class Opcode : std::uint8_t {
     m09 = 0x49,
     m30 = 0x5e,   ///< as m02
     muser = 0x60, ///< machine-specific command M P, P from 100 to 199
+    ld = 0x80,    ///< + register number: from memory; two bytes of address follow, lowest first
+    st = 0xa0,    ///< + register number: into memory
 };
 
-/// Name and opcode of every instruction but Mov.
+/// The register that an opcode byte of Mov, Ld or St names; nothing for other bytes.
+[[nodiscard]] constexpr std::optional<Register> register_in(std::uint8_t opcode) {
+    const auto in_row = [&](Opcode row, int count) {
+        const int number = opcode - static_cast<int>(row);
+        return number >= 0 && number < count ? std::optional(static_cast<Register>(number)) : std::nullopt;
+    };
+    const auto loaded = in_row(Opcode::mov, loaded_register_count);
+    if (loaded) {
+        return loaded;
+    }
+    const auto from_memory = in_row(Opcode::ld, loaded_register_count);
+    return from_memory ? from_memory : in_row(Opcode::st, register_count);
+}
+
+/// Name and opcode of every instruction that names no register.
 struct NamedOpcode {
     std::string_view name;
     Opcode opcode = Opcode::nop;
@@ -92,8 +112,8 @@ struct NamedOpcode {
 
 struct Instruction {
     Opcode opcode = Opcode::nop;
-    Register target = Register::XI; ///< mov
-    Word immediate = 0;             ///< mov: as it stands in the program, not sign-extended
+    Register target = Register::XI; ///< of mov, ld and st
+    Word immediate = 0;             ///< mov: as it stands in the program, not sign-extended; ld, st: address
 
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
@@ -102,6 +122,9 @@ struct Instruction {
 [[nodiscard]] constexpr int immediate_bytes(const NumberFormat& format) {
     return format.word() > 32 ? 8 : 4;
 }
+
+inline constexpr int address_bytes = 2; ///< of LD and ST
+inline constexpr int command_bytes = 5; ///< opcode and P, as they go over the bus
 
 /// A word as an immediate: its lowest bytes; and back, sign-extended for fixed point.
 [[nodiscard]] constexpr Word to_immediate(const NumberFormat& format, Word word) {
@@ -113,6 +136,13 @@ struct Instruction {
     }
     return static_cast<Word>(static_cast<std::int64_t>(static_cast<std::int32_t>(immediate)));
 }
+
+/// Bytes behind the opcode.
+[[nodiscard]] int operand_bytes(Opcode opcode, const NumberFormat& format);
+
+/// Whether the processor can do what it says: a whole number fits its register, and all bytes of an address
+/// are there, of St outside of the ROM.
+[[nodiscard]] bool is_possible(const Instruction& instruction, const NumberFormat& format);
 
 void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format);
 

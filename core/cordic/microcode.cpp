@@ -17,7 +17,8 @@ constexpr std::array<std::string_view, control_count> control_names = {
     "publish",      "count_chord", "fold_radius", "fold_move",      "load_speed",    "rotate",
     "vector",       "rotate_both", "correct",     "correct_both",   "unfold_radius", "unfold_speed",
     "write_byte",   "halt",        "take_height", "fold_space",     "fold_rise",     "unfold_rise",
-    "command",      "add_rise",    "next_page"};
+    "command",      "add_rise",    "next_page",   "take_address",   "read_data",     "shift_data",
+    "write_data"};
 
 /// Whether an operation says nothing without a condition.
 bool tests_condition(MicroOp op) {
@@ -73,6 +74,7 @@ public:
         : name_(std::move(name)), constants_(constants) {}
 
     AssembledMicroprogram assemble(std::string_view text) {
+        text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;
             words_ = words_of(take_line(text));
@@ -81,6 +83,9 @@ public:
         }
         close_branches();
         close_maps();
+        if (result_.program.count == 0 && result_.errors.empty()) {
+            fail(1, 1, "the microprogram has no words", "the instruction fetch stands at address 0");
+        }
         return std::move(result_);
     }
 

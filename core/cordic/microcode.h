@@ -58,9 +58,13 @@ enum class Control : std::uint8_t {
     command,        ///< hand (IR, P) to the motion controller
     add_rise,       ///< ZE <- Z0 + Z
     next_page,      ///< page of the program ROM + 1, PC <- 0
+    take_address,   ///< address of data <- temporary, which is then 0
+    read_data,      ///< begin to read the byte at the address of data, which counts up
+    shift_data,     ///< temporary <- byte read, behind those before it
+    write_data,     ///< begin to write the next byte of the register named by IR there; the address counts up
 };
 
-inline constexpr int control_count = 27;
+inline constexpr int control_count = 31;
 using ControlSignals = std::uint32_t; ///< one bit a Control
 
 [[nodiscard]] constexpr ControlSignals bit_of(Control control) {

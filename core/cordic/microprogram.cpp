@@ -9,9 +9,8 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr int record_words = 6;  // X, Y, Vx, Vy, Ax, Ay
-constexpr int space_words = 9;   // and Z, Vz, Az
-constexpr int command_bytes = 5; // opcode and P
+constexpr int record_words = 6; // X, Y, Vx, Vy, Ax, Ay
+constexpr int space_words = 9;  // and Z, Vz, Az
 
 constexpr std::string_view fetch_and_move = R"(
 ; Fetch. Reset begins here, and so does every instruction.
@@ -147,6 +146,27 @@ W2:     CJP   bus_busy W2
         CRTN  always
 )";
 
+constexpr std::string_view memory_moves = R"(
+; Ld and St: the two bytes of the address, then those of the register, lowest first.
+LOAD:   CJS   always ADDRESS
+        PUSH  always LAST_BYTE
+        CONT                            | read_data
+L2:     CJP   bus_busy L2
+        RFCT                            | shift_data
+        JZ                              | store_register
+SAVE:   CJS   always ADDRESS
+        LDCT  LAST_BYTE
+V1:     CONT                            | write_data
+V2:     CJP   bus_busy V2
+        RPCT  V1
+        JZ
+ADDRESS: PUSH always LAST_ADDRESS_BYTE
+        CONT                            | read_program
+D2:     CJP   bus_busy D2
+        RFCT                            | shift_byte
+        CRTN  always                    | take_address
+)";
+
 constexpr std::string_view dispatch = R"(
 .map 0x00 NOP
 .map 0x01 HLT
@@ -162,6 +182,8 @@ constexpr std::string_view dispatch = R"(
 .map 0x43 0x49 COMMAND
 .map 0x5e END
 .map 0x60 COMMAND
+.map 0x80 0x8f LOAD
+.map 0xa0 0xb1 SAVE
 )";
 
 } // namespace
@@ -183,6 +205,7 @@ std::string microprogram_text(Publishing publishing) {
     text += space_point;
     text += by_bus ? bus_commands : latch_commands;
     text += by_bus ? store : std::string_view();
+    text += memory_moves;
     text += dispatch;
     return text;
 }
@@ -195,6 +218,7 @@ std::vector<std::pair<std::string, int>> microprogram_constants(const Sequence& 
         {"LAST_STEP", sequence.step_count - 1},
         {"LAST_CORRECTION", corrections - 1},
         {"LAST_BYTE", immediate_bytes(format) - 1},
+        {"LAST_ADDRESS_BYTE", address_bytes - 1},
         {"LAST_RECORD_BYTE", record_words * immediate_bytes(format) - 1},
         {"LAST_SPACE_BYTE", space_words * immediate_bytes(format) - 1},
         {"LAST_COMMAND_BYTE", command_bytes - 1},

@@ -46,6 +46,7 @@ public:
     explicit PlcAssembler(std::filesystem::path name) : name_(std::move(name)) {}
 
     PlcProgram assemble(std::string_view text) {
+        text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;
             words_ = words_of(take_line(text));

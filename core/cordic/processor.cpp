@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace millwright::cordic {
@@ -20,7 +19,22 @@ constexpr ControlSignals moves =
     bit_of(Control::load_opcode) | bit_of(Control::shift_byte) | bit_of(Control::store_register) |
     bit_of(Control::take_end) | bit_of(Control::take_position) | bit_of(Control::publish) |
     bit_of(Control::count_chord) | bit_of(Control::halt) | bit_of(Control::take_height) |
-    bit_of(Control::command) | bit_of(Control::next_page);
+    bit_of(Control::command) | bit_of(Control::next_page) | bit_of(Control::take_address) |
+    bit_of(Control::shift_data);
+
+Stop stop_for(SequencerFault fault) {
+    switch (fault) {
+    case SequencerFault::none:
+        break;
+    case SequencerFault::overflow:
+        return Stop::stack_overflow;
+    case SequencerFault::underflow:
+        return Stop::stack_underflow;
+    case SequencerFault::no_next:
+        return Stop::microprogram_end;
+    }
+    return Stop::none;
+}
 
 } // namespace
 
@@ -104,6 +118,10 @@ bool Processor::condition(Condition condition) const {
 
 // Everything in a clock sees the registers as they were before it: the next address is chosen first.
 template <class Arithmetic> void Processor::one_clock(const Kernel<Arithmetic>& kernel) {
+    if (state_.sequencer.address >= microprogram_->count) {
+        stop(state_, Stop::microprogram_end);
+        return;
+    }
     const MicroWord& word = microprogram_->words[state_.sequencer.address];
     state_.pipeline = word;
     count(word);
@@ -134,9 +152,8 @@ void Processor::sequence(const MicroWord& word) {
           .branch = word.branch,
           .map = map,
           .vector = static_cast<std::uint8_t>(word.branch + (state_.opcode & 0x0fU))});
-    if (state_.sequencer.fault != StackFault::none) {
-        stop(state_,
-             state_.sequencer.fault == StackFault::overflow ? Stop::stack_overflow : Stop::stack_underflow);
+    if (state_.sequencer.fault != SequencerFault::none) {
+        stop(state_, stop_for(state_.sequencer.fault));
     }
     state_.instructions += ends ? 1 : 0;
 }
@@ -147,6 +164,8 @@ void Processor::count(const MicroWord& word) {
     const BusCycle cycle = state_.bus.cycle;
     if ((word.controls & internal::step_signals) != 0) {
         ++clocks.cordic;
+    } else if (moves_data(word.controls)) {
+        ++clocks.data;
     } else if (has(word.controls, Control::write_byte) || cycle == BusCycle::write) {
         ++clocks.publish;
     } else if (has(word.controls, Control::load_opcode) || state_.sequencer.address == 0) {
@@ -158,10 +177,23 @@ void Processor::count(const MicroWord& word) {
     }
 }
 
+/// The clocks of LD and ST at the bus, waiting and last ones among them.
+bool Processor::moves_data(ControlSignals controls) const {
+    constexpr ControlSignals data =
+        bit_of(Control::read_data) | bit_of(Control::shift_data) | bit_of(Control::write_data);
+    const BusState& bus = state_.bus;
+    return (controls & data) != 0 || bus.cycle == BusCycle::read ||
+           (bus.cycle == BusCycle::write && register_in(state_.opcode).has_value());
+}
+
 void Processor::use_bus(ControlSignals controls) {
     if (has(controls, Control::read_program)) {
         const auto at = static_cast<std::uint16_t>(reg(Register::PC));
         begin_cycle(state_.bus, BusCycle::fetch, at, 0, settings_.wait_states);
+    } else if (has(controls, Control::read_data)) {
+        begin_data(BusCycle::read, 0);
+    } else if (has(controls, Control::write_data)) {
+        write_data();
     } else if (has(controls, Control::write_byte)) {
         write_byte();
     } else if (!go_on(state_.bus, memory_)) {
@@ -169,17 +201,41 @@ void Processor::use_bus(ControlSignals controls) {
     }
 }
 
+void Processor::begin_data(BusCycle cycle, std::uint8_t data) {
+    if (state_.data_address > last_address) {
+        stop(state_, Stop::beyond_bus);
+        return;
+    }
+    const auto at = static_cast<std::uint16_t>(state_.data_address++);
+    begin_cycle(state_.bus, cycle, at, data, settings_.wait_states);
+}
+
+void Processor::write_data() {
+    const auto source = register_in(state_.opcode);
+    if (!source || state_.bytes_moved >= immediate_bytes(format_)) {
+        stop(state_, source ? Stop::too_many_bytes : Stop::illegal_instruction);
+        return;
+    }
+    begin_data(BusCycle::write, static_cast<std::uint8_t>(reg(*source) >> (8U * state_.bytes_moved++)));
+}
+
 void Processor::write_byte() {
     const int size = immediate_bytes(format_);
-    const int byte = state_.record_byte++;
+    const int byte = state_.record_byte;
+    const int end = byte >= command_port ? command_port + command_bytes
+                                         : static_cast<int>(Published{}.words.size()) * size;
+    if (byte >= end || (byte >= command_port ? commanded_.empty() : published_.empty())) {
+        stop(state_, Stop::too_many_bytes);
+        return;
+    }
+    ++state_.record_byte;
     Word data = 0;
-    if (byte >= command_port && !commanded_.empty()) {
+    if (byte >= command_port) {
         const Commanded& last = commanded_.back();
         const Word record = Word{last.parameter} << 8U | static_cast<Word>(last.opcode);
-        const int place = 8 * (byte - command_port);
-        data = place < std::numeric_limits<Word>::digits ? record >> place : 0; // behind the record nothing
-    } else if (!published_.empty()) {
-        data = published_.back().words[static_cast<std::size_t>((byte / size) % 9)] >> (8 * (byte % size));
+        data = record >> (8 * (byte - command_port));
+    } else {
+        data = published_.back().words[static_cast<std::size_t>(byte / size)] >> (8 * (byte % size));
     }
     begin_cycle(state_.bus,
                 BusCycle::write,
@@ -194,6 +250,15 @@ void Processor::move_data(ControlSignals controls) {
     }
     if (has(controls, Control::shift_byte)) {
         take_byte();
+        reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
+    }
+    if (has(controls, Control::shift_data)) {
+        take_byte();
+    }
+    if (has(controls, Control::take_address)) {
+        state_.data_address = static_cast<std::uint32_t>(state_.temporary & 0xffffU);
+        state_.temporary = 0;
+        state_.bytes_moved = 0;
     }
     if (has(controls, Control::store_register)) {
         store_register();
@@ -214,7 +279,7 @@ void Processor::move_data(ControlSignals controls) {
         reg(Register::Z0) = state_.path.ze;
     }
     if (has(controls, Control::count_chord)) {
-        --reg(Register::N);
+        count_chord();
     }
     if (has(controls, Control::command)) {
         hand_over_command();
@@ -231,23 +296,36 @@ void Processor::take_opcode() {
     state_.opcode = state_.bus.data;
     state_.instruction_at = code_address(state_.bus.page, reg(Register::PC));
     state_.temporary = 0;
-    state_.immediate_bytes_in = 0;
+    state_.bytes_moved = 0;
     reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
 }
 
 void Processor::take_byte() {
-    state_.temporary |= Word{state_.bus.data} << (8U * (state_.immediate_bytes_in++ & 7U));
-    reg(Register::PC) = (reg(Register::PC) + 1) & 0xffffU;
+    if (state_.bytes_moved >= sizeof(Word)) {
+        stop(state_, Stop::too_many_bytes);
+        return;
+    }
+    state_.temporary |= Word{state_.bus.data} << (8U * state_.bytes_moved++);
+}
+
+void Processor::count_chord() {
+    if (reg(Register::N) == 0) {
+        stop(state_, Stop::arc_too_coarse);
+        return;
+    }
+    --reg(Register::N);
 }
 
 void Processor::store_register() {
-    const auto target = static_cast<Register>(state_.opcode - static_cast<unsigned>(Opcode::mov));
-    if (static_cast<int>(target) >= loaded_register_count) {
+    const auto target = register_in(state_.opcode);
+    if (!target || static_cast<int>(*target) >= loaded_register_count) {
         stop(state_, Stop::illegal_instruction); // a microprogram of one's own may map any opcode here
-    } else if (is_whole(target)) {
-        reg(target) = state_.temporary & (target == Register::PC ? 0xffffU : 0xffffffffU);
+    } else if (!is_whole(*target)) {
+        store_number(*target);
+    } else if (state_.temporary <= most_of(*target)) {
+        reg(*target) = state_.temporary;
     } else {
-        store_number(target);
+        stop(state_, Stop::overflow);
     }
 }
 

@@ -51,11 +51,15 @@ public:
 private:
     [[nodiscard]] bool condition(Condition condition) const;
     void sequence(const MicroWord& word);
+    [[nodiscard]] bool moves_data(ControlSignals controls) const;
     void use_bus(ControlSignals controls);
+    void begin_data(BusCycle cycle, std::uint8_t data);
+    void write_data();
     void count(const MicroWord& word);
     void move_data(ControlSignals controls);
     void take_opcode();
     void take_byte();
+    void count_chord();
     void store_register();
     void store_number(Register target);
     void turn_page();

@@ -16,6 +16,14 @@ std::string_view to_text(Stop stop) {
         return "a microprogram called more than 4 deep";
     case Stop::stack_underflow:
         return "a microprogram returned where nothing had called";
+    case Stop::microprogram_end:
+        return "the microprogram ran behind its last word";
+    case Stop::too_many_bytes:
+        return "the microprogram moved more bytes than a word or a record has";
+    case Stop::too_many_steps:
+        return "the microprogram made more steps or corrections than the sequence has";
+    case Stop::beyond_bus:
+        return "an address behind the last one of the bus";
     case Stop::rom_write:
         return "a write into the program ROM";
     case Stop::no_page:

@@ -38,7 +38,11 @@ enum class Stop : std::uint8_t {
     illegal_instruction, ///< an opcode that the mapping ROM does not know
     stack_overflow,      ///< of the microprogram
     stack_underflow,
+    microprogram_end, ///< behind its last word
+    too_many_bytes,   ///< a microprogram moves more than there are
+    too_many_steps,   ///< more than the sequence has
     rom_write,
+    beyond_bus,     ///< an address behind the last one
     no_page,        ///< PAGE behind the last page of the program ROM
     arc_too_coarse, ///< |Dz| beyond the convergence range, or no chord at all
     out_of_reach,   ///< a direction that the steps cannot turn to the x axis
@@ -71,8 +75,9 @@ struct ClockCounts {
     std::int64_t fetch = 0;     ///< opcodes, with their bus cycles
     std::int64_t immediate = 0; ///< bytes of Mov, with their bus cycles
     std::int64_t publish = 0;   ///< bytes to the motion controller, with their bus cycles
+    std::int64_t data = 0;      ///< bytes of LD and ST, with their bus cycles
     /// What is left: dispatch, folding, loading counters, returning.
-    [[nodiscard]] std::int64_t control() const { return total - cordic - fetch - immediate - publish; }
+    [[nodiscard]] std::int64_t control() const { return total - cordic - fetch - immediate - publish - data; }
 
     friend bool operator==(const ClockCounts&, const ClockCounts&) = default;
 };
@@ -83,8 +88,9 @@ struct ProcessorState {
     std::array<Word, register_count> registers{};
     std::uint8_t opcode = 0;        ///< IR
     CodeAddress instruction_at = 0; ///< where the instruction in IR lies
-    Word temporary = 0;             ///< immediate on its way in
-    std::uint8_t immediate_bytes_in = 0;
+    Word temporary = 0;             ///< immediate or data on its way in
+    std::uint8_t bytes_moved = 0;   ///< of the temporary, or of a register on its way out
+    std::uint32_t data_address = 0; ///< of the next byte that LD reads or ST writes
     /// Next one to be written, of a set-point or, from command_port on, a command.
     std::uint8_t record_byte = 0;
     DataPath path;

@@ -22,19 +22,21 @@ constexpr std::array<std::string_view, micro_op_count> names = {"JZ",
                                                                 "CONT",
                                                                 "TWB"};
 
+constexpr int behind_last = 256;
+
 /// What an operation does besides choosing the address.
 enum class Stack : std::uint8_t { keep, push, pop, peek, clear };
 enum class Counter : std::uint8_t { keep, load, count };
 
 struct Plan {
-    std::uint8_t next = 0;
+    int next = 0; ///< behind_last: there is none
     Stack stack = Stack::keep;
     Counter counter = Counter::keep;
 };
 
 /// The rows that ask the counter.
 Plan counted_plan_of(
-    const SequencerState& state, MicroOp op, const SequencerInputs& in, std::uint8_t next, std::uint8_t top) {
+    const SequencerState& state, MicroOp op, const SequencerInputs& in, int next, std::uint8_t top) {
     if (state.counter != 0) {
         const bool passes = op == MicroOp::TWB && in.pass;
         return op == MicroOp::RPCT ? Plan{in.branch, Stack::keep, Counter::count}
@@ -48,8 +50,7 @@ Plan counted_plan_of(
 }
 
 /// The rows of the truth table. `top` is what the stack shows; `next` is the address behind this one.
-Plan plan_of(
-    const SequencerState& state, MicroOp op, const SequencerInputs& in, std::uint8_t next, std::uint8_t top) {
+Plan plan_of(const SequencerState& state, MicroOp op, const SequencerInputs& in, int next, std::uint8_t top) {
     switch (op) {
     case MicroOp::JZ:
         return {0, Stack::clear};
@@ -97,22 +98,26 @@ std::optional<MicroOp> micro_op_of(std::string_view name) {
 }
 
 void step(SequencerState& state, MicroOp op, const SequencerInputs& inputs) {
-    const auto next = static_cast<std::uint8_t>(state.address + 1);
+    const int next = state.address + 1;
     const std::uint8_t top = state.depth > 0 ? state.stack[state.depth - 1U] : std::uint8_t{0};
     const Plan plan = plan_of(state, op, inputs, next, top);
-    state.fault = StackFault::none;
+    const bool needs_next = plan.next == behind_last || (plan.stack == Stack::push && next == behind_last);
+    state.fault = needs_next ? SequencerFault::no_next : SequencerFault::none;
+    if (needs_next) {
+        return;
+    }
     if (plan.stack != Stack::keep) {
         const bool takes = plan.stack == Stack::pop || plan.stack == Stack::peek;
         if (takes && state.depth == 0) {
-            state.fault = StackFault::underflow;
+            state.fault = SequencerFault::underflow;
             return;
         }
         if (plan.stack == Stack::push) {
             if (state.depth == stack_depth) {
-                state.fault = StackFault::overflow;
+                state.fault = SequencerFault::overflow;
                 return;
             }
-            state.stack[state.depth++] = next;
+            state.stack[state.depth++] = static_cast<std::uint8_t>(next);
         } else if (plan.stack == Stack::pop) {
             --state.depth;
         } else if (plan.stack == Stack::clear) {
@@ -124,7 +129,7 @@ void step(SequencerState& state, MicroOp op, const SequencerInputs& inputs) {
     } else if (plan.counter == Counter::count) {
         --state.counter;
     }
-    state.address = plan.next;
+    state.address = static_cast<std::uint8_t>(plan.next);
 }
 
 } // namespace millwright::cordic

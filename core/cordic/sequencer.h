@@ -35,14 +35,19 @@ inline constexpr int stack_depth = 4;
 [[nodiscard]] std::string_view to_text(MicroOp op);
 [[nodiscard]] std::optional<MicroOp> micro_op_of(std::string_view name);
 
-enum class StackFault : std::uint8_t { none, overflow, underflow };
+enum class SequencerFault : std::uint8_t {
+    none,
+    overflow, ///< of the stack
+    underflow,
+    no_next ///< the operation goes on, or is to come back, behind the last address
+};
 
 struct SequencerState {
     std::uint8_t address = 0; ///< of the micro-instruction that is executed next
     std::uint8_t counter = 0;
     std::array<std::uint8_t, stack_depth> stack{}; ///< the first `depth` are in use
     std::uint8_t depth = 0;
-    StackFault fault = StackFault::none; ///< of the last step; the state is then as before it
+    SequencerFault fault = SequencerFault::none; ///< of the last step; the state is then as before it
 
     friend bool operator==(const SequencerState&, const SequencerState&) = default;
 };
@@ -55,7 +60,8 @@ struct SequencerInputs {
     std::uint8_t vector = 0;
 };
 
-/// One clock. A call or PUSH with four on the stack, and a return or loop with none, do nothing but report.
+/// One clock. A call or PUSH with four on the stack, a return or loop with none, and what needs the address
+/// behind the last one do nothing but report.
 void step(SequencerState& state, MicroOp op, const SequencerInputs& inputs);
 
 } // namespace millwright::cordic

@@ -29,10 +29,13 @@ double speed_of(const SetPoint<double>& set, const HeightPoint& height) {
     return std::hypot(set.vx, set.vy, height.vz);
 }
 
-PlcBit user_bit(std::uint32_t number) {
-    const auto bit = plc_bit(fmt::format("U{}", number));
+PlcBit user_bit(const Commanded& command, const SupervisedSettings& settings) {
+    const auto bit = plc_bit(fmt::format("U{}", command.parameter));
     if (!bit) {
-        throw Error(fmt::format("M{} is none of the machine's own commands", number), {}, "M100 to M199");
+        const CodeLine at = line_at(settings.lines, command.instruction_at);
+        throw Error(Diagnostic{{settings.file, at.line, at.column, -1},
+                               fmt::format("M{} is none of the machine's own commands", command.parameter),
+                               "M100 to M199"});
     }
     return *bit;
 }
@@ -112,7 +115,7 @@ private:
             break;
         case Opcode::muser:
             record.task = Task::wait_for_fin;
-            record.user = user_bit(command.parameter);
+            record.user = user_bit(command, settings_);
             break;
         case Opcode::m03:
         case Opcode::m04:

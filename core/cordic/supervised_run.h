@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +24,8 @@ struct SupervisedSettings {
     double most_seconds = 3600.0;
     std::array<double, 3> start{}; ///< where the axes are, mm
     std::vector<InputChange> inputs;
+    std::span<const CodeLine> lines; ///< of the program, for the place in diagnostics
+    std::filesystem::path file;      ///< what it is called there
 };
 
 /// How a run ended.
@@ -54,7 +58,8 @@ struct SupervisedRun {
     std::vector<OutputChange> outputs;
 };
 
-/// Runs `processor` from where it is. Throws Error for settings that are not positive and finite.
+/// Runs `processor` from where it is. Throws Error for settings that are not positive and finite, and for a
+/// command that the logic has no bit for.
 [[nodiscard]] SupervisedRun
 run_supervised(Processor& processor, Plc& plc, const SupervisedSettings& settings);
 

@@ -137,6 +137,34 @@ TEST_F(CordicOptions, PrintErrorsInTheirOrderAndNotWithoutEnd) {
     EXPECT_THAT(ended.err, HasSubstr("many.asm: 5000 errors"));
 }
 
+TEST_F(CordicOptions, FillTheRamForTheProcessorAndReadItBack) {
+    const std::string file = written("ram.asm", "LD X0, 0x8000\nST X0, 0x8004\nHLT\n");
+    const std::string in = written("in.ram", std::string("\x00\x00\xc0\x3f", 4)); // 1.5
+    const Ended ended = run({"cordic", "run", file, "--ram", in, "--ram-out", path("out.ram"), "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_GT(nlohmann::json::parse(ended.out).at("clocks").at("data").get<int>(), 0);
+    const std::string ram = content_of(path("out.ram"));
+    EXPECT_EQ(ram.size(), 0x4000U);
+    EXPECT_EQ(ram.substr(4, 4), ram.substr(0, 4));
+    const Ended large = run({"cordic", "run", file, "--ram", written("large.ram", std::string(0x4001, 'x'))});
+    EXPECT_EQ(large.exit_code, 1);
+    EXPECT_THAT(large.err, HasSubstr("large.ram: 16385 bytes, the RAM holds 16384"));
+}
+
+TEST_F(CordicOptions, TellThePlaceWhereAMicroprogramOrTheLogicHasNoAnswer) {
+    const std::string halt = written("h.asm", "HLT\n");
+    const Ended empty = run({"cordic", "run", halt, "--microprogram", written("empty.micro", "")});
+    EXPECT_EQ(empty.exit_code, 1);
+    EXPECT_THAT(empty.err, HasSubstr("empty.micro:1:1: the microprogram has no words"));
+    const Ended off = run({"cordic", "run", halt, "--microprogram", written("off.micro", "CONT\n\nCONT\n")});
+    EXPECT_EQ(off.exit_code, 1);
+    EXPECT_THAT(off.err, HasSubstr("off.micro:3:1: the microprogram ran behind its last word"));
+    const std::string own = written("own.asm", "MOV P, 50\n  MUSER\nHLT\n");
+    const Ended user = run({"cordic", "run", own, "--plc", "assets/samples/interlock.plc"});
+    EXPECT_EQ(user.exit_code, 1);
+    EXPECT_THAT(user.err, HasSubstr("own.asm:2:3: M50 is none of the machine's own commands"));
+}
+
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
     const Ended ended = run({"cordic", "run", written("raw.asm", "MOV \x1b[31m\x07\xff, 1\n")});
     EXPECT_EQ(ended.exit_code, 1);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ui/panels/panel.h"
-#include "ui/render/camera.h"
+#include "ui/panels/processor_path.h"
 
 namespace millwright::panels {
 
@@ -15,11 +15,8 @@ public:
 private:
     void draw_vector(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
     void draw_errors(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
-    void draw_path(Ui& ui, const Workbench& now, const widgets::Rect& place);
-    void draw_map(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
 
-    render::Camera camera_{{.yaw = -1.35, .pitch = 0.75}};
-    double zoom_ = 1.0;
+    ProcessorPath path_;
 };
 
 } // namespace millwright::panels

@@ -7,8 +7,6 @@
 #include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
 
-#include <algorithm>
-
 namespace millwright::cordic::internal {
 
 [[nodiscard]] constexpr bool has(ControlSignals controls, Control control) {
@@ -53,10 +51,15 @@ private:
     [[nodiscard]] Number number(Word word) const { return arithmetic().from_word(word); }
     [[nodiscard]] Number number(Register name) const { return number(register_of(state_, name)); }
     [[nodiscard]] Word word(Number value) const { return arithmetic().to_word(value); }
+    [[nodiscard]] int step_count() const { return kernel_.sequence().step_count; }
     [[nodiscard]] Word zero() const { return word(Number{}); }
 
     void correct(bool both) {
-        const int j = std::min<int>(path_.correction++, most_corrections - 1);
+        const int j = path_.correction;
+        if (step_count() + j >= kernel_.sequence().clock_count()) {
+            return stop(state_, Stop::too_many_steps);
+        }
+        ++path_.correction;
         const auto corrected = [&](Word held) {
             const Number value = number(held);
             return word(kernel_.sequence().multiplies ? kernel_.multiplied(value, overflow_)
@@ -71,7 +74,11 @@ private:
     }
 
     void turn(Mode mode, bool both) {
-        const int i = std::min<int>(path_.step++, most_steps - 1);
+        const int i = path_.step;
+        if (i >= step_count()) {
+            return stop(state_, Stop::too_many_steps);
+        }
+        ++path_.step;
         Vector3<Number> v{number(path_.x), number(path_.y), number(path_.z)};
         const int sigma = kernel_.direction(mode, v);
         kernel_.step(v, i, sigma, overflow_);

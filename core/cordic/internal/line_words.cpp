@@ -60,6 +60,9 @@ bool read_number(std::string_view text, long long& number) {
 bool read_real(std::string_view text, double& number) {
     if (text.starts_with('+')) {
         text.remove_prefix(1);
+        if (text.starts_with('-')) {
+            return false;
+        }
     }
     const char* const end = text.data() + text.size();
     const auto [stop, fault] = std::from_chars(text.data(), end, number);
@@ -77,6 +80,11 @@ std::string capital(std::string_view text) {
 bool is_name(std::string_view text) {
     return !text.empty() && is_letter(text.front()) &&
            std::ranges::all_of(text, [](char c) { return is_letter(c) || is_digit(c); });
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
 std::string_view take_line(std::string_view& text) {

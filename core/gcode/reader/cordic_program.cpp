@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -82,8 +83,10 @@ public:
     void curve(const Curve& curve) {
         const AxisValues start = frame_.from_machine(at_);
         if (const auto speed = feed_speed(curve.source)) {
-            internal::curve_chords(
-                start, curve, tolerance_of_chords(), ChordLines{*this, {*speed, curve.source}});
+            internal::curve_chords(start,
+                                   curve,
+                                   tolerance_of_chords() / frame_.unit(),
+                                   ChordLines{*this, {*speed, curve.source}});
         }
     }
 
@@ -166,11 +169,13 @@ private:
             return false;
         }
         at_ = end;
-        return path_.chord(place_of(end), feed, (1.0 - share_of_chords) * settings_.chord_tolerance);
+        const double slack = settings_.chord_tolerance - tolerance_of_chords();
+        return path_.chord(
+            place_of(end), feed, settings_.lets_arcs_drift ? std::numeric_limits<double>::infinity() : slack);
     }
-    /// In the program's unit.
+    /// mm: all of it where nothing is kept for rounding.
     [[nodiscard]] double tolerance_of_chords() const {
-        return share_of_chords * settings_.chord_tolerance / frame_.unit();
+        return (settings_.lets_arcs_drift ? 1.0 : share_of_chords) * settings_.chord_tolerance;
     }
 
     /// In the other planes: the processor turns about Z alone.
@@ -180,14 +185,13 @@ private:
         const auto speed = feed_speed(move.source);
         if (speed && chords_of(radius, move)) {
             internal::arc_chords(
-                start, move, tolerance_of_chords(), ChordLines{*this, {*speed, move.source}});
+                start, move, tolerance_of_chords() / frame_.unit(), ChordLines{*this, {*speed, move.source}});
         }
     }
 
     /// Nothing, and a fault, if they are more than anybody waits for.
     std::optional<std::int64_t> chords_of(double radius, const Move& move) {
-        const std::int64_t chords =
-            chord_count(radius, move.sweep, share_of_chords * settings_.chord_tolerance);
+        const std::int64_t chords = chord_count(radius, move.sweep, tolerance_of_chords());
         if (chords > most_chords) {
             code_.fault({move.source, 'G'},
                         fmt::format("an arc of {} chords", chords),

@@ -77,6 +77,16 @@ TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
              Wrong{"mov N, 1.5", 1, 8, "\"1.5\" is no whole number"},
              Wrong{"mov PC, 65536", 1, 9, "no whole number from 0 to 65535"},
              Wrong{"mov XI, 0x123456789", 1, 9, "no hexadecimal number of 4 bytes"},
+             Wrong{"mov PC, 0x1000A", 1, 9, "\"0x1000A\" is no whole number from 0 to 65535"},
+             Wrong{".format f64\nmov N, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
+             Wrong{".format f64\nmov P, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
+             Wrong{"mov XI, +-1", 1, 9, "\"+-1\" is no number"},
+             Wrong{"ld Vz, 0x8000", 1, 4, "Vz is computed and cannot be loaded"},
+             Wrong{"ld XI, 70000", 1, 8, "\"70000\" is no address from 0 to 65535"},
+             Wrong{"ld XI, 0xfffd", 1, 8, "4 bytes at \"0xfffd\" are not all on the bus"},
+             Wrong{"st XI, 0x7fff", 1, 8, "are not all in the RAM or the motion controller's port"},
+             Wrong{"a: st XI, a", 1, 11, "\"a\" is no address"},
+             Wrong{"ld XI, away", 1, 8, "there is no label away"},
              Wrong{"mov PC, away", 1, 9, "there is no label away"},
              Wrong{"a: nop\na: nop", 2, 1, "label a is there already"},
              Wrong{"g01 g02", 1, 5, "\"g02\" is too much"},
@@ -91,6 +101,13 @@ TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
         EXPECT_EQ(errors[0].place.column, wrong.column) << wrong.text;
         EXPECT_THAT(errors[0].message, HasSubstr(wrong.message)) << wrong.text;
     }
+}
+
+TEST(Assembler, PassesOverTheMarkInFrontOfUtf8) {
+    const Assembled made = assemble("\xef\xbb\xbfhlt\n", "mark.asm");
+    EXPECT_TRUE(made.errors.empty());
+    EXPECT_EQ(made.image.code.size(), 1U);
+    EXPECT_EQ(made.lines.front().column, 1);
 }
 
 TEST(Assembler, RefusesAnInstructionAcrossTheEndOfAPage) {
@@ -124,7 +141,9 @@ TEST(Disassembler, GivesTextThatAssemblesToTheSameBytes) {
             Image image{.format = format};
             for (int byte = 0; byte < 60; ++byte) {
                 const auto any = static_cast<std::uint8_t>(random());
-                image.code.push_back(random() % 2 == 0 ? any : static_cast<std::uint8_t>(0x10 + any % 20));
+                image.code.push_back(random() % 2 == 0 ? any
+                                                       : static_cast<std::uint8_t>(
+                                                             (random() % 3 == 0 ? 0x80 : 0x10) + any % 20));
             }
             const std::string text = disassemble(image);
             const auto [again, lines, errors] = assemble(text, "again.asm");

@@ -48,6 +48,17 @@ TEST(Calculator, FindsLengthAndDirectionInEveryQuadrant) {
     }
 }
 
+// Subnormal numbers have lost digits; what is shifted out of them must not cost direction.
+TEST(Calculator, FindsDirectionsOfTheSmallestNumbers) {
+    for (const double size : {4e-320, 3e-310, 1e-300}) {
+        const Polar found = polar(binary64, thesis_sequence(), -size, 2.0 * size);
+        EXPECT_NEAR(found.angle_deg, 180.0 - std::atan(2.0) / degree, 0.01 + 6e-8 / degree);
+        EXPECT_NEAR(found.length / size, std::sqrt(5.0), 1e-3);
+    }
+    const Polar narrow = polar(binary32, thesis_sequence(), 1e-40, 1e-40);
+    EXPECT_NEAR(narrow.angle_deg, 45.0, 1e-4);
+}
+
 TEST(Calculator, RefusesWhatDoesNotFit) {
     EXPECT_THROW(static_cast<void>(rotate(fixed_format(2, 22), thesis_sequence(), 2.5, 0.0, 10.0)), Error);
     EXPECT_THROW(static_cast<void>(rotate(fixed_format(2, 22), thesis_sequence(), 1.9, 0.0, 10.0)), Error);
@@ -57,6 +68,8 @@ TEST(Calculator, RefusesWhatDoesNotFit) {
     EXPECT_THROW(static_cast<void>(rotate(binary32, thesis_sequence(), 1e300, 0.0, 1.0)), Error);
     EXPECT_THROW(static_cast<void>(polar(binary64, thesis_sequence(), 0.0, 0.0)), Error);
     EXPECT_THROW(static_cast<void>(polar(fixed_format(2, 14), thesis_sequence(), 1e-9, 0.0)), Error);
+    EXPECT_THROW(static_cast<void>(polar(fixed_format(2, 30), thesis_sequence(), 1.5, 1.5)), Error);
+    EXPECT_NEAR(polar(fixed_format(2, 30), thesis_sequence(), 1.2, 1.5).length, std::hypot(1.2, 1.5), 1e-7);
     for (const int steps : {1, 2, 3}) { // they reach 45, 71.6 and 85.6 degrees of the 90 that folding leaves
         const Sequence few = classic_sequence(CoordinateSystem::circular, steps);
         EXPECT_THROW(static_cast<void>(polar(binary64, few, -1.0, 0.0)), Error) << steps;

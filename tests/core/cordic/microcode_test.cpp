@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::cordic {
 namespace {
@@ -67,6 +69,8 @@ TEST(MicroAssembler, NamesLineAndColumnOfEveryMistake) {
              Wrong{".map 300 A", 1, 6, ".map needs an opcode from 0 to 255"},
              Wrong{".map 3", 1, 7, ".map needs a label"},
              Wrong{".map 3 B", 1, 8, "there is no label B"},
+             Wrong{"", 1, 1, "the microprogram has no words"},
+             Wrong{"; nothing\n\n", 1, 1, "the microprogram has no words"},
              Wrong{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is mapped already"},
          }) {
         const auto errors = assemble_microprogram(wrong.text, "wrong.mic").errors;
@@ -102,6 +106,32 @@ TEST(MicroAssembler, RefusesMoreThanTheRomHolds) {
     const auto errors = assemble_microprogram(text, "long.mic").errors;
     ASSERT_EQ(errors.size(), 1U);
     EXPECT_EQ(errors[0].place.line, micro_rom_size + 1);
+}
+
+Stop stop_of(const std::string& text, const std::vector<std::uint8_t>& code = {0x01}) {
+    auto made = assemble_microprogram(text, "own.mic");
+    EXPECT_TRUE(made.errors.empty()) << text;
+    Processor processor({}, Image{.format = binary32, .code = code}, std::move(made.program));
+    EXPECT_LT(processor.run(100'000), 100'000) << text;
+    return processor.state().stop;
+}
+
+TEST(MicroprogramOfOnesOwn, StopsWhereItLeavesWhatThereIs) {
+    std::string full;
+    for (int n = 0; n < micro_rom_size; ++n) {
+        full += "CONT\n";
+    }
+    EXPECT_EQ(stop_of("CONT\nCONT\n"), Stop::microprogram_end);
+    EXPECT_EQ(stop_of(full), Stop::microprogram_end); // not again from 0
+    EXPECT_EQ(stop_of("CJP always 9\n"), Stop::microprogram_end);
+    EXPECT_EQ(stop_of("CONT | command\nA: CONT | write_byte\nCJP always A\n"), Stop::too_many_bytes);
+    EXPECT_EQ(stop_of("CONT | publish\nA: CONT | write_byte\nCJP always A\n"), Stop::too_many_bytes);
+    EXPECT_EQ(stop_of("CONT | write_byte\nJZ\n"), Stop::too_many_bytes); // nothing was handed over
+    EXPECT_EQ(stop_of("A: CONT | shift_byte\nCJP always A\n"), Stop::too_many_bytes);
+    EXPECT_EQ(stop_of("A: CONT | rotate\nCJP always A\n"), Stop::too_many_steps);
+    EXPECT_EQ(stop_of("A: CONT | correct\nCJP always A\n"), Stop::too_many_steps);
+    EXPECT_EQ(stop_of("CONT | count_chord\nJZ\n"), Stop::arc_too_coarse);     // N is 0
+    EXPECT_EQ(stop_of("CONT | write_data\nJZ\n"), Stop::illegal_instruction); // IR names no register
 }
 
 TEST(Microprogram, FitsItsRomAndIsListed) {

@@ -102,7 +102,7 @@ void expect_row(const Row& row, bool pass) {
     step(state, row.op, in);
     const auto where = std::string(to_text(row.op)) + (pass ? " pass" : " fail") +
                        (row.counter_is_zero ? ", counter 0" : "");
-    EXPECT_EQ(state.fault, StackFault::none) << where;
+    EXPECT_EQ(state.fault, SequencerFault::none) << where;
     EXPECT_EQ(state.address, address_of(pass ? row.pass : row.fail, before)) << where;
     switch (pass ? row.pass_stack : row.fail_stack) {
     case Stack::keep:
@@ -151,13 +151,13 @@ TEST(Sequencer, ReportsACallBeyondFourAndStaysAsItWas) {
     SequencerState state;
     for (int n = 0; n < stack_depth; ++n) {
         step(state, MicroOp::CJS, {.pass = true, .branch = 9});
-        EXPECT_EQ(state.fault, StackFault::none);
+        EXPECT_EQ(state.fault, SequencerFault::none);
     }
     for (const MicroOp op : {MicroOp::CJS, MicroOp::PUSH, MicroOp::JSRP}) {
         SequencerState full = state;
         step(full, op, {.pass = true, .branch = 9});
-        EXPECT_EQ(full.fault, StackFault::overflow) << to_text(op);
-        full.fault = StackFault::none;
+        EXPECT_EQ(full.fault, SequencerFault::overflow) << to_text(op);
+        full.fault = SequencerFault::none;
         EXPECT_EQ(full, state) << to_text(op);
     }
 }
@@ -166,9 +166,30 @@ TEST(Sequencer, ReportsAReturnFromNothing) {
     for (const MicroOp op : {MicroOp::CRTN, MicroOp::CJPP, MicroOp::RFCT, MicroOp::LOOP, MicroOp::TWB}) {
         SequencerState state;
         step(state, op, {.pass = true, .branch = 9});
-        EXPECT_EQ(state.fault, StackFault::underflow) << to_text(op);
+        EXPECT_EQ(state.fault, SequencerFault::underflow) << to_text(op);
         EXPECT_EQ(state.address, 0) << to_text(op);
     }
+}
+
+TEST(Sequencer, DoesNotGoOnFromTheLastAddressToTheFirst) {
+    const SequencerState last{.address = 255};
+    for (const MicroOp op : {MicroOp::CONT, MicroOp::LDCT, MicroOp::PUSH, MicroOp::CJS, MicroOp::JSRP}) {
+        SequencerState state = last;
+        step(state, op, {.pass = true, .branch = 9});
+        EXPECT_EQ(state.fault, SequencerFault::no_next) << to_text(op); // a call would come back there
+        state.fault = SequencerFault::none;
+        EXPECT_EQ(state, last) << to_text(op);
+    }
+    SequencerState failed = last;
+    step(failed, MicroOp::CJP, {.pass = false, .branch = 9});
+    EXPECT_EQ(failed.fault, SequencerFault::no_next);
+    SequencerState away = last;
+    step(away, MicroOp::CJP, {.pass = true, .branch = 9});
+    EXPECT_EQ(away.fault, SequencerFault::none);
+    EXPECT_EQ(away.address, 9);
+    SequencerState again = last;
+    step(again, MicroOp::JZ, {});
+    EXPECT_EQ(again.address, 0);
 }
 
 TEST(MicroOps, HaveNamesThatReadBack) {

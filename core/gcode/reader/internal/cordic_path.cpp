@@ -283,7 +283,8 @@ bool CordicPath::rotate(const DividedTurn& arc,
     code_.mov(Register::YJ, words.j);
     code_.mov(Register::Dz, words.dz);
     code_.mov(Register::N, static_cast<Word>(rotations.count));
-    const bool g02 = words.clockwise == (settings_.processor.sense == cordic::ArcSense::iso);
+    const bool iso = settings_.processor.sense == cordic::ArcSense::iso;
+    const bool g02 = words.clockwise == iso;
     if (turn.rises()) {
         code_.mov(Register::Z, words.rise);
         code_.op(g02 ? Opcode::g02z : Opcode::g03z);
@@ -291,8 +292,10 @@ bool CordicPath::rotate(const DividedTurn& arc,
         code_.op(g02 ? Opcode::g02 : Opcode::g03);
     }
     code_.set_loaded(Register::N, 0); // counted down
+    CordicTurn programmed = turn;     // the way that the G-code says, whichever way the processor turns
+    programmed.sweep = iso ? turn.sweep : -turn.sweep;
     for (std::int64_t n = 1; n <= rotations.count; ++n) {
-        publish(turn.at(k + n), feed);
+        publish(programmed.at(k + n), feed);
     }
     held_ = rotations.end;
     return true;

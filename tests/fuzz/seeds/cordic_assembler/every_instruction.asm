@@ -41,6 +41,9 @@ START:  NOP
         M01
         MOV   P, 110
         MUSER
+        ST    Vz, 0x8000
+        LD    XI, 0x8000
+        LD    N, START
         MOV   PC, NEXT
         HLT
 NEXT:   PAGE
