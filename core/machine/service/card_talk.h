@@ -1,0 +1,21 @@
+// On-line commands of a PMAC, one question and answer at a time: what setting up a motor takes.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace millwright::machine {
+
+struct CardTalk {
+    /// The answer without its hand-shake. Throws Error for a refusal or a lost link.
+    std::function<std::string(const std::string&)> ask;
+    std::function<void(double)> wait; ///< s, of the card's time
+};
+
+/// I-variable `number` of a motor, as 29 for Ix29. Throws Error where the answer is no number.
+[[nodiscard]] double motor_variable(const CardTalk& card, int motor, int number);
+void set_motor_variable(const CardTalk& card, int motor, int number, double value);
+/// #nP, counts.
+[[nodiscard]] double motor_position(const CardTalk& card, int motor);
+
+} // namespace millwright::machine

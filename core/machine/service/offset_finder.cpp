@@ -1,0 +1,144 @@
+#include "core/machine/service/offset_finder.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace millwright::machine {
+
+namespace {
+
+constexpr int fatal_following_error = 11, output_bias = 29, gain = 30, output_limit = 69; // of Ixnn
+
+/// Variables that are others while it lives: given back by end(), or as well as the link allows.
+class Borrowed {
+public:
+    Borrowed(const CardTalk& card, int motor)
+        : card_(card), motor_(motor), error_limit_(motor_variable(card, motor, fatal_following_error)),
+          bias_(motor_variable(card, motor, output_bias)), gain_(motor_variable(card, motor, gain)) {
+        kill();
+        set_motor_variable(card, motor, gain, 0.0);
+        set_motor_variable(card, motor, fatal_following_error, 0.0); // an open end of the loop drifts far
+    }
+    Borrowed(const Borrowed&) = delete;
+    Borrowed& operator=(const Borrowed&) = delete;
+    ~Borrowed() {
+        try {
+            end();
+        } catch (const Error&) {
+            // The link is gone; without a host the card kills its motors itself.
+        }
+    }
+
+    [[nodiscard]] double bias() const { return bias_; }
+    void kill() const { card_.ask(fmt::format("#{}K", motor_)); }
+    void end() {
+        if (ended_) {
+            return;
+        }
+        ended_ = true;
+        kill();
+        set_motor_variable(card_, motor_, output_bias, bias_);
+        set_motor_variable(card_, motor_, gain, gain_);
+        set_motor_variable(card_, motor_, fatal_following_error, error_limit_);
+    }
+
+private:
+    const CardTalk& card_;
+    int motor_;
+    double error_limit_, bias_, gain_;
+    bool ended_ = false;
+};
+
+class Finder {
+public:
+    Finder(const CardTalk& card, int motor, const OffsetSearch& search)
+        : card_(card), motor_(motor), search_(search), borrowed_(card, motor),
+          limit_(static_cast<int>(motor_variable(card, motor, output_limit))),
+          begin_(motor_position(card, motor)) {}
+
+    [[nodiscard]] OffsetFound find() {
+        OffsetFound found;
+        found.before = static_cast<int>(std::lround(borrowed_.bias()));
+        int backward = moving(found.before, -1);
+        int forward = moving(found.before, 1);
+        found.backward = last_moving(backward, forward, -1);
+        found.forward = last_moving(forward, backward, 1);
+        found.middle = static_cast<int>(std::lround(0.5 * (found.backward + found.forward)));
+        found.farthest = farthest_;
+        borrowed_.end();
+        return found;
+    }
+
+private:
+    /// Which way the motor creeps: -1, 0, 1.
+    int direction(int offset) {
+        set_motor_variable(card_, motor_, output_bias, offset);
+        const double start = motor_position(card_, motor_);
+        card_.ask(fmt::format("#{}J/", motor_));
+        int seen = 0;
+        for (double time = 0.0; time < search_.look && seen == 0; time += search_.glance) {
+            card_.wait(search_.glance);
+            const double now = motor_position(card_, motor_);
+            farthest_ = std::max(farthest_, std::abs(now - begin_));
+            seen = now - start >= search_.creep ? 1 : start - now >= search_.creep ? -1 : 0;
+        }
+        borrowed_.kill();
+        if (farthest_ > search_.most_way) {
+            throw Error(fmt::format("motor {} went {:.0f} counts, and {:.0f} were allowed",
+                                    motor_,
+                                    farthest_,
+                                    search_.most_way),
+                        {},
+                        "begin with an offset nearer to standstill, or allow a longer way");
+        }
+        return seen;
+    }
+
+    /// From `offset` on in growing steps, one at which the motor goes to `sense`.
+    int moving(int offset, int sense) {
+        for (int step = 1; direction(offset) != sense; step *= 2) {
+            if (std::abs(offset) >= limit_) {
+                throw Error(fmt::format("motor {} does not go {} with any offset up to {} bits (Ix69)",
+                                        motor_,
+                                        sense > 0 ? "forward" : "back",
+                                        limit_),
+                            {},
+                            "look at power, encoder and direction");
+            }
+            offset = std::clamp(offset + sense * step, -limit_, limit_);
+        }
+        return offset;
+    }
+
+    /// The offset nearest to `other` at which the motor goes to `sense`, as it does at `at`.
+    int last_moving(int at, int other, int sense) {
+        while (std::abs(at - other) > 1) {
+            const int middle = other + (at - other) / 2;
+            (direction(middle) == sense ? at : other) = middle;
+        }
+        return at;
+    }
+
+    const CardTalk& card_;
+    int motor_;
+    const OffsetSearch& search_;
+    Borrowed borrowed_;
+    int limit_; ///< bits
+    double begin_;
+    double farthest_ = 0.0;
+};
+
+} // namespace
+
+OffsetFound find_offset(const CardTalk& card, int motor, const OffsetSearch& search) {
+    expects(search.creep > 0.0 && search.look > 0.0 && search.glance > 0.0 && search.most_way > 0.0,
+            "ways and times of the search are positive");
+    return Finder(card, motor, search).find();
+}
+
+} // namespace millwright::machine
