@@ -1,6 +1,7 @@
 #include "app/commands/arm_command.h"
 
 #include "app/arm_choice.h"
+#include "app/commands/arm_motor.h"
 #include "app/commands/arm_reach.h"
 #include "app/commands/arm_service.h"
 #include "core/base/error.h"
@@ -253,6 +254,7 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
     add_arm_reach_command(group, chosen);
     add_arm_service_commands(group, chosen);
+    add_arm_motor_commands(group, chosen);
 }
 
 } // namespace millwright::app

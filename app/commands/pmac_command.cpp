@@ -1,6 +1,7 @@
 #include "app/commands/pmac_command.h"
 
 #include "app/interrupt.h"
+#include "app/pmac_talk.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/machine/clock.h"
@@ -66,9 +67,7 @@ int talk(const Options& options) {
     }
     const Interrupt interrupt;
     machine::SteadyClock clock;
-    machine::PmacSettings settings = machine::arm_settings();
-    settings.patience = 10.0; // s: nothing moves for long without us, so a slow line may be slow
-    machine::PmacDriver driver(machine::make_link(options.port), clock, settings);
+    machine::PmacDriver driver(machine::make_link(options.port), clock, patient_settings());
     driver.connect();
     bool done = options.file.empty() || load(options, driver, interrupt);
     for (const std::string& command : options.commands) {

@@ -47,5 +47,23 @@ TEST_F(Pmac, IsToldFromSomethingElse) {
     EXPECT_EQ(run({"pmac", "--port", port}).exit_code, 1);
 }
 
+TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
+    Emulator emulator(port, {"--arm"}, "pmac");
+    ASSERT_EQ(run({"pmac", "I900=1", "--port", port}).exit_code, 0); // as its encoder is wired
+    const Ended found =
+        run({"arm", "offset", "1", "--port", port, "--from", "-980", "--most-way", "1e9", "--apply"});
+    ASSERT_EQ(found.exit_code, 0) << found.err;
+    // The amplifier of motor 1 adds 996 bits, as the thesis found.
+    EXPECT_THAT(found.out, testing::ContainsRegex("-99[567] is the middle \\(it was 0\\)"));
+    EXPECT_THAT(run({"pmac", "I129", "--port", port}).out, testing::StartsWith("-99"));
+    ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--port", port}).exit_code, 0);
+    const std::string csv = (scratch / "step.csv").string(), png = (scratch / "step.png").string();
+    const Ended step = run({"arm", "step", "1", "--port", port, "--out", csv, "--picture", png});
+    ASSERT_EQ(step.exit_code, 0) << step.err;
+    EXPECT_THAT(step.out, HasSubstr("to change:"));
+    EXPECT_THAT(content_of(csv), testing::StartsWith("seconds,counts\n0.0"));
+    EXPECT_TRUE(std::filesystem::exists(png));
+}
+
 } // namespace
 } // namespace millwright::test

@@ -10,23 +10,29 @@
 
 namespace millwright::machine {
 
-namespace {
-
-double number_in(const std::string& answer, const std::string& question) {
-    double value = 0.0;
-    const char* end = answer.data() + answer.size();
-    const auto [stop, failure] = std::from_chars(answer.data(), end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(value)) {
-        throw Error(fmt::format("the card answers '{}' to {}, which is no number", answer, question));
+std::vector<double> numbers_for(const CardTalk& card, const std::string& line, std::size_t count) {
+    const std::string answer = card.ask(line);
+    std::vector<double> numbers;
+    const char* at = answer.data();
+    const char* end = at + answer.size();
+    while (at != end) {
+        double value = 0.0;
+        const auto [stop, failure] = std::from_chars(at, end, value);
+        if (failure != std::errc() || !std::isfinite(value) || (stop != end && *stop != '\n')) {
+            break;
+        }
+        numbers.push_back(value);
+        at = stop == end ? end : stop + 1;
     }
-    return value;
+    if (at != end || numbers.size() != count) {
+        throw Error(fmt::format(
+            "the card answers '{}' to {}, and not {} number{}", answer, line, count, count == 1 ? "" : "s"));
+    }
+    return numbers;
 }
 
-} // namespace
-
 double motor_variable(const CardTalk& card, int motor, int number) {
-    const std::string question = fmt::format("I{}{:02}", motor, number);
-    return number_in(card.ask(question), question);
+    return numbers_for(card, fmt::format("I{}{:02}", motor, number), 1).front();
 }
 
 void set_motor_variable(const CardTalk& card, int motor, int number, double value) {
@@ -34,8 +40,7 @@ void set_motor_variable(const CardTalk& card, int motor, int number, double valu
 }
 
 double motor_position(const CardTalk& card, int motor) {
-    const std::string question = fmt::format("#{}P", motor);
-    return number_in(card.ask(question), question);
+    return numbers_for(card, fmt::format("#{}P", motor), 1).front();
 }
 
 } // namespace millwright::machine

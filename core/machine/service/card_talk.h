@@ -1,13 +1,16 @@
 // On-line commands of a PMAC, one question and answer at a time: what setting up a motor takes.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace millwright::machine {
 
 struct CardTalk {
-    /// The answer without its hand-shake. Throws Error for a refusal or a lost link.
+    /// The answer without its hand-shake, its lines with an LF between. Throws Error for a refusal or a lost
+    /// link.
     std::function<std::string(const std::string&)> ask;
     std::function<void(double)> wait; ///< s, of the card's time
 };
@@ -17,5 +20,8 @@ struct CardTalk {
 void set_motor_variable(const CardTalk& card, int motor, int number, double value);
 /// #nP, counts.
 [[nodiscard]] double motor_position(const CardTalk& card, int motor);
+/// `line` has to be answered by so many numbers. Throws Error for anything else.
+[[nodiscard]] std::vector<double>
+numbers_for(const CardTalk& card, const std::string& line, std::size_t count);
 
 } // namespace millwright::machine

@@ -64,8 +64,9 @@ public:
     [[nodiscard]] OffsetFound find() {
         OffsetFound found;
         found.before = static_cast<int>(std::lround(borrowed_.bias()));
-        int backward = moving(found.before, -1);
-        int forward = moving(found.before, 1);
+        const int from = search_.from.value_or(found.before);
+        const int backward = moving(from, -1);
+        const int forward = moving(from, 1);
         found.backward = last_moving(backward, forward, -1);
         found.forward = last_moving(forward, backward, 1);
         found.middle = static_cast<int>(std::lround(0.5 * (found.backward + found.forward)));

@@ -5,9 +5,12 @@
 
 #include "core/machine/service/card_talk.h"
 
+#include <optional>
+
 namespace millwright::machine {
 
 struct OffsetSearch {
+    std::optional<int> from{}; ///< bits to begin with; nothing: Ix29
     double creep = 20.0;       ///< counts after which a direction is seen, > 0
     double look = 0.5;         ///< s after which a motor stands still, > 0
     double glance = 0.005;     ///< s between two looks, > 0

@@ -58,15 +58,46 @@ void make_a_step_of_jogs(const CardTalk& card, int motor) {
     set_motor_variable(card, motor, jog_speed, most);
 }
 
-std::vector<StepReading> readings_of(const CardTalk& card, int motor, const StepTest& test) {
-    const double begin = motor_position(card, motor);
-    card.ask(fmt::format("#{}J:{:.0f}", motor, test.size));
-    std::vector<StepReading> readings;
-    const int count = static_cast<int>(std::ceil(test.duration / test.glance));
-    for (int n = 1; n <= count; ++n) {
-        card.wait(test.glance);
-        readings.push_back({n * test.glance, motor_position(card, motor) - begin});
+/// The card's own clock, its servo cycles, in an M-variable that is lent for the time.
+class ServoClock {
+public:
+    explicit ServoClock(const CardTalk& card) : card_(card), defined_(card.ask("M1023->")) {
+        constexpr double count_of_a_millisecond = 8388608.0; // of I10
+        period_ = numbers_for(card, "I10", 1).front() / count_of_a_millisecond * 1e-3;
+        card.ask("M1023->X:$0,0,24");
     }
+    ServoClock(const ServoClock&) = delete;
+    ServoClock& operator=(const ServoClock&) = delete;
+    ~ServoClock() {
+        try {
+            card_.ask("M1023->" + defined_);
+        } catch (const Error&) {
+            // The link is gone, and with it who could be told.
+        }
+    }
+
+    /// s from `begin` to `end`, readings of M1023.
+    [[nodiscard]] double between(double begin, double end) const {
+        constexpr double turn = 16777216.0; // of 24 bits
+        return std::fmod(end - begin + turn, turn) * period_;
+    }
+
+private:
+    const CardTalk& card_;
+    std::string defined_;
+    double period_ = 0.0; ///< of the servo, s
+};
+
+std::vector<StepReading> readings_of(const CardTalk& card, int motor, const StepTest& test) {
+    const ServoClock clock(card);
+    const double begin = motor_position(card, motor);
+    const double start = numbers_for(card, fmt::format("#{}J:{:.0f} M1023", motor, test.size), 1).front();
+    std::vector<StepReading> readings;
+    do {
+        card.wait(test.glance);
+        const auto now = numbers_for(card, fmt::format("#{}P M1023", motor), 2);
+        readings.push_back({clock.between(start, now[1]), now[0] - begin});
+    } while (readings.back().time < test.duration);
     return readings;
 }
 
@@ -111,7 +142,7 @@ StepResponse step_test(const CardTalk& card, int motor, const StepTest& test) {
         StepResponse response = judge(test.size, std::move(readings), test.settled);
         response.variables = std::move(variables);
         return response;
-    } catch (const Error&) {
+    } catch (...) {
         card.ask(fmt::format("#{}K", motor));
         restore(card, motor, variables);
         throw;

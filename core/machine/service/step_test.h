@@ -13,12 +13,12 @@ namespace millwright::machine {
 struct StepTest {
     double size = 200.0;   ///< counts, not 0
     double duration = 0.5; ///< s that are watched, > 0
-    double glance = 0.005; ///< s between two readings, > 0
+    double glance = 0.005; ///< s between two readings at least, > 0
     double settled = 0.05; ///< of the size: nearer than that it has settled
 };
 
 struct StepReading {
-    double time = 0.0;     ///< s since the step
+    double time = 0.0;     ///< s since the step, by the card's servo cycles
     double position = 0.0; ///< counts from where it began
 };
 

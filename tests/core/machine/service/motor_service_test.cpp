@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -23,6 +24,7 @@ CardTalk talk_to(test::PmacCard& pmac) {
                     if (answer.starts_with("ERR")) {
                         throw Error(line + ": " + answer);
                     }
+                    std::ranges::replace(answer, '|', '\n');
                     return answer;
                 },
             .wait = [&pmac](double seconds) { pmac.card.advance(seconds); }};
@@ -128,6 +130,7 @@ TEST(StepTest, LeavesTheCardAsItWas) {
     (void)step_test(talk_to(pmac), 1);
     EXPECT_EQ(pmac.ask("I119"), "0.25");
     EXPECT_EQ(pmac.ask("I122"), "17");
+    EXPECT_EQ(pmac.ask("M1023->"), "*");
     EXPECT_NEAR(pmac.card.position(1), 0.0, 2.0); // and the motor where it was
     EXPECT_THAT(reason([&] {
                     CardTalk broken = talk_to(pmac);

@@ -1,0 +1,146 @@
+#include "app/commands/arm_motor.h"
+
+#include "app/pmac_talk.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/machine/service/offset_finder.h"
+#include "core/machine/service/step_test.h"
+#include "ui/render/picture.h"
+#include "ui/viewport/chart_picture.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    int motor = 1;
+    std::string port;
+    bool apply = false;
+    std::optional<int> from;
+    double most_way = machine::OffsetSearch().most_way;
+    machine::StepTest step;
+    std::string out;
+    std::string picture;
+};
+
+int offset(const Options& options) {
+    PmacTalk talk(options.port);
+    machine::OffsetSearch search;
+    search.from = options.from;
+    search.most_way = options.most_way;
+    const machine::OffsetFound found = machine::find_offset(talk.card(), options.motor, search);
+    fmt::print("motor {}: creeps back up to Ix29 = {}, forward from {}: {} is the middle (it was {})\n"
+               "at most {:.0f} counts from where it began; it has no power now\n",
+               options.motor,
+               found.backward,
+               found.forward,
+               found.middle,
+               found.before,
+               found.farthest);
+    if (options.apply) {
+        set_motor_variable(talk.card(), options.motor, 29, found.middle);
+        fmt::print("I{}29={}; SAVE would keep it\n", options.motor, found.middle);
+    }
+    return 0;
+}
+
+std::string csv(const machine::StepResponse& response) {
+    std::string text = "seconds,counts\n";
+    for (const machine::StepReading& reading : response.readings) {
+        text += fmt::format("{},{}\n", fixed(reading.time, 4), fixed(reading.position, 1));
+    }
+    return text;
+}
+
+void draw(const machine::StepResponse& response, const Options& options) {
+    viewport::ChartLine is{"position", {0.0}, {0.0}};
+    viewport::ChartLine should{"command", {0.0}, {response.size}};
+    for (const machine::StepReading& reading : response.readings) {
+        is.x.push_back(reading.time);
+        is.y.push_back(reading.position);
+        should.x.push_back(reading.time);
+        should.y.push_back(response.size);
+    }
+    const viewport::Chart chart{
+        fmt::format("motor {}: answer to a step of {:.0f} counts", options.motor, response.size),
+        "s",
+        "position",
+        "counts",
+        false,
+        {should, is}};
+    constexpr render::PixelSize size{1000, 600};
+    render::write_png(viewport::chart_picture({chart}, size, render::Theme::light), options.picture);
+}
+
+std::string seconds(double time) {
+    return time < 0.0 ? std::string("never") : fmt::format("{:.3f} s", time);
+}
+
+int step(const Options& options) {
+    PmacTalk talk(options.port);
+    const machine::StepResponse response = machine::step_test(talk.card(), options.motor, options.step);
+    fmt::print("motor {}: rise {}, overshoot {:.1f} %, settled {}, {:+.1f} counts at the end\n",
+               options.motor,
+               seconds(response.rise_time),
+               100.0 * response.overshoot,
+               seconds(response.settling_time),
+               response.error);
+    std::string variables;
+    for (const auto& [number, value] : response.variables) {
+        variables += fmt::format(" I{}{:02}={}", options.motor, number, shortest(value));
+    }
+    fmt::print("with{} (and so they are again)\nto change: {}\n", variables, response.advice);
+    if (!options.out.empty()) {
+        write_file(options.out, csv(response));
+    }
+    if (!options.picture.empty()) {
+        draw(response, options);
+    }
+    return 0;
+}
+
+CLI::App& add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("MOTOR", options->motor, "1 to 8")->required()->check(CLI::Range(1, 8));
+    command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT of the PMAC")
+        ->required()
+        ->type_name("PORT");
+    return command;
+}
+
+} // namespace
+
+void add_arm_motor_commands(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& still = add(
+        group, "offset", "Find the output at which a motor stands still (Ix29). The motor creeps!", options);
+    still.add_flag("--apply", options->apply, "Set Ix29 to it");
+    still.add_option("--from", options->from, "Offset to begin with, bits; by default Ix29 as it is")
+        ->check(CLI::Range(-32767, 32767));
+    still.add_option("--most-way", options->most_way, "Counts beyond which the search is given up")
+        ->check(CLI::Range(100.0, 1e9))
+        ->capture_default_str();
+    still.callback([&chosen, options] { chosen = [options] { return offset(*options); }; });
+    CLI::App& answer =
+        add(group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
+    answer.add_option("--size", options->step.size, "Counts, there and back")
+        ->check(CLI::Range(-1e6, 1e6))
+        ->capture_default_str();
+    answer.add_option("--seconds", options->step.duration, "That are watched")
+        ->check(CLI::Range(0.05, 60.0))
+        ->capture_default_str();
+    answer.add_option("--out", options->out, "File for the readings: seconds,counts")->type_name("CSV");
+    answer.add_option("--picture", options->picture, "File for a plot of them")->type_name("PNG");
+    answer.callback([&chosen, options] { chosen = [options] { return step(*options); }; });
+}
+
+} // namespace millwright::app
