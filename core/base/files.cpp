@@ -31,6 +31,13 @@ mode_t mode_for(const fs::path& target) {
     return everyone_reads;
 }
 
+/// A device, a pipe, a socket: nothing that another file could take the place of.
+bool is_no_file(const fs::path& file) {
+    std::error_code failure;
+    const fs::file_status status = fs::status(file, failure);
+    return fs::is_other(status);
+}
+
 } // namespace
 
 std::string read_file(const fs::path& file) {
@@ -57,6 +64,13 @@ void write_file(const fs::path& file, std::string_view bytes) {
 
 FileWriter::FileWriter(fs::path file) : file_(std::move(file)) {
     std::error_code failure;
+    if (is_no_file(file_)) {
+        handle_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+        if (handle_ < 0) {
+            fail();
+        }
+        return;
+    }
     if (fs::is_symlink(file_, failure)) {
         file_ = fs::weakly_canonical(file_);
     }
@@ -73,7 +87,9 @@ FileWriter::FileWriter(fs::path file) : file_(std::move(file)) {
 FileWriter::~FileWriter() {
     if (handle_ >= 0) {
         ::close(handle_);
-        ::unlink(draft_.c_str());
+        if (!writes_through()) {
+            ::unlink(draft_.c_str());
+        }
     }
 }
 
@@ -90,13 +106,20 @@ void FileWriter::write(std::string_view bytes) {
     }
 }
 
-void FileWriter::close() {
+void FileWriter::finish_draft() {
     if (::fchmod(handle_, mode_for(file_)) != 0 || ::fsync(handle_) != 0 ||
         ::rename(draft_.c_str(), file_.c_str()) != 0) {
         fail();
     }
-    ::close(handle_);
-    handle_ = -1;
+}
+
+void FileWriter::close() {
+    if (!writes_through()) {
+        finish_draft();
+    }
+    if (::close(std::exchange(handle_, -1)) != 0) {
+        fail();
+    }
 }
 
 void FileWriter::fail() const {

@@ -107,6 +107,17 @@ private:
         return MoveRole::none;
     }
 
+    bool tells_a_new_axis(const AxisSet& named) {
+        bool is_new = false;
+        for (const int axis : index_) {
+            is_new = is_new || (named.contains(axis) && !told_.contains(axis));
+            if (named.contains(axis)) {
+                told_.insert(axis);
+            }
+        }
+        return is_new;
+    }
+
     void move(const plot::CutPoint& point, AxisSet named) {
         kinematics::AxisPositions target = at_;
         for (int n = 0; n < 3; ++n) {
@@ -116,8 +127,7 @@ private:
             }
         }
         const double distance = (target - at_).norm();
-        const bool known = std::exchange(moved_, true);
-        if (known && !(distance > 0.0)) {
+        if (!tells_a_new_axis(named) && !(distance > 0.0)) {
             return;
         }
         at_ = target;
@@ -136,7 +146,7 @@ private:
     kinematics::AxisPositions at_;
     std::array<int, 3> index_{}; ///< of X, Y and Z
     int point_ = -1;
-    bool moved_ = false; ///< where the machine stands before the first block nobody knows
+    AxisSet told_; ///< axes that some move has named: where the others stand nobody knows
 };
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "core/machine/job.h"
 
+#include "core/base/units.h"
+#include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/line_ends.h"
 #include "core/gcode/reader/machine_program.h"
@@ -79,6 +81,18 @@ private:
     }
 };
 
+/// mm and degrees, by the letters of the axes.
+gcode::AxisValues for_the_reader(const MachineModel& machine, const kinematics::AxisPositions& positions) {
+    gcode::AxisValues values;
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        const kinematics::MachineAxis& axis = machine.axis(n);
+        const auto letter = std::ranges::find(gcode::axis_letters, axis.letter);
+        values[static_cast<std::size_t>(letter - gcode::axis_letters.begin())] =
+            axis.kind == kinematics::AxisKind::rotary ? to_degrees(positions[n]) : positions[n];
+    }
+    return values;
+}
+
 } // namespace
 
 std::string_view to_text(JobEnd end) {
@@ -135,6 +149,9 @@ Job planned_job(std::string_view text,
     gcode::ReaderSettings settings;
     settings.any_tool = true;
     settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
+    if (start) { // what no word names stays where it is
+        settings.start = for_the_reader(*machine, *start);
+    }
     gcode::MachineProgramBuilder builder(*machine, file, {.start = std::move(start)});
     gcode::Interpreter reader(text, file, std::move(settings), builder);
     reader.run();

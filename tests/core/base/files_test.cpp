@@ -2,9 +2,12 @@
 
 #include "core/base/error.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -62,6 +65,23 @@ TEST_F(Files, PiecesTakeThePlaceOfTheOldFileWhenClosedAndNotBefore) {
     EXPECT_EQ(read_file(in_folder("a.txt")), "one, two");
     EXPECT_EQ(file_count(), 1);
     EXPECT_THROW(FileWriter(in_folder("missing/a.txt")), Error);
+}
+
+TEST_F(Files, WhatIsNoFileIsWrittenThroughAndStays) {
+    const fs::path pipe = in_folder("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    write_file(pipe, "through");
+    std::array<char, 16> got{};
+    EXPECT_EQ(::read(reader, got.data(), got.size()), 7);
+    EXPECT_EQ(std::string(got.data()), "through");
+    ::close(reader);
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    fs::create_symlink("/dev/full", in_folder("full"));
+    EXPECT_THROW(write_file(in_folder("full"), "nowhere"), Error);
+    EXPECT_TRUE(fs::is_character_file(in_folder("full")));
+    EXPECT_EQ(file_count(), 2);
 }
 
 TEST_F(Files, WritingThroughALinkKeepsTheLink) {

@@ -65,6 +65,19 @@ TEST(PlotProgram, MovesUpBeforeAcross) {
     FAIL() << "no move";
 }
 
+// Where the spindle stands nobody knows: a stroke that begins at 0 0 is approached like any other.
+TEST(PlotProgram, TellsEachAxisBeforeItPlungesAlsoAtZero) {
+    const plot::Strokes strokes = {{.pen = 1, .points = {{0.0, 0.0}, {10.0, 10.0}}}};
+    plot::CutSettings settings;
+    settings.levels = plot::levels_for(strokes, {.depth = 1.0, .passes = 1});
+    const std::string text = write_gcode(plot_program(plot::cut_path(strokes, settings)), {}).text;
+    const std::size_t up = text.find("G0 Z5"), across = text.find("X0.0000 Y0.0000"), down = text.find("Z-1");
+    ASSERT_NE(across, std::string::npos) << text;
+    EXPECT_LT(up, across);
+    EXPECT_LT(across, down) << text;
+    EXPECT_EQ(text.find('Z', across), down) << text; // across alone
+}
+
 TEST(PlotProgram, OfNothingMovesNothing) {
     for (const Block& block : plot_program({}).blocks) {
         EXPECT_FALSE(block.moves());

@@ -237,7 +237,11 @@ void RecordSession::begin_block(double now) {
 }
 
 void RecordSession::send(const Block& block, double now) {
-    const AxisPositions way = block.target - status_.position;
+    AxisPositions target = status_.position; // of axes that the block does not name
+    for (int n = 0; n < model_->axis_count(); ++n) {
+        target[n] = block.named.contains(n) ? block.target[n] : target[n];
+    }
+    const AxisPositions way = target - status_.position;
     const double length = way.norm();
     const double smallest = 0.5 * std::pow(10.0, -decimals_);
     if (!(way.cwiseAbs().maxCoeff() >= smallest)) { // it stands there already, as far as records can tell
@@ -250,13 +254,13 @@ void RecordSession::send(const Block& block, double now) {
         constexpr double percent = 0.01;
         speed = std::min(fastest, length / block.duration * percent * status_.overrides.feed);
     }
-    Record record = path_.to(values_of(block.target), std::vector<bool>(values_of(way).size(), true));
+    Record record = path_.to(values_of(target), std::vector<bool>(values_of(way).size(), true));
     record.speed = speed;
     record.acceleration = along(*model_, way, &MachineAxis::max_acceleration);
     outbox_ += text_.written(record) + format_.ending;
     ++records_;
     status_.feed = speed;
-    under_way_ = UnderWay{block.target, now + time_of(length, speed, record.acceleration), true};
+    under_way_ = UnderWay{target, now + time_of(length, speed, record.acceleration), true};
 }
 
 void RecordSession::hold(double /*now*/) {

@@ -105,6 +105,30 @@ TEST(RecordSession, GivesEachMoveOnceAndInOrder) {
     }
 }
 
+// Nobody named X and Y yet: the tool goes straight up from where it stands.
+TEST(RecordSession, LeavesAxesWhereTheyAreThatNobodyHasNamed) {
+    const AxisPositions at = AxisPositions{{300.0, 300.0, -1.0}};
+    const test::ScratchFolder folder;
+    for (const char* text :
+         {"G21 G90\nG0 Z5\nG0 X37 Y74\nM2\n",
+          "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n"
+          "37,74,5,0,rapid,1\n37,74,-1,2,plunge,1\n"}) {
+        const auto file = folder / "part";
+        std::ofstream(file) << text;
+        const Job job = file_job(file, table_model(), {.start = at});
+        TableEmulator table = table_of(answered());
+        Wire wire(table, answered(), at);
+        wire.start(job);
+        ASSERT_TRUE(wire.run_to_end());
+        ASSERT_GE(table.positions().size(), 2U);
+        EXPECT_NEAR(table.positions()[0][0], 300.0, 1e-9) << text;
+        EXPECT_NEAR(table.positions()[0][1], 300.0, 1e-9) << text;
+        EXPECT_NEAR(table.positions()[0][2], 5.0, 1e-9) << text;
+        EXPECT_NEAR(table.positions()[1][0], 37.0, 1e-9) << text;
+        EXPECT_NEAR(table.positions()[1][2], 5.0, 1e-9) << text;
+    }
+}
+
 // 3 mm in x at 2 mm/s: the words of the thesis. A rapid goes as fast as the axes: 10 mm/s, 200 mm/s^2.
 TEST(RecordSession, SaysWhereHowFastAndWithWhichAcceleration) {
     TableEmulator table = table_of(answered(true));
