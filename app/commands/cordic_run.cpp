@@ -2,6 +2,7 @@
 
 #include "app/commands/cordic_motion.h"
 #include "app/commands/cordic_plc.h"
+#include "app/commands/cordic_remarks.h"
 #include "app/commands/cordic_source.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -196,8 +197,14 @@ int run(const Options& options) {
         report.stop == cordic::Stop::halted
             ? move_along(processor, program, options.motion, path_acceleration(options), options.source.file)
             : std::nullopt;
+    const auto remarks =
+        remarks_on(processor, report, options.source, options.choice, !program.points.empty());
+    for (const std::string& remark : remarks) {
+        fmt::print(stderr, "warning: {}: {}\n", options.source.file, remark);
+    }
     if (options.json) {
         auto answer = json_of(processor, program, report, has_exact);
+        answer["warnings"] = remarks;
         if (motion) {
             answer["motion"] = json_of(*motion);
         }

@@ -58,7 +58,7 @@ public:
 
     void travel(const Vec2& to) {
         lift(settings_.pen_up_z);
-        segment(at(to), settings_.travel_velocity.value_or(settings_.velocity), settings_.rounding);
+        line(at(to), settings_.travel_velocity.value_or(settings_.velocity));
     }
 
     void stroke(const Stroke& stroke) {
@@ -86,9 +86,37 @@ private:
 
     void lift(double z) {
         const Vec3 here = points_.back();
-        segment({here.x(), here.y(), z},
-                settings_.plunge_velocity.value_or(settings_.velocity),
-                settings_.rounding);
+        line({here.x(), here.y(), z}, settings_.plunge_velocity.value_or(settings_.velocity));
+    }
+
+    void line(const Vec3& to, double velocity) {
+        if (settings_.acceleration) {
+            limited_line(to, velocity);
+        } else {
+            segment(to, velocity, settings_.rounding);
+        }
+    }
+
+    [[nodiscard]] internal::SpeedLimits limits(double velocity) const {
+        return {.velocity = velocity,
+                .acceleration = *settings_.acceleration,
+                .jerk = settings_.jerk,
+                .period = settings_.period};
+    }
+
+    void limited_line(const Vec3& to, double velocity) {
+        const Vec3 from = points_.back();
+        const double distance = (to - from).norm();
+        if (!(distance > 0.0)) {
+            return;
+        }
+        const internal::SpeedProfile profile({Vec2(0.0, 0.0), Vec2(distance, 0.0)}, limits(velocity));
+        reserve(profile.duration() / settings_.period);
+        for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
+            const double share = std::min(1.0, profile.way(k * settings_.period) / distance);
+            points_.emplace_back(from + share * (to - from));
+        }
+        points_.push_back(to);
     }
 
     /// Eqs 3-3 to 3-7. The points are computed from the start and not added up, so that nothing drifts.
@@ -136,11 +164,7 @@ private:
 
     /// Points at whole multiples of the period, within the limits of acceleration and jerk.
     void limited_path(const Stroke& stroke) {
-        const internal::SpeedProfile profile(stroke.points,
-                                             {.velocity = settings_.velocity,
-                                              .acceleration = *settings_.acceleration,
-                                              .jerk = settings_.jerk,
-                                              .period = settings_.period});
+        const internal::SpeedProfile profile(stroke.points, limits(settings_.velocity));
         reserve(profile.duration() / settings_.period);
         double passed = 0.0; // length of the stroke up to the segment
         std::size_t n = 1;

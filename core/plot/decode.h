@@ -35,8 +35,9 @@ struct DecodeSettings {
     double pen_down_z = 0.0;
     DecodeMode mode = DecodeMode::segments;
     SampleRounding rounding = SampleRounding::nearest; ///< of segments
-    /// Given, in the mode path: strokes begin and end standing, and the speed along the path changes by this
-    /// at the most, mm/s^2. At a corner the velocity changes by what it allows in one period.
+    /// Given, in the mode path: strokes, lifts and ways with the pen up begin and end standing, and the speed
+    /// along the path changes by this at the most, mm/s^2. At a corner the velocity changes by what it allows
+    /// in one period.
     std::optional<double> acceleration = std::nullopt;
     std::optional<double> jerk = std::nullopt; ///< given too: stands at corners; mm/s^3 along the path
     std::optional<Vec2> end = std::nullopt;    ///< where to go with the pen up behind the last stroke

@@ -165,6 +165,26 @@ TEST_F(CordicOptions, TellThePlaceWhereAMicroprogramOrTheLogicHasNoAnswer) {
     EXPECT_THAT(user.err, HasSubstr("own.asm:2:3: M50 is none of the machine's own commands"));
 }
 
+TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
+    const auto warnings = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"cordic", "run"});
+        words.emplace_back("--json");
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        const auto found = nlohmann::json::parse(ended.out).at("warnings");
+        EXPECT_EQ(found.empty(), ended.err.find("warning: ") == std::string::npos) << ended.err;
+        return found.dump();
+    };
+    EXPECT_EQ(warnings({arc}), "[]");
+    EXPECT_THAT(warnings({arc, "--thesis-direction"}), HasSubstr("arcs turn the other way"));
+    const std::string image = path("arc.bin");
+    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
+    EXPECT_EQ(warnings({image}), "[]");
+    EXPECT_THAT(warnings({image, "--iterations", "9"}), HasSubstr("was made for 29 steps"));
+    const std::string slow = written("slow.ngc", "G21 G90\nF1\nG1 X10 Y7\nM2\n");
+    EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}), HasSubstr("beside the feed"));
+}
+
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
     const Ended ended = run({"cordic", "run", written("raw.asm", "MOV \x1b[31m\x07\xff, 1\n")});
     EXPECT_EQ(ended.exit_code, 1);

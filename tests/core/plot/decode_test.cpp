@@ -231,6 +231,28 @@ TEST(LimitedDecoding, CornersAreSlowedDownForOrStoppedAt) {
     }
 }
 
+// The table is the same with the pen up: what moves it there and lifts the pen keeps the limits, too.
+TEST(LimitedDecoding, KeepsTheLimitsWithThePenUpAndUpAndDown) {
+    const Strokes strokes = {{.pen = 1, .points = {{0.0, 0.0}, {30.0, 40.0}}},
+                             {.pen = 1, .points = {{90.0, 3.0}, {70.0, 3.0}}},
+                             {.pen = 1, .points = {{90.0, 3.0}, {90.2, 3.0}}}};
+    for (const auto jerk : {std::optional<double>(), std::optional(50'000.0)}) {
+        DecodeSettings settings = limited(100.0, 1000.0, jerk);
+        settings.pen_up_z = 5.0;
+        settings.travel_velocity = 180.0;
+        settings.plunge_velocity = 20.0;
+        settings.end = Vec2(0.0, 0.0);
+        const auto points = decode(strokes, settings);
+        const Extremes found = extremes(points, 0.001);
+        EXPECT_NEAR(found.velocity, 180.0, 0.01);
+        EXPECT_LT(found.acceleration, 1000.0 * 1.001);
+        if (jerk) {
+            EXPECT_LT(found.jerk, *jerk * 1.05); // a way may end within a period
+        }
+        EXPECT_EQ(points.back(), Vec3(0.0, 0.0, 5.0));
+    }
+}
+
 TEST(LimitedDecoding, LimitsNeedTheModePath) {
     DecodeSettings settings = limited(100.0, 1000.0, std::nullopt);
     settings.mode = DecodeMode::segments;
