@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace millwright::motion {
 
 using gcode::BlockKind;
@@ -75,11 +73,6 @@ void ArmMotion::add(BlockKind kind, const JointPositions& target, double seconds
 void ArmMotion::go_to(const JointPositions& target) {
     expect_inside(arm_, target);
     add(BlockKind::rapid, target, 0.0, 0);
-}
-
-void ArmMotion::dwell(double seconds) {
-    expects(seconds >= 0.0 && std::isfinite(seconds), "a dwell takes a time");
-    add(BlockKind::dwell, joints(), seconds, 0);
 }
 
 void ArmMotion::follow(const std::vector<ArmWay>& ways,

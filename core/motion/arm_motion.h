@@ -24,7 +24,6 @@ public:
     void follow(const std::vector<kinematics::ArmWay>& ways,
                 const kinematics::ArmPath& path,
                 const std::filesystem::path& file);
-    void dwell(double seconds);
 
     [[nodiscard]] const kinematics::JointPositions& joints() const;
     [[nodiscard]] const gcode::Program& program() const { return program_; }

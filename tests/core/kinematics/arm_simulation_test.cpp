@@ -5,6 +5,7 @@
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_motion_ways.h"
 #include "tests/support/arms.h"
+#include "tests/support/reason.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,24 +13,15 @@
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 namespace millwright::kinematics {
 namespace {
 
+using test::reason;
 using ::testing::HasSubstr;
 
 /// The command file of both printed runs.
 constexpr std::string_view printed_file = "G1 X300 Y0 Z0 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;\n";
-
-std::string reason(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Error& error) {
-        return to_text(error.diagnostic());
-    }
-    return "none";
-}
 
 std::vector<ArmRecord> simulated(std::string_view text, double step) {
     return simulate_arm(test::arm("motoman-l3"), parse_arm_motion(text, "a.mot"), arm_home(), step, "a.mot");

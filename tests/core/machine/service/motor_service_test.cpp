@@ -2,18 +2,19 @@
 #include "core/machine/service/offset_finder.h"
 #include "core/machine/service/step_test.h"
 #include "tests/core/machine/emulators/pmac/pmac_card.h"
+#include "tests/support/reason.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace millwright::machine {
 namespace {
 
+using test::reason;
 using ::testing::HasSubstr;
 
 /// A talk with an emulated card, in its own time.
@@ -28,15 +29,6 @@ CardTalk talk_to(test::PmacCard& pmac) {
                     return answer;
                 },
             .wait = [&pmac](double seconds) { pmac.card.advance(seconds); }};
-}
-
-std::string reason(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Error& error) {
-        return to_text(error.diagnostic());
-    }
-    return "none";
 }
 
 // C2.

@@ -1,12 +1,12 @@
 #include "core/machine/service/scale_calibration.h"
 
 #include "core/base/error.h"
+#include "tests/support/reason.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,16 +14,8 @@
 namespace millwright::machine {
 namespace {
 
+using test::reason;
 using ::testing::HasSubstr;
-
-std::string reason(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Error& error) {
-        return to_text(error.diagnostic());
-    }
-    return "none";
-}
 
 // C1.
 TEST(ScaleCalibration, FindsTheScaleOfTheThesisAgain) {
