@@ -1,7 +1,6 @@
 #include "core/machine/run_from_line.h"
 
 #include "core/gcode/reader/interpreter.h"
-#include "core/machine/internal/approach_room.h"
 #include "core/machine/internal/bare_line.h"
 #include "core/machine/internal/program_from_line.h"
 #include "core/machine/modal_lines.h"
@@ -98,10 +97,17 @@ private:
 class Watcher final : public gcode::CanonSink {
 public:
     void move(const Move& move, const gcode::SourceLine& now) override {
+        const double z = move.target[gcode::Axis::z];
         if (move.kind == MoveKind::traverse && !goes_by_the_machine(internal::bare_line(now.text))) {
-            const double z = move.target[gcode::Axis::z];
             highest_ = std::max(highest_.value_or(z), z);
         }
+        const bool straight_down = z < here_[gcode::Axis::z] &&
+                                   std::abs(move.target[gcode::Axis::x] - here_[gcode::Axis::x]) <= 0.0 &&
+                                   std::abs(move.target[gcode::Axis::y] - here_[gcode::Axis::y]) <= 0.0;
+        if (move.kind == MoveKind::feed && straight_down && by_the_minute_ && feed_ > 0.0) {
+            plunge_ = feed_;
+        }
+        here_ = move.target;
     }
     void curve(const gcode::Curve&, const gcode::SourceLine&) override {}
     void command(const Command& command, const gcode::SourceLine&) override {
@@ -112,16 +118,35 @@ public:
         if (frame) {
             highest_.reset(); // Z means something else from here on
         }
-        if (command.kind == CommandKind::change_tool) {
+        switch (command.kind) {
+        case CommandKind::change_tool:
             changed_ = true;
+            break;
+        case CommandKind::set_feed_rate:
+            feed_ = command.value;
+            break;
+        case CommandKind::set_feed_mode:
+            by_the_minute_ = command.index != 1; // that of G93 is told as a feed a minute, too
+            break;
+        case CommandKind::use_length_units:
+            plunge_.reset();
+            break;
+        default:
+            break;
         }
     }
 
     [[nodiscard]] std::optional<double> highest() const { return highest_; }
+    /// The feed a minute of the last way straight down.
+    [[nodiscard]] std::optional<double> plunge() const { return plunge_; }
     [[nodiscard]] bool changed_tool() const { return changed_; }
 
 private:
     std::optional<double> highest_; ///< Z of a rapid, as programmed
+    std::optional<double> plunge_;
+    AxisValues here_{};
+    double feed_ = 0.0;
+    bool by_the_minute_ = true;
     bool changed_ = false;
 };
 
@@ -203,48 +228,87 @@ std::string modes_line(const ModalState& state, Dialect dialect) {
     return line;
 }
 
-std::vector<std::string> approach(const ModalState& state,
-                                  const Watcher& watcher,
-                                  const RunFromSettings& settings,
-                                  double clearance,
-                                  double feed) {
-    const bool linuxcnc = settings.dialect == Dialect::linuxcnc;
+std::string tool_words(const ModalState& state, const Watcher& watcher, Dialect dialect) {
+    if (state.selected_tool <= 0) {
+        return {};
+    }
+    const bool changes = dialect == Dialect::linuxcnc && watcher.changed_tool();
+    return fmt::format(" T{}{}", state.selected_tool, changes ? " M6" : "");
+}
+
+/// All but Z.
+std::string across(const ModalState& state, Dialect dialect) {
+    const bool linuxcnc = dialect == Dialect::linuxcnc;
+    std::string words = "G0";
+    for (std::size_t n = 0; n < gcode::axis_count; ++n) {
+        const bool named = n < 3 || (linuxcnc && std::abs(state.position[n]) > 0.0);
+        if (n != z_axis && named) {
+            words += " " + number_word(gcode::axis_letters[n], state.position[n]);
+        }
+    }
+    return words;
+}
+
+/// Down not faster than the program itself last went straight down.
+double plunge_feed(const ModalState& state, const Watcher& watcher) {
+    constexpr double slow_mm = 100.0; // a minute, where the program's feeds say nothing about it
+    const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
+    const bool told = by_the_minute && state.feed_rate > 0.0;
+    const double feed = told                                  ? state.feed_rate
+                        : state.unit == gcode::LengthUnit::mm ? slow_mm
+                                                              : slow_mm / gcode::mm_per_inch;
+    return std::min(feed, watcher.plunge().value_or(feed));
+}
+
+/// What the way down has changed: motion, distance and feed as they were.
+void restore(const ModalState& state, double plunge, std::vector<std::string>& lines) {
+    const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
+    std::string line = state.motion == 0 ? "G0" : "G1";
+    line += state.incremental ? " G91" : "";
+    if (by_the_minute && state.feed_rate > plunge) {
+        line += " " + number_word('F', state.feed_rate);
+    }
+    lines.push_back(line);
+    if (!by_the_minute) { // by itself: with G93 each move names its feed
+        lines.emplace_back(state.feed_mode == gcode::FeedMode::inverse_time ? "G93" : "G95");
+    }
+}
+
+/// In few lines, for it stands above the first that is left: words of one line take effect in the order of
+/// RS-274, tool, spindle and coolant before the motion.
+std::vector<std::string>
+approach(const ModalState& state, const Watcher& watcher, const RunFromSettings& settings, double clearance) {
+    using gcode::SpindleTurning;
     std::vector<std::string> lines;
     ModalState by_the_minute = state;
     by_the_minute.feed_mode = gcode::FeedMode::per_minute;
-    lines.push_back(modes_line(by_the_minute, settings.dialect));
-    if (state.selected_tool > 0) {
-        lines.push_back(
-            fmt::format("T{}{}", state.selected_tool, linuxcnc && watcher.changed_tool() ? " M6" : ""));
-    }
+    lines.push_back(modes_line(by_the_minute, settings.dialect) +
+                    tool_words(state, watcher, settings.dialect));
     lines.push_back("G0 " + number_word('Z', clearance));
-    std::string others = "G0";
-    for (std::size_t n = 0; n < gcode::axis_count; ++n) {
-        const bool named = n < 3 || linuxcnc;
-        if (n != z_axis && named && (n < 3 || std::abs(state.position[n]) > 0.0)) {
-            others += " " + number_word(gcode::axis_letters[n], state.position[n]);
-        }
-    }
-    lines.push_back(others);
-    using gcode::SpindleTurning;
+    lines.push_back(across(state, settings.dialect) + (state.flood ? " M8" : ""));
     if (state.spindle != SpindleTurning::stopped) {
-        lines.push_back(fmt::format("{} {}",
+        lines.back() += fmt::format(" {} {}",
                                     state.spindle == SpindleTurning::clockwise ? "M3" : "M4",
-                                    number_word('S', state.spindle_speed)));
+                                    number_word('S', state.spindle_speed));
         lines.push_back("G4 " + number_word('P', settings.spindle_time));
     }
-    if (state.mist) {
-        lines.push_back("M7");
-    }
-    if (state.flood) {
-        lines.push_back("M8");
-    }
-    lines.push_back("G1 " + number_word('Z', state.position[z_axis]) + " " + number_word('F', feed));
-    lines.push_back(fmt::format("{}{}", state.motion == 0 ? "G0" : "G1", state.incremental ? " G91" : ""));
-    if (state.feed_mode != gcode::FeedMode::per_minute) { // by itself: with G93 each move names its feed
-        lines.emplace_back(state.feed_mode == gcode::FeedMode::inverse_time ? "G93" : "G95");
-    }
+    const double plunge = plunge_feed(state, watcher);
+    lines.push_back("G1 " + number_word('Z', state.position[z_axis]) + " " + number_word('F', plunge) +
+                    (state.mist ? " M7" : ""));
+    restore(state, plunge, lines);
     return lines;
+}
+
+/// The approach stands above the line, each of its own in the place of one that is left out.
+void check_room(const std::vector<std::string>& before, const std::filesystem::path& file, int line) {
+    if (line <= std::ssize(before)) {
+        refuse(file,
+               line,
+               fmt::format("the approach to this line takes {} lines, and {} stand above it",
+                           before.size(),
+                           line - 1),
+               "run it from its beginning");
+    }
 }
 
 } // namespace
@@ -257,7 +321,6 @@ RunFrom run_from_line(std::string_view text,
     if (line < 1 || line > std::ssize(lines)) {
         refuse(file, line, fmt::format("the program has {} lines", lines.size()));
     }
-    internal::check_room_above(line, line, file);
     check_flow(lines, file);
     Watcher watcher;
     const ModalState state = state_before(text, file, line, settings.dialect, watcher);
@@ -273,14 +336,8 @@ RunFrom run_from_line(std::string_view text,
                 : "the lines before do not tell at which Z the tool can go anywhere",
             "name the clearance");
     }
-    const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
-    const double feed = state.feed_rate;
-    constexpr double slow_mm = 100.0; // a minute, where the program's feeds say nothing about it
-    const double plunge = by_the_minute && feed > 0.0           ? feed
-                          : state.unit == gcode::LengthUnit::mm ? slow_mm
-                                                                : slow_mm / gcode::mm_per_inch;
-    const std::vector<std::string> before = approach(state, watcher, settings, *clearance, plunge);
-    expects(std::ssize(before) <= approach_lines, "an approach has its room above the line");
+    const std::vector<std::string> before = approach(state, watcher, settings, *clearance);
+    check_room(before, file, line);
     RunFrom result{.text = {}, .line = line, .tool = state.selected_tool};
     for (const std::string& one : before) {
         result.text += one + "\n";

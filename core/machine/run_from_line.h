@@ -12,12 +12,10 @@
 
 namespace millwright::machine {
 
-/// Lines of a file that an approach may take: a program begins in its middle below them.
+/// Lines that the approach to a block of a planned program may take: it begins in its middle below them.
 constexpr int approach_lines = 11;
-
-[[nodiscard]] constexpr bool can_begin_at(int line) {
-    return line > approach_lines;
-}
+/// The same of a text: as many as its state needs, and so many at least (modes, up, across, down, motion).
+constexpr int fewest_approach_lines = 5;
 
 struct RunFromSettings {
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
@@ -34,11 +32,12 @@ struct RunFrom {
     int tool = 0; ///< that has to be in the spindle; 0: none was called
 };
 
-/// The approach: modes, tool, spindle and coolant; Z up to the clearance; the other axes; Z down at the feed
-/// in force. Throws Error with place and reason where nobody can know what was in force: programs with
-/// subroutines, loops or parameters; a line within a canned cycle or cutter compensation; after probing, or
-/// after the program itself has changed offsets; no clearance; a line among the first
-/// `approach_lines`, which is run from the beginning as easily.
+/// The approach: modes and tool; Z up to the clearance; the other axes, with spindle and coolant; Z down at
+/// the feed of the program's last way straight down, if that is less than the feed in force. Throws Error
+/// with place and reason where nobody can know what was in force: programs with subroutines, loops or
+/// parameters; a line within a canned cycle or cutter compensation; after probing, or after the program
+/// itself has changed offsets; no clearance; too few lines above for the approach, whose program is run from
+/// its beginning as easily.
 [[nodiscard]] RunFrom run_from_line(std::string_view text,
                                     const std::filesystem::path& file,
                                     int line,

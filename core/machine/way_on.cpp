@@ -51,11 +51,12 @@ std::string why_not_from_line(const JobStory& story) {
     if (story.next_line == 0) {
         return "it is not known where it ended";
     }
-    return can_begin_at(story.next_line)
-               ? std::string()
-               : fmt::format("it ended at line {}, and the approach to a line takes the first {}",
-                             story.next_line,
-                             approach_lines);
+    const int taken = is_text(story.start) ? fewest_approach_lines : approach_lines;
+    return story.next_line > taken ? std::string()
+                                   : fmt::format("it ended at line {}, and the approach to a line takes {}{}",
+                                                 story.next_line,
+                                                 is_text(story.start) ? "at least " : "the first ",
+                                                 taken);
 }
 
 WayOn way_on(const JobStory& story) {

@@ -104,7 +104,7 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
     // Line 5 cannot be begun; from line 20, then the other.
     ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
-    EXPECT_THAT(ended.out, HasSubstr("line 5 is among the first 11"));
+    EXPECT_THAT(ended.out, HasSubstr("approach to this line takes 6 lines"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));
     EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));

@@ -5,7 +5,6 @@
 #include "core/gcode/retract.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
-#include "core/machine/internal/approach_room.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +39,15 @@ int first_block(const Job& job, int line) {
         refuse(job, line, "nothing is left of the program at this line");
     }
     return static_cast<int>(found - listing.line_of_block.begin());
+}
+
+void check_room_above(const Job& job, int line, int block) {
+    if (job.listing->line_of_block[static_cast<std::size_t>(block)] <= approach_lines) {
+        refuse(job,
+               line,
+               fmt::format("line {} is among the first {}, which the approach takes", line, approach_lines),
+               "run it from its beginning");
+    }
 }
 
 /// The way of the tool to where a block begins: off the part, across, down, and along its axis.
@@ -208,7 +216,7 @@ Job program_from_line(const Job& job, int line, const RunFromSettings& settings)
     expects(job.listing != nullptr && job.program != nullptr && job.machine != nullptr,
             "a job with a program has its listing and a machine");
     const int block = first_block(job, line);
-    check_room_above(job.listing->line_of_block[static_cast<std::size_t>(block)], line, job.project);
+    check_room_above(job, line, block);
     Program program = Approach(job, block, line, settings).make();
     Listing listing = joined(program, *job.listing, block);
     program.blocks.insert(

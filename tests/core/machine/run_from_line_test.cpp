@@ -211,9 +211,9 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
                 HasSubstr("tells where X is"))
         << "ways alone lead from nowhere";
     EXPECT_THAT(refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("line 3 is among the first 11"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 11), HasSubstr("line 11 is among the first 11"));
-    EXPECT_EQ(refusal(with_head("G1 X1\n"), 12), "");
+    EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("takes 5 lines, and 2 stand above it"));
+    EXPECT_THAT(refusal(with_head("G1 X1\n"), 6), HasSubstr("takes 6 lines, and 5 stand above it"));
+    EXPECT_EQ(refusal(with_head("G1 X1\n"), 7), "");
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
     EXPECT_THAT(refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));
     EXPECT_THAT(refusal(with_head("G1 X1\n"), 14, {.clearance = -5.0}), HasSubstr("is below"));
@@ -222,20 +222,32 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
 
 TEST(RunFromLine, TakesTheHighestRapidForItsClearance) {
     const RunFrom rest = run_from_line(with_head("G0 X5\nG1 Z-1\nG0 Z7\nG1 Z-2\n"), "test.ngc", 17, {});
-    EXPECT_THAT(rest.text, HasSubstr("G0 Z20\nG0 X5 Y0\nM3 S100\nG4 P3\nG1 Z-2 F100\n"));
+    EXPECT_THAT(rest.text, HasSubstr("G0 Z20\nG0 X5 Y0 M3 S100\nG4 P3\nG1 Z-2 F100\n"));
 }
 
 TEST(RunFromLine, NamesTheToolAndChangesItWhereTheProgramDoes) {
     const RunFrom rest = run_from_line(with_head("T4 M6\nG0 X5\n"), "test.ngc", 15, {});
     EXPECT_EQ(rest.tool, 4);
-    EXPECT_THAT(rest.text, HasSubstr("T4 M6\n"));
+    EXPECT_THAT(rest.text, HasSubstr(" T4 M6\nG0 Z20\n"));
 }
 
 TEST(RunFromLine, TheLongestApproachHasItsRoom) {
     const std::string text =
-        "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 X0 Y0 Z20\n\n\n\n\nG0 Z30\nG1 X1 Y2 F4\nM2\n";
-    const RunFrom rest = run_from_line(text, "test.ngc", 12, {});
+        "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 X0 Y0 Z20\nG0 Z30\nG1 X1 Y2 F4\nM2\n";
+    const RunFrom rest = run_from_line(text, "test.ngc", 8, {});
     EXPECT_THAT(rest.text, HasSubstr("G93\nG1 X1 Y2 F4\n"));
+    EXPECT_EQ(rest.text.find("\n\n"), std::string::npos) << "all seven lines are taken: " << rest.text;
+}
+
+TEST(RunFromLine, GoesDownAsTheProgramDoesAndOnAtItsFeed) {
+    const std::string cut = "G1 Z-2 F120\nG1 X20 F600\nG1 X30 Z-1\nG1 Y9\n";
+    const RunFrom rest = run_from_line(with_head(cut), "test.ngc", 16, {});
+    EXPECT_THAT(rest.text, HasSubstr("G1 Z-1 F120\nG1 F600\n")) << "a ramp is not the way straight down";
+    const RunFrom slow = run_from_line(with_head("G1 Z-2 F900\nG1 X20 F60\nG1 X30\n"), "test.ngc", 15, {});
+    EXPECT_THAT(slow.text, HasSubstr("G1 Z-2 F60\nG1\n"));
+    const RunFrom inches =
+        run_from_line(with_head("G1 Z-2 F120\nG20\nG1 X1 F30\nG0 Z1\nG1 X2\n"), "test.ngc", 17, {});
+    EXPECT_THAT(inches.text, HasSubstr(" F30\nG")) << "a feed in mm says nothing of one in inches";
 }
 
 } // namespace
