@@ -1,7 +1,6 @@
 #include "app/arm_choice.h"
 
 #include "core/base/units.h"
-#include "core/kinematics/arm_file.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
@@ -23,8 +22,12 @@ void add_arm_option(CLI::App& command, std::string& arm) {
         ->capture_default_str();
 }
 
+kinematics::ArmFile arm_file_of(const std::string& name) {
+    return kinematics::read_arm(project::arm_path(name, ".", project::assets_folder()));
+}
+
 ArmModel arm_of(const std::string& name) {
-    return kinematics::read_arm(project::arm_path(name, ".", project::assets_folder())).arm;
+    return arm_file_of(name).arm;
 }
 
 double to_joint(const ArmModel& arm, int joint, double shown) {

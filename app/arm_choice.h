@@ -1,7 +1,7 @@
 // The arm that a command is about, and its joints in the units of people.
 #pragma once
 
-#include "core/kinematics/arm_model.h"
+#include "core/kinematics/arm_file.h"
 
 #include <memory>
 #include <string>
@@ -16,6 +16,7 @@ namespace millwright::app {
 void add_arm_option(CLI::App& command, std::string& arm);
 
 /// By its name or file. Throws Error for what is none.
+[[nodiscard]] kinematics::ArmFile arm_file_of(const std::string& name);
 [[nodiscard]] kinematics::ArmModel arm_of(const std::string& name);
 
 /// Degrees or mm to rad or mm, and back.

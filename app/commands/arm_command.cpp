@@ -1,6 +1,7 @@
 #include "app/commands/arm_command.h"
 
 #include "app/arm_choice.h"
+#include "app/commands/arm_bodies.h"
 #include "app/commands/arm_motor.h"
 #include "app/commands/arm_reach.h"
 #include "app/commands/arm_service.h"
@@ -252,6 +253,7 @@ void add_arm_command(CLI::App& app, Command& chosen) {
         ->capture_default_str();
     path.add_option("--out", options->out, "File for the positions and joints")->required();
     path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
+    add_arm_bodies_command(group, chosen);
     add_arm_reach_command(group, chosen);
     add_arm_service_commands(group, chosen);
     add_arm_motor_commands(group, chosen);

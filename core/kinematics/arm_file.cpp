@@ -104,6 +104,48 @@ ArmActuators actuators(const JsonValue& value) {
     return result;
 }
 
+/// "base", "joint NAME", "drive 2 cylinder", "drive 3 lever" ...
+ArmPart part(const JsonValue& value, const ArmModel& arm, bool has_drives) {
+    value.expect_only({"node", "carried_by"});
+    const JsonValue carrier = value.at("carried_by");
+    const std::string by = carrier.text();
+    const std::string node = value.at("node").text();
+    if (by == "base") {
+        return {node, ArmCarrier::base, 0};
+    }
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        if (by == "joint " + arm.joint(n).name) {
+            return {node, ArmCarrier::joint, n};
+        }
+    }
+    for (const ArmPart& known : {ArmPart{"drive 2 cylinder", ArmCarrier::cylinder, 2},
+                                 ArmPart{"drive 2 rod", ArmCarrier::rod, 2},
+                                 ArmPart{"drive 3 cylinder", ArmCarrier::cylinder, 3},
+                                 ArmPart{"drive 3 rod", ArmCarrier::rod, 3},
+                                 ArmPart{"drive 3 lever", ArmCarrier::lever, 3},
+                                 ArmPart{"drive 3 coupler", ArmCarrier::coupler, 3}}) {
+        if (by == known.node) {
+            if (!has_drives) {
+                carrier.fail("the file describes no drives");
+            }
+            return {node, known.carrier, known.number};
+        }
+    }
+    carrier.fail(fmt::format("'{}' carries no body", by),
+                 "base, joint NAME, drive 2 or 3 cylinder or rod, drive 3 lever or coupler");
+}
+
+ArmBodies
+bodies(const JsonValue& value, const ArmModel& arm, bool has_drives, const std::filesystem::path& folder) {
+    value.expect_only({"file", "parts"});
+    ArmBodies result;
+    result.file = folder / value.at("file").text();
+    for (const JsonValue& item : value.at("parts").items()) {
+        result.parts.push_back(part(item, arm, has_drives));
+    }
+    return result;
+}
+
 ArmModel arm(const JsonValue& root) {
     ArmDescription description;
     description.name = root.at("name").text();
@@ -124,17 +166,20 @@ ArmModel arm(const JsonValue& root) {
 
 ArmFile read_arm(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
-    root.expect_only({"format", "version", "name", "source", "joints", "tool_tip", "actuators"});
+    root.expect_only({"format", "version", "name", "source", "joints", "tool_tip", "actuators", "bodies"});
     if (root.at("format").text() != "millwright-arm") {
         root.at("format").fail("not an arm file");
     }
     (void)root.at("version").integer(1, 1);
-    ArmFile result{arm(root), std::nullopt};
+    ArmFile result{arm(root), std::nullopt, std::nullopt};
     if (const auto drives = root.find("actuators")) {
         if (!result.arm.planar_elbow()) {
             drives->fail("only an arm with three parallel joints between base and roll has such drives");
         }
         result.actuators = actuators(*drives);
+    }
+    if (const auto shown = root.find("bodies")) {
+        result.bodies = bodies(*shown, result.arm, result.actuators.has_value(), file.parent_path());
     }
     return result;
 }

@@ -73,6 +73,16 @@ TEST(Arm, SimulatesTheFileOfTheThesis) {
                 HasSubstr("three-lines.mot:2: the arm does not"));
 }
 
+TEST(Arm, MakesItsBodies) {
+    const ScratchFolder scratch;
+    const std::string out = (scratch / "arm.glb").string();
+    const Ended ended = run({"arm", "bodies", "--out", out});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(content_of(out), content_of("assets/arms/motoman-l3.glb"));
+    EXPECT_THAT(run({"arm", "bodies", "--out", out, "--arm", "scara"}).err,
+                HasSubstr("linkages, which its file does not describe"));
+}
+
 TEST(Arm, RefusesWhatIsNoPoseAndNoArm) {
     EXPECT_THAT(run({"arm", "fk", "0", "0"}).err, HasSubstr("has 5 joints, 2 positions were given"));
     EXPECT_THAT(run({"arm", "fk", "nan", "0", "0", "0", "0"}).err, HasSubstr("not a finite number"));

@@ -150,6 +150,8 @@ constexpr std::array<std::string_view, 2> pictures = {"png.h", "jpeglib.h"};
 constexpr std::array<std::string_view, 2> pictures_home = {"core/plot/picture", "tests/core/plot/picture"};
 constexpr std::array<std::string_view, 1> potrace = {"potracelib.h"};
 constexpr std::array<std::string_view, 1> potrace_home = {"core/plot/picture"};
+constexpr std::array<std::string_view, 1> gltf = {"tiny_gltf.h"};
+constexpr std::array<std::string_view, 1> gltf_home = {"core/geometry"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
@@ -160,6 +162,7 @@ constexpr std::array homes = {
     Home{"Clipper", clipper, clipper_home},
     Home{"libpng or libjpeg", pictures, pictures_home},
     Home{"potrace", potrace, potrace_home},
+    Home{"tinygltf", gltf, gltf_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {

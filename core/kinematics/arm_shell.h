@@ -1,0 +1,24 @@
+// How far an arm of the kind PlanarElbow reaches: the border of where its wrist can be, inside the limits of
+// its joints. Lengths mm, angles rad, in the base's frame.
+#pragma once
+
+#include "core/kinematics/arm_model.h"
+
+#include <vector>
+
+namespace millwright::kinematics {
+
+/// The border in the plane of the arm with joint 1 at 0, whose x is the base's and whose y is its z; turned
+/// about the base's axis from `first` to `last` it encloses all places of the wrist.
+struct ReachShell {
+    std::vector<std::vector<Vec2>> border;
+    double first = 0.0, last = 0.0; ///< of joint 1
+};
+
+/// Throws Defect for an arm of another kind.
+[[nodiscard]] ReachShell reach_shell(const ArmModel& arm);
+
+/// Whether the wrist can be at a place of that plane.
+[[nodiscard]] bool wrist_reaches(const ArmModel& arm, const Vec2& place);
+
+} // namespace millwright::kinematics
