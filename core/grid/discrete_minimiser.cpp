@@ -23,13 +23,26 @@ double norm_of(const NodeArray& gradient) {
     return largest;
 }
 
+GridFunctional volume_functional(WeightPtr weight, const FunctionalWeights& lambda) {
+    expects(weight != nullptr, "a solver has a weight");
+    return [weight = std::move(weight), lambda](const NodeArray& nodes) {
+        return discrete_functional(nodes, *weight, lambda);
+    };
+}
+
 } // namespace
 
 DiscreteMinimiser::DiscreteMinimiser(NodeArray start, WeightPtr weight, const EllipticSettings& settings)
-    : nodes_(std::move(start)), weight_(std::move(weight)), settings_(settings) {
+    : DiscreteMinimiser(
+          std::move(start), volume_functional(std::move(weight), settings.functional), settings) {}
+
+DiscreteMinimiser::DiscreteMinimiser(NodeArray start,
+                                     GridFunctional functional,
+                                     const EllipticSettings& settings)
+    : nodes_(std::move(start)), functional_(std::move(functional)), settings_(settings) {
     expects(nodes_.rows >= 2 && nodes_.columns >= 2, "a grid to solve for has at least 2 x 2 nodes");
     expects(all_finite(nodes_), "a grid to solve for is finite");
-    expects(weight_ != nullptr, "a solver has a weight");
+    expects(functional_ != nullptr, "a minimiser has a functional");
     expects(settings_.boundary == Boundary::fixed || is_axis_rectangle(nodes_),
             "nodes slide only along the sides of a rectangle parallel to the axes");
     if (!(min_corner_jacobian(nodes_) > 0.0)) {
@@ -46,7 +59,7 @@ std::unique_ptr<EllipticSolver> DiscreteMinimiser::clone() const {
 
 /// The gradient along what may move.
 DiscreteFunctional DiscreteMinimiser::evaluate(const NodeArray& nodes) const {
-    DiscreteFunctional found = discrete_functional(nodes, *weight_, settings_.functional);
+    DiscreteFunctional found = functional_(nodes);
     for (int i = 0; i < found.gradient.rows; ++i) {
         for (int j = 0; j < found.gradient.columns; ++j) {
             Vec2& g = found.gradient.at(i, j);

@@ -1,4 +1,5 @@
-// The robust solver: minimises the discrete functional (discrete_functional.h) by L-BFGS. A step that would
+// The robust solver: minimises a functional over the corners of the cells (discrete_functional.h,
+// harmonic_functional.h) by L-BFGS. A step that would
 // close a corner triangle is shortened, so no iteration ever folds a cell, however strong the weight.
 #pragma once
 
@@ -6,7 +7,12 @@
 #include "core/grid/discrete_functional.h"
 #include "core/grid/elliptic_solver.h"
 
+#include <functional>
+
 namespace millwright::grid {
+
+/// What is minimised: infinite where a corner is not positive.
+using GridFunctional = std::function<DiscreteFunctional(const NodeArray& nodes)>;
 
 /// Same bytes on any number of threads. The norm is max (|g_x| + |g_y|) / 4 over the nodes that may move, g
 /// the gradient: what JacobiNewton calls the norm, since g is about -2 R.
@@ -14,6 +20,8 @@ class DiscreteMinimiser final : public EllipticSolver {
 public:
     /// `start` is in solver coordinates, at least 2 x 2, finite; a folded one is reported by the first
     /// iteration. With a sliding boundary its outline is a rectangle along the axes. Throws Defect if not.
+    DiscreteMinimiser(NodeArray start, GridFunctional functional, const EllipticSettings& settings);
+    /// Of discrete_functional() with `weight` and the weights in `settings`.
     DiscreteMinimiser(NodeArray start, WeightPtr weight, const EllipticSettings& settings);
 
     bool iterate() override;
@@ -33,7 +41,7 @@ private:
     void remember(const NodeArray& old_nodes, const DiscreteFunctional& old);
 
     NodeArray nodes_;
-    WeightPtr weight_;
+    GridFunctional functional_;
     EllipticSettings settings_;
     DiscreteFunctional now_;
     DescentMemory memory_;

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/grid_promise.h"
+#include "core/grid/harmonic_functional.h"
 #include "core/grid/jacobi_newton.h"
 
 #include <algorithm>
@@ -85,7 +86,8 @@ bool dominates(const ErrorSummary& one, const ErrorSummary& other) {
 void expects_sense(const EllipticAdaptationSettings& settings) {
     expects(settings.functional.adaptation >= 0.0 && settings.functional.orthogonality >= 0.0,
             "LV and LO are not negative");
-    expects(settings.tolerance >= 0.0 && settings.error_change >= 0.0, "tolerances are not negative");
+    expects(settings.tolerance >= 0.0 && settings.error_change >= 0.0 && settings.gap_allowance >= 0.0,
+            "tolerances and allowances are not negative");
     expects(settings.max_iterations > 0 && settings.max_rounds > 0 && settings.iterations_per_step > 0,
             "an adaptation does at least one iteration a step and one round");
     expects(settings.memory >= 0.0 && settings.memory < 1.0, "the memory is a share, and not all");
@@ -107,6 +109,14 @@ std::string warning_of(const Weight* weight, const Grid& start) {
 
 } // namespace
 
+EllipticAdaptationSettings harmonic_settings() {
+    EllipticAdaptationSettings settings;
+    settings.method = EllipticMethod::harmonic;
+    settings.error_weight = {.exponent = 0.5, .floor = 0.05, .smoothing_passes = 0};
+    settings.gap_allowance = 0.15;
+    return settings;
+}
+
 EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
                                        const Grid& start,
                                        const EllipticAdaptationSettings& settings,
@@ -117,7 +127,7 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
                          .round_start = start,
                          .functional = settings.functional} {
     expects_sense(settings_);
-    expects(settings_.method == EllipticMethod::minimiser || (start.nu() >= 3 && start.nv() >= 3),
+    expects(settings_.method != EllipticMethod::reference || (start.nu() >= 3 && start.nv() >= 3),
             "the reference method has at least 3 x 3 nodes");
     at_.moves = measure(model_, start_, settings_.direction, settings_.sampling);
     at_.state.start = summary(at_.moves);
@@ -176,6 +186,14 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
     NodeArray nodes = to_solver_coordinates(at.round_start.array());
     if (settings_.method == EllipticMethod::reference) {
         return std::make_unique<JacobiNewton>(std::move(nodes), at.round_weight, solver);
+    }
+    if (settings_.method == EllipticMethod::harmonic) {
+        return std::make_unique<DiscreteMinimiser>(
+            std::move(nodes),
+            [m = at.round_weight, direction = settings_.direction](const NodeArray& array) {
+                return harmonic_functional(array, *m, direction);
+            },
+            solver);
     }
     return std::make_unique<DiscreteMinimiser>(std::move(nodes), at.round_weight, solver);
 }
@@ -276,8 +294,12 @@ void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
     double least = infinity;
     if (!at.candidates.empty()) {
         const GridPromise promise(model_, start_, settings_.direction, progress);
+        const double widest = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
         int kept = 0;
         for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
+            if (model_.track_gap((*c)->grid, settings_.direction) > widest) {
+                continue;
+            }
             const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, progress);
             kept += path.has_value() ? 1 : 0;
             if (path.has_value() && path->mean < least) {

@@ -18,6 +18,7 @@ namespace millwright::grid {
 enum class EllipticMethod {
     minimiser, ///< DiscreteMinimiser: never folds, converges with strong weights
     reference, ///< JacobiNewton: the thesis's iteration
+    harmonic, ///< DiscreteMinimiser on the energy of a harmonic map, whose metric the weight is: no LV, no LO
 };
 
 struct EllipticAdaptationSettings {
@@ -34,14 +35,18 @@ struct EllipticAdaptationSettings {
     ErrorWeightSettings error_weight{};
     double memory = 0.5; ///< share of the earlier rounds in the error density: damps the outer loop
     Sampling sampling = coarse;
+    double gap_allowance = 1e9; ///< share by which the track gap of the grid that is taken may grow
 
     friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
 };
 
+/// The harmonic map with what cuts the error most (tests/core/toolpath/elliptic_gain_test.cpp).
+[[nodiscard]] EllipticAdaptationSettings harmonic_settings();
+
 /// Measures every ten iterations, so that the grid half-way to a solution can be the best one. If the solver
 /// fails, LV becomes a tenth and the round starts again; after three such falls the adaptation ends with the
 /// solver's failure. At the end the best grid that fine sampling and the whole path (ErrorModel::on_path) do
-/// not find worse than the start is taken.
+/// not find worse than the start, and whose tracks lie as close as they have to, is taken.
 class EllipticAdaptation final : public GridImprover {
 public:
     /// Adapts `start` to the error of `model`, which must outlive this, or to `weight` (in solver

@@ -154,8 +154,16 @@ Evaluation improved_evaluation(GridMethod method,
                                const Progress& progress) {
     const toolpath::KinematicError error = workpiece.error_model();
     const auto improver = make_improver(method, input, error, effort);
+    return evaluation_by(*improver, workpiece, uniform, effort, progress);
+}
+
+Evaluation evaluation_by(grid::GridImprover& improver,
+                         const Workpiece& workpiece,
+                         const Evaluation& uniform,
+                         Effort effort,
+                         const Progress& progress) {
     constexpr double measuring = 0.9; // share of the improvement
-    GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
+    GridOutcome outcome = improved_outcome(improver, progress.part(0.0, measuring));
     const int samples = effort == Effort::live ? live_samples : report_samples;
     Evaluation found = evaluate(workpiece, std::move(outcome), samples, progress.part(measuring, 1.0));
     if (!is_worse(found, uniform, workpiece.machine)) {

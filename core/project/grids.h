@@ -45,6 +45,13 @@ inline constexpr int report_samples = 40;
                                              Effort effort,
                                              const Progress& progress);
 
+/// The same by an improver that has not begun.
+[[nodiscard]] Evaluation evaluation_by(grid::GridImprover& improver,
+                                       const Workpiece& workpiece,
+                                       const Evaluation& uniform,
+                                       Effort effort,
+                                       const Progress& progress);
+
 /// Whether `found` is worse than `start` in the mean or largest distance to the surface, or in the largest
 /// angle between tool axis and normal; that one counts on machines that can turn the tool only.
 [[nodiscard]] bool

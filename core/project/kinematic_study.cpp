@@ -1,6 +1,8 @@
 #include "core/project/kinematic_study.h"
 
 #include "core/base/error.h"
+#include "core/grid/elliptic_adaptation.h"
+#include "core/grid/redistribution.h"
 #include "core/toolpath/set_up_search.h"
 
 #include <utility>
@@ -71,12 +73,34 @@ public:
     }
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
-        const Evaluation found =
-            improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress);
-        return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
+        return row_of(method,
+                      improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress),
+                      progress);
+    }
+    [[nodiscard]] StudyRow redistribution_row(const Progress& progress) const {
+        const toolpath::KinematicError error = workpiece_.error_model();
+        grid::Redistribution improver(error, uniform_.outcome.grid, input_.direction);
+        return row_by(StudyMethod::redistribution, improver, progress);
+    }
+    [[nodiscard]] StudyRow harmonic_row(const Progress& progress) const {
+        const toolpath::KinematicError error = workpiece_.error_model();
+        grid::EllipticAdaptationSettings settings = grid::harmonic_settings();
+        settings.direction = input_.direction;
+        grid::EllipticAdaptation improver(error, uniform_.outcome.grid, settings);
+        return row_by(StudyMethod::harmonic, improver, progress);
     }
 
 private:
+    [[nodiscard]] StudyRow
+    row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
+        return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
+    }
+    [[nodiscard]] StudyRow
+    row_by(StudyMethod method, grid::GridImprover& improver, const Progress& progress) const {
+        return row_of(
+            method, evaluation_by(improver, workpiece_, uniform_, Effort::full, progress), progress);
+    }
+
     StudyCase of_;
     Workpiece workpiece_;
     GridInput input_;
@@ -97,8 +121,12 @@ std::string_view label(StudyMethod method) {
     switch (method) {
     case StudyMethod::uniform:
         return "uniform";
+    case StudyMethod::redistribution:
+        return "1-D shares";
     case StudyMethod::elliptic:
         return "elliptic";
+    case StudyMethod::harmonic:
+        return "harmonic map";
     case StudyMethod::tracks:
         return "tracks";
     case StudyMethod::chain:
@@ -128,8 +156,10 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         std::vector<StudyRow> rows;
         const Bench there(of, workpiece, project.grid, progress);
         rows.push_back(there.uniform_row(StudyMethod::uniform, progress));
+        rows.push_back(there.redistribution_row(progress.part(0.01, 0.02)));
         rows.push_back(
-            there.improved_row(StudyMethod::elliptic, GridMethod::elliptic, progress.part(0.02, 0.1)));
+            there.improved_row(StudyMethod::elliptic, GridMethod::elliptic, progress.part(0.02, 0.06)));
+        rows.push_back(there.harmonic_row(progress.part(0.06, 0.1)));
         rows.push_back(there.improved_row(StudyMethod::tracks, GridMethod::tracks, progress.part(0.1, 0.15)));
         rows.push_back(there.improved_row(StudyMethod::chain, GridMethod::chain, progress.part(0.15, 0.5)));
         const Bench best(of, in_best_set_up(workpiece, progress.part(0.5, 0.6)), project.grid, progress);

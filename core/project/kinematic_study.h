@@ -12,15 +12,19 @@
 namespace millwright::project {
 
 enum class StudyMethod {
-    uniform,      ///< equal parameter steps
-    elliptic,     ///< the thesis's adaptation
-    tracks,       ///< the track optimiser: shortest path a track
-    chain,        ///< the whole chain
-    set_up,       ///< equal parameter steps, the part where the error is least
-    set_up_chain, ///< the whole chain there
+    uniform,        ///< equal parameter steps
+    redistribution, ///< equal shares of a monitor of the error on each track
+    elliptic,       ///< the thesis's adaptation
+    harmonic,       ///< the harmonic map with sliding boundary
+    tracks,         ///< the track optimiser: shortest path a track
+    chain,          ///< the whole chain
+    set_up,         ///< equal parameter steps, the part where the error is least
+    set_up_chain,   ///< the whole chain there
 };
 inline constexpr std::array every_study_method{StudyMethod::uniform,
+                                               StudyMethod::redistribution,
                                                StudyMethod::elliptic,
+                                               StudyMethod::harmonic,
                                                StudyMethod::tracks,
                                                StudyMethod::chain,
                                                StudyMethod::set_up,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace millwright::widgets {
 
@@ -30,7 +31,8 @@ double multiple(double i, double mantissa, int exponent) {
 Ticks ticks(double low, double high, int at_most) {
     const double span = high - low;
     const double size = std::max(std::abs(low), std::abs(high));
-    if (at_most < 1 || !std::isfinite(span) || !(span > narrowest * size)) {
+    if (at_most < 1 || !std::isfinite(span) || !(span > narrowest * size) ||
+        span / at_most < std::numeric_limits<double>::min()) {
         return {};
     }
     int exponent = static_cast<int>(std::floor(std::log10(span / at_most)));

@@ -242,7 +242,7 @@ TEST(DiscreteMinimiser, SaysWhatIsWrongWithItsStartOrWeight) {
     DiscreteMinimiser not_finite(square_grid(5), broken_weight(std::numeric_limits<double>::quiet_NaN()), {});
     EXPECT_EQ(solve(not_finite), SolverStatus::not_finite);
 
-    EXPECT_THROW(DiscreteMinimiser(square_grid(5), nullptr, {}), Defect);
+    EXPECT_THROW(DiscreteMinimiser(square_grid(5), WeightPtr(), {}), Defect);
 }
 
 TEST(DiscreteMinimiser, ClonedGoesItsOwnWay) {

@@ -30,6 +30,8 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
         }
         const auto mean = [&](StudyMethod method) { return row_of(rows, method).figures->error.mean; };
         EXPECT_LE(mean(StudyMethod::elliptic), mean(StudyMethod::uniform)) << machine;
+        EXPECT_LE(mean(StudyMethod::redistribution), mean(StudyMethod::uniform)) << machine;
+        EXPECT_LE(mean(StudyMethod::harmonic), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::tracks), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::chain), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::set_up_chain), mean(StudyMethod::set_up)) << machine;
@@ -93,9 +95,10 @@ TEST(KinematicStudyText, ForProgramsIsJson) {
 TEST(KinematicStudyText, ForPeopleIsATableASurfaceAndMachine) {
     const std::string text = study_markdown(two_rows());
     EXPECT_THAT(text, HasSubstr("## dome on ca-head, 20 tracks"));
-    EXPECT_THAT(
-        text,
-        HasSubstr("| points | uniform | elliptic | tracks | chain | set-up | set-up + chain |\n|---|---|"));
+    EXPECT_THAT(text,
+                HasSubstr("| points | uniform | 1-D shares | elliptic | harmonic map | tracks | chain | "
+                          "set-up | set-up + chain "
+                          "|\n|---|---|"));
     EXPECT_THAT(text, HasSubstr("\n| 15 | 1.500 / 0.2500 / 5.7 | 1.500"));
     EXPECT_THAT(text, HasSubstr("| out of reach |\n"));
 }

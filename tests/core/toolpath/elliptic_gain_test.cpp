@@ -1,7 +1,10 @@
 // What the elliptic adaptation is worth on real surfaces and machines, 20 x 20 nodes. Mean error, uniform ->
 // adapted, to the surface and on the whole path: dome on the thesis's machine along v .211 -> .164 mm (22 %),
 // two bells on the A-on-C table along u .336 -> .303 (10 %), along v .098 -> .080 (18 %).
+// The harmonic map: 35 and 35 % on the dome along u and v, 27 and 37 % on the bells. The nodes of each track
+// shared out by the monitor: 36, 40, 31 and 37 %, and the largest error falls by 93, 94, 53 and 94 %.
 #include "core/grid/elliptic_adaptation.h"
+#include "core/grid/redistribution.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +66,41 @@ TEST(EllipticGain, IsNeverNegativeWhateverTheSize) {
 TEST(EllipticGain, IsZeroWhereTheTracksAreRulings) {
     const KinematicError error(test::patch("sine"), test::machine("rotary-tilt-listing"), false);
     EXPECT_EQ(adapted(error, 10, TrackDirection::along_v).status, grid::ImproverStatus::no_gain);
+}
+
+/// Both keep the tracks where they are, so that the scallops stay what they were.
+void expect_gain_along_tracks(grid::GridImprover& improver,
+                              const KinematicError& error,
+                              TrackDirection direction,
+                              double least_gain) {
+    const Grid uniform = Grid::uniform(20, 20);
+    const grid::ImproverState state = grid::run(improver, Progress());
+    const grid::ErrorSummary before = error.on_path(uniform, direction, {});
+    const grid::ErrorSummary after = error.on_path(state.best, direction, {});
+    EXPECT_LT(after.mean, (1.0 - least_gain) * before.mean);
+    EXPECT_LE(after.max, before.max);
+    EXPECT_LE(after.axis_max, before.axis_max);
+    EXPECT_LE(error.track_gap(state.best, direction), 1.15 * error.track_gap(uniform, direction));
+}
+
+TEST(EllipticGain, OfTheHarmonicMapIsTwiceThatOfTheVolumeTerm) {
+    for (const KinematicError& error : {test::dome_error(), test::two_bell_error()}) {
+        for (const TrackDirection direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            grid::EllipticAdaptationSettings settings = grid::harmonic_settings();
+            settings.direction = direction;
+            grid::EllipticAdaptation harmonic(error, Grid::uniform(20, 20), settings);
+            expect_gain_along_tracks(harmonic, error, direction, 0.23);
+        }
+    }
+}
+
+TEST(EllipticGain, OfSharingOutTheNodesOfEachTrackIsThatOfTheHarmonicMap) {
+    for (const KinematicError& error : {test::dome_error(), test::two_bell_error()}) {
+        for (const TrackDirection direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            grid::Redistribution redistribution(error, Grid::uniform(20, 20), direction);
+            expect_gain_along_tracks(redistribution, error, direction, 0.28);
+        }
+    }
 }
 
 } // namespace

@@ -60,7 +60,7 @@ TEST(Ticks, NoRangeHasNoTicks) {
 
 TEST(Ticks, ARangeNarrowerThanNumbersResolveEnds) {
     EXPECT_LE(std::ssize(ticks(1e15, std::nextafter(1e15, 2e15), 5).values), 5);
-    EXPECT_LE(std::ssize(ticks(0.0, 5e-324, 5).values), 5);
+    EXPECT_TRUE(ticks(0.0, 5e-324, 5).values.empty());
 }
 
 } // namespace
