@@ -140,6 +140,7 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, or a path file.");
         return;
     }
+    draw_progress(ui, now);
     const std::vector<Level> levels = now.plot.levels();
     if (!levels.empty()) {
         ui.heading("Levels");
@@ -163,9 +164,6 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_level(ui, now, ask, level_);
     }
     draw_figures(ui, now);
-    if (const auto section = ui.section("position", "Where the tool is"); section && now.in_file()) {
-        axis_positions(ui, now);
-    }
 }
 
 void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const {
@@ -204,9 +202,19 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         ui.text(to_text(*made->failure));
         return;
     }
-    ui.value("cut", "Cuts", metres(made->lengths.cut), "m");
-    ui.value("air", "In the air", metres(made->lengths.travel), "m");
     if (made->as_drawn.runs > 0) {
+        ui.value("drawn",
+                 "Draws",
+                 fmt::format("{} (as drawn {})",
+                             metres(made->as_planned.cut_length),
+                             metres(made->as_drawn.cut_length)),
+                 "m");
+        ui.value("between",
+                 "In the air",
+                 fmt::format("{} (as drawn {})",
+                             metres(made->as_planned.travel_length),
+                             metres(made->as_drawn.travel_length)),
+                 "m");
         ui.value(
             "runs", "Lifts", fmt::format("{} (as drawn {})", made->as_planned.runs, made->as_drawn.runs));
         ui.value("thesis",
@@ -216,16 +224,30 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
                              plot::minutes_and_seconds(made->as_drawn.seconds)),
                  plot::minutes_or_hours(made->as_planned.seconds));
     }
+    ui.value("way", "Way, with lifts", metres(made->lengths.cut + made->lengths.travel), "m");
     const double planned = now.in_file() ? now.duration() : 0.0;
     ui.value("planner",
              "Time, planner",
              planned > 0.0 ? plot::minutes_and_seconds(planned) : "...",
              plot::minutes_or_hours(planned));
+}
+
+/// While the program is played; above what is set, so that it is seen without scrolling.
+void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
+    if (!now.in_file()) {
+        return;
+    }
+    const auto section = ui.section("position", "Where the tool is");
+    if (!section) {
+        return;
+    }
+    axis_positions(ui, now);
+    const double left = std::max(now.duration() - now.time(), 0.0);
     ui.value("left",
              "Remaining",
-             planned > 0.0 ? plot::minutes_and_seconds(std::max(planned - now.time(), 0.0)) : "...",
-             plot::minutes_or_hours(planned - now.time()));
-    if (planned > 0.0 && now.opened->motion) {
+             now.duration() > 0.0 ? plot::minutes_and_seconds(left) : "...",
+             plot::minutes_or_hours(left));
+    if (now.opened->motion) {
         const motion::Trajectory& way = *now.opened->motion->trajectory;
         ui.value("gone",
                  "Has gone",

@@ -29,6 +29,7 @@ private:
     void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const;
     void draw_figures(Ui& ui, const Workbench& now) const;
+    void draw_progress(Ui& ui, const Workbench& now) const;
     void draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_notices(Ui& ui, const Workbench& now) const;
 

@@ -81,7 +81,7 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
 
 TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
     Bench bench("assets/samples/plot/everyday.plt", {1600, 1200});
-    for (const char* path : {"layers/figures/gone", "layers/figures/left", "layers/position"}) {
+    for (const char* path : {"layers/position/gone", "layers/position/left", "layers/position"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
     const Workbench begun = bench.person.workshop().look();

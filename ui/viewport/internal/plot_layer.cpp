@@ -17,7 +17,8 @@ namespace {
 
 using plot::HeightField;
 
-constexpr float air_opacity = 0.45F;
+constexpr float air_opacity = 0.8F;
+constexpr float air_shade = 0.3F; ///< of the plate below it: neither a pen nor the plate is so dark
 
 std::array<glm::vec4, render::path_kinds> only_feeds(const glm::vec3& color, float opacity) {
     std::array<glm::vec4, render::path_kinds> colors{};
@@ -132,7 +133,9 @@ private:
         const double share = 1.0 / static_cast<double>(cuts_.size() + 1);
         render::PathStyle style;
         style.model = canvas.s_T_w;
-        style.color = only_feeds(canvas.colors.rapid, air_opacity);
+        const bool on_plate = scene.layers.surface && look_ && !scene.against_light;
+        style.color =
+            only_feeds(on_plate ? air_shade * canvas.colors.surface : canvas.colors.rapid, air_opacity);
         air_.draw(scene, canvas, style, rough, -1, share);
         for (std::size_t n = 0; n < cuts_.size() && n < scene.plot->cuts.size(); ++n) {
             style.color = only_feeds(pen_color(scene.plot->cuts[n].pen, canvas.colors.theme), 1.0F);
