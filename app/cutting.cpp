@@ -23,14 +23,23 @@ namespace millwright::app {
 void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--machine", options.machine, "Shipped machine or machine file")
         ->capture_default_str();
-    command.add_option("--feed", options.feed_mm_per_min, "Cutting, mm/min")->capture_default_str();
-    command.add_option("--plunge", options.plunge_mm_per_min, "Into the work, mm/min")->capture_default_str();
-    command.add_option("--safe-height", options.safe_height, "Above the top, mm")->capture_default_str();
-    command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")->capture_default_str();
+    command.add_option("--feed", options.feed_mm_per_min, "Cutting, mm/min")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--plunge", options.plunge_mm_per_min, "Into the work, mm/min")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--safe-height", options.safe_height, "Above the top, mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
     command.add_option("--origin", options.origin, "Where the drawing's origin lies on the machine: X,Y, mm")
         ->delimiter(',')
-        ->expected(2);
+        ->expected(2)
+        ->allow_extra_args(false);
     command.add_option("--path", options.path_file, "The path too: a file of X, Y, Z, speed")
         ->type_name("FILE");
     PreviewOptions& preview = options.preview;
@@ -42,9 +51,11 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
         ->capture_default_str();
     command.add_flag(
         "--against-light", preview.against_light, "Preview the light that goes through the plate");
-    command.add_option("--plate", preview.plate, "Thickness of the plate, mm; nothing is cut deeper");
+    command.add_option("--plate", preview.plate, "Thickness of the plate, mm; nothing is cut deeper")
+        ->check(CLI::PositiveNumber);
     command.add_flag("--through", preview.through, "Cuts may go deeper than the plate");
     command.add_option("--half-light", preview.half_light, "So much of the plate halves the light, mm")
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
 }
 
@@ -73,7 +84,12 @@ gcode::Program program_of(const plot::CutPath& path,
     settings.axes = gcode::plot_axes(machine);
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
-    return gcode::plot_program(placed(path, options.origin), settings);
+    const plot::CutPath on_machine = placed(path, options.origin);
+    gcode::expect_on_table(on_machine,
+                           machine,
+                           options.origin.empty() ? Vec2(Vec2::Zero())
+                                                  : Vec2(options.origin[0], options.origin[1]));
+    return gcode::plot_program(on_machine, settings);
 }
 
 std::string preview_of(const plot::CutPath& path,
@@ -119,6 +135,12 @@ void write_program(const plot::CutPath& path,
     }
     print_notes(text);
     const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
+    const plot::PathLengths lengths = plot::lengths(path);
+    constexpr double m = 1e-3;
+    fmt::print("{} points: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
+               path.size(),
+               m * lengths.cut,
+               m * lengths.travel);
     fmt::print("{} lines, {} on {}\n",
                text.text.listing.line_count(),
                plot::time_for_people(seconds),

@@ -3,9 +3,11 @@
 
 #include "app/posting.h"
 #include "core/base/progress.h"
+#include "core/base/units.h"
 #include "core/kinematics/machine_model.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/tool_tip.h"
+#include "core/project/plot_input.h"
 
 #include <optional>
 #include <string>
@@ -24,20 +26,22 @@ struct PreviewOptions {
     bool against_light = false;
     std::optional<double> plate; ///< its thickness, mm; not given: the depth of the cut and half a millimetre
     bool through = false;        ///< the path may go deeper than a plate whose thickness is given
-    double half_light = 0.3;     ///< what halves the light that goes through the plate, mm
+    double half_light =
+        project::PlotSettings().half_light; ///< what halves the light that goes through the plate, mm
 };
 
+/// Those of the workbench where nothing is said.
 struct CuttingOptions {
     std::string out = {};
     PreviewOptions preview = {};
-    std::string machine = "router-xyz";
-    PostChoice post = {.post = "linuxcnc-xyz"};
+    std::string machine = project::PlotSettings().machine;
+    PostChoice post = {.post = project::PlotSettings().post};
     std::string path_file = {};      ///< for the path itself; empty: none
     std::vector<double> origin = {}; ///< where x and y of the drawing begin; empty: at 0, 0
-    double feed_mm_per_min = 600.0;
-    double plunge_mm_per_min = 120.0;
-    double safe_height = 5.0;
-    double spindle_rpm = 10'000.0;
+    double feed_mm_per_min = to_mm_per_min(project::PlotSettings().level.cutting);
+    double plunge_mm_per_min = to_mm_per_min(project::PlotSettings().level.plunging);
+    double safe_height = project::PlotSettings().safe_height;
+    double spindle_rpm = project::PlotSettings().spindle_rpm;
 };
 
 /// Adds --machine, the options of posts and previews, feeds, safe height and spindle to `command`.

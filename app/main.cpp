@@ -16,6 +16,7 @@
 #include "app/commands/study_command.h"
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
+#include "app/output_files.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
 
@@ -89,7 +90,10 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "millwright: {}\nRun \"millwright --help\" for more.\n", parsed.what());
         return wrong_usage;
     }
-    return run(chosen);
+    return run([&] {
+        expect_outputs_apart(app);
+        return chosen();
+    });
 }
 
 } // namespace

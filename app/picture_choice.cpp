@@ -32,7 +32,8 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
         .add_option(
             "--region", choice.region, "Pixels from the top left: LEFT,TOP,WIDTH,HEIGHT; 0: up to the edge")
         ->delimiter(',')
-        ->expected(4);
+        ->expected(4)
+        ->allow_extra_args(false);
     command
         .add_option("--gray", choice.reading.gray, "Brightness of colours: mean (as the thesis) or luminance")
         ->transform(CLI::CheckedTransformer(gray_rules))

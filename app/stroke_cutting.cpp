@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot/left_alone.h"
 #include "core/plot/level_text.h"
 #include "core/plot/ordering.h"
 #include "core/plot/work_time.h"
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <string>
+#include <utility>
 
 namespace millwright::app {
 
@@ -55,18 +58,27 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     return cut;
 }
 
-void say(const char* what, const Strokes& strokes, const StrokeCutting& options) {
-    const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), Vec2::Zero());
-    fmt::print("{}: {:.3f} m, {} times down, {} by the thesis, {} by the planner\n",
+void say(const char* what, const Strokes& strokes, const Vec2& end, const StrokeCutting& options) {
+    const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), end);
+    fmt::print("{}: {}, {} by the thesis, {} by the planner\n",
                what,
-               time.distance() / 1000.0,
-               time.runs,
+               way_for_people(time),
                plot::time_for_people(time.seconds),
                plot::time_for_people(planned_seconds(plot::cut_path(strokes, cut_settings(strokes, options)),
                                                      options.cutting)));
 }
 
 } // namespace
+
+std::string way_for_people(const plot::WorkTime& time) {
+    constexpr double m = 1e-3;
+    return fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m in the air), {} {}",
+                       m * time.distance(),
+                       m * time.cut_length,
+                       m * time.travel_length,
+                       time.runs,
+                       time.runs == 1 ? "lift" : "lifts");
+}
 
 void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command.add_option("--side", options.plan.side, "Of closed strokes: on-line, outside or inside")
@@ -75,52 +87,68 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command
         .add_option(
             "--tool-diameter", options.plan.tool_diameter, "Of an end mill, for --side and --preview, mm")
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_option("--corners", options.plan.corners, "For --side: sharp or round")
         ->transform(CLI::CheckedTransformer(corner_kinds))
         ->default_str("sharp");
-    command.add_option(
-        "--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm");
+    command
+        .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm")
+        ->check(CLI::PositiveNumber);
     command.add_option("--hatch-angle", options.hatch_angle_deg, "Of the lines to x, degrees");
     command.add_flag("--hatch-cross", options.plan.hatch_cross, "And once more at right angles");
-    command.add_option(
-        "--contours", options.plan.contour_pitch, "Fill closed strokes with outlines so far apart, mm");
+    command
+        .add_option(
+            "--contours", options.plan.contour_pitch, "Fill closed strokes with outlines so far apart, mm")
+        ->check(CLI::PositiveNumber);
     command.add_flag("--order", options.plan.order, "Reorder and reverse strokes for less travel");
-    command.add_option("--link", options.plan.link, "Join strokes over gaps shorter than so many mm");
+    command.add_option("--link", options.plan.link, "Join strokes over gaps shorter than so many mm")
+        ->check(CLI::NonNegativeNumber);
     command.add_flag("--inside", options.plan.link_inside, "Links keep to their side of closed strokes");
-    command.add_option("--depth", options.depth, "Below the top, mm")->capture_default_str();
-    command.add_option("--passes", options.passes, "Cuts to the depth")->capture_default_str();
+    command.add_option("--depth", options.depth, "Below the top, mm")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--passes", options.passes, "Cuts to the depth")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command
         .add_option("--level", options.levels, "Of one pen: PEN:depth=MM,passes=N,feed=F,order=N,tool=N,off")
         ->allow_extra_args(false);
     command.add_option("--tabs", options.tabs.count, "Left standing on closed strokes")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--tab-width", options.tabs.width, "mm")->capture_default_str();
-    command.add_option("--tab-height", options.tabs.height, "mm")->capture_default_str();
+    command.add_option("--tab-width", options.tabs.width, "mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--tab-height", options.tabs.height, "mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     add_cutting_options(command, options.cutting);
 }
 
 void cut_strokes(const Strokes& drawn,
+                 const Vec2& end,
                  const StrokeCutting& options,
                  const std::vector<std::string>& header,
                  const Progress& progress) {
     plot::StrokePlan plan = options.plan;
     plan.hatch_angle = from_degrees(options.hatch_angle_deg);
-    auto [strokes, open] = plot::shaped(drawn, plan);
-    if (strokes.empty()) {
+    plot::ShapedStrokes shaped = plot::shaped(drawn, plan);
+    if (shaped.strokes.empty()) {
         throw Error("there is nothing to cut");
     }
-    if (open > 0) {
-        fmt::print(stderr, "millwright: {} strokes are not closed and stay as they are\n", open);
+    if (const std::string left_alone = plot::left_alone(drawn, shaped); !left_alone.empty()) {
+        fmt::print(stderr, "millwright: {}\n", left_alone);
     }
-    say("as drawn", strokes, options);
+    Strokes strokes = std::move(shaped.strokes);
+    say("as drawn", strokes, end, options);
     if (plan.order) {
-        strokes = plot::ordered(strokes, Vec2::Zero(), progress.part(0.0, 0.3));
-        say("ordered", strokes, options);
+        strokes = plot::ordered(strokes, Vec2::Zero(), end, progress.part(0.0, 0.3));
+        say("ordered", strokes, end, options);
     }
     if (plan.link > 0.0) {
         strokes = plot::linked(strokes, drawn, plan);
-        say("linked", strokes, options);
+        say("linked", strokes, end, options);
     }
     write_program(plot::cut_path(strokes, cut_settings(strokes, options)),
                   options.cutting,

@@ -82,12 +82,16 @@ void add_picture_engrave(CLI::App& group, Command& chosen) {
     command.add_option("--mode", options->mode, "halftone: dots as large as it is dark; dither: as many")
         ->check(CLI::IsMember({"halftone", "dither"}))
         ->capture_default_str();
-    command.add_option("--pitch", options->pitch, "Between dots, mm")->capture_default_str();
+    command.add_option("--pitch", options->pitch, "Between dots, mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
         ->capture_default_str();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
         ->capture_default_str();
-    command.add_option("--depth", options->depth, "Of dithered dots, mm")->capture_default_str();
+    command.add_option("--depth", options->depth, "Of dithered dots, mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command.add_flag("--join", options->join, "Dithered neighbours in a row become one cut");
     add_cutting_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return engrave(*options); }; });

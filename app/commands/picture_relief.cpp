@@ -59,11 +59,6 @@ int relief(const Options& options) {
     const plot::CutPath path =
         plot::relief_path(field, plan_of(options, tip), work.progress().part(0.2, 0.5));
     work.finish();
-    const plot::PathLengths lengths = plot::lengths(path);
-    fmt::print("{} points, cuts {:.3f} m, {:.3f} m in the air\n",
-               path.size(),
-               lengths.cut / 1000.0,
-               lengths.travel / 1000.0);
     write_program(path,
                   options.cutting,
                   tip,
@@ -80,23 +75,35 @@ void add_picture_relief(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
     add_picture_options(command, options->picture);
-    command.add_option("--depth", options->depth, "Of white, mm")->required();
+    command.add_option("--depth", options->depth, "Of white, mm")->check(CLI::PositiveNumber)->required();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
         ->capture_default_str();
     command.add_option("--out", options->cutting.out, "G-code file")->required();
-    command.add_option("--step-over", options->step_over, "Between rows, mm");
+    command.add_option("--step-over", options->step_over, "Between rows, mm")->check(CLI::PositiveNumber);
     command.add_option("--merge", options->merge, "Join moves that stay so near above the path, mm")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--depth-per-pass", options->depth_per_pass, "Rough in passes so deep, mm");
+    command.add_option("--depth-per-pass", options->depth_per_pass, "Rough in passes so deep, mm")
+        ->check(CLI::PositiveNumber);
     command.add_option("--allowance", options->allowance, "Roughing leaves so much, mm")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--rough-step-over", options->rough_step_over, "Between rows of roughing, mm");
-    command.add_option("--frame", options->frame, "Cut it out of a plate so thick, mm");
+    command.add_option("--rough-step-over", options->rough_step_over, "Between rows of roughing, mm")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--frame", options->frame, "Cut it out of a plate so thick, mm")
+        ->check(CLI::PositiveNumber);
     command.add_option("--frame-margin", options->frame_margin, "Between picture and frame, mm")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--tabs", options->tabs.count, "That hold the frame")->capture_default_str();
-    command.add_option("--tab-width", options->tabs.width, "mm")->capture_default_str();
-    command.add_option("--tab-height", options->tabs.height, "mm")->capture_default_str();
+    command.add_option("--tabs", options->tabs.count, "That hold the frame")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--tab-width", options->tabs.width, "mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--tab-height", options->tabs.height, "mm")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     add_cutting_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return relief(*options); }; });
 }

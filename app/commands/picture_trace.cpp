@@ -57,6 +57,7 @@ int trace(const Options& options) {
         return 0;
     }
     cut_strokes(plot::strokes_of(paths, sized.pitch, options.chord_tolerance),
+                Vec2::Zero(),
                 options.cutting,
                 {"traced: " + std::filesystem::path(options.picture.file).filename().string()},
                 work.progress());
@@ -74,10 +75,12 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
     command.add_option("--threshold", tracing.threshold, "What is not brighter is dark, 0 to 1")
         ->capture_default_str();
     command.add_option("--speckle", tracing.speckle, "Leave out what has so few pixels")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command.add_option("--corner", tracing.corner, "0: corners stay, 1.334: all are smoothed")
         ->capture_default_str();
     command.add_option("--tolerance", tracing.tolerance, "Join curves that change so little, pixels")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command
         .add_option(
@@ -85,6 +88,7 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
         ->transform(CLI::CheckedTransformer(turn_policies))
         ->default_str("minority");
     command.add_option("--chords", options->chord_tolerance, "Of a program: as near to the curves, mm")
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
     add_stroke_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return trace(*options); }; });

@@ -118,16 +118,6 @@ void print_notices(const Plot& plot, const std::string& file) {
     }
 }
 
-/// A plot that is to become something else has to have strokes.
-Plot read_to_use(const Options& options) {
-    Plot plot = read(options);
-    print_notices(plot, options.file);
-    if (plot.strokes.empty()) {
-        throw Error("there is nothing to draw in it", options.file);
-    }
-    return plot;
-}
-
 nlohmann::ordered_json json_of(const Plot& plot) {
     nlohmann::ordered_json answer;
     answer["commands"] = plot.commands;
@@ -144,9 +134,11 @@ nlohmann::ordered_json json_of(const Plot& plot) {
     if (box) {
         answer["extents_mm"] = {box->lower.x(), box->lower.y(), box->upper.x(), box->upper.y()};
     }
-    answer["draw_mm"] = plot::draw_length(plot.strokes);
-    answer["air_mm"] = plot.air;
-    answer["time_s"] = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end).seconds;
+    const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
+    answer["draw_mm"] = time.cut_length;
+    answer["air_mm"] = time.travel_length;
+    answer["lifts"] = time.runs;
+    answer["time_s"] = time.seconds;
     answer["strokes"] = plot.strokes.size();
     answer["pen_use"] = nlohmann::ordered_json::array();
     for (const auto& [pen, use] : plot.pens) {
@@ -166,14 +158,31 @@ nlohmann::ordered_json json_of(const Plot& plot) {
     return answer;
 }
 
+/// A file that draws nothing is no plot, or not the one that was meant.
+void expect_strokes(const Plot& plot, const std::string& file) {
+    if (plot.strokes.empty()) {
+        throw Error(
+            plot.commands > 0 ? "there is nothing to draw in it" : "there is no command of HPGL in it", file);
+    }
+}
+
+/// A plot that is to become something else has to have strokes.
+Plot read_to_use(const Options& options) {
+    Plot plot = read(options);
+    print_notices(plot, options.file);
+    expect_strokes(plot, options.file);
+    return plot;
+}
+
 int info(const Options& options) {
-    const Plot plot = read(options);
     if (options.json) {
+        const Plot plot = read(options);
         fmt::print("{}\n",
                    json_of(plot).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        expect_strokes(plot, options.file);
         return 0;
     }
-    print_notices(plot, options.file);
+    const Plot plot = read_to_use(options);
     const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
     fmt::print("{} commands, {} strokes of {} pens\n",
                plot.commands,
@@ -186,10 +195,7 @@ int info(const Options& options) {
                    box->lower.y(),
                    box->upper.y());
     }
-    fmt::print("draws {:.3f} m, {:.3f} m in the air, {}\n",
-               time.cut_length / 1000.0,
-               plot.air / 1000.0,
-               plot::time_for_people(time.seconds));
+    fmt::print("{}, {} by the thesis\n", way_for_people(time), plot::time_for_people(time.seconds));
     return 0;
 }
 
@@ -213,7 +219,9 @@ int view(const Options& options) {
 }
 
 int toolpath(const Options& options) {
-    cut_strokes(read_to_use(options).strokes,
+    const Plot plot = read_to_use(options);
+    cut_strokes(plot.strokes,
+                plot.end,
                 options.cutting,
                 {"plot: " + std::filesystem::path(options.file).filename().string()});
     return 0;
@@ -228,7 +236,8 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
                     options->unit,
                     "Plotter unit: nominal (0.025 mm), table (0.02488 mm), mm, or mm of each axis as X,Y")
         ->capture_default_str();
-    command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm");
+    command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm")
+        ->check(CLI::PositiveNumber);
     command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
         ->transform(CLI::CheckedTransformer(by_id(project::fill_modes())))
         ->default_str("hatched");
@@ -247,8 +256,12 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     CLI::App& command =
         add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
     plot::DecodeSettings& decoding = options->decode;
-    command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")->required();
-    command.add_option("--period", decoding.period, "Between two points, s")->required();
+    command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")
+        ->check(CLI::PositiveNumber)
+        ->required();
+    command.add_option("--period", decoding.period, "Between two points, s")
+        ->check(CLI::PositiveNumber)
+        ->required();
     command.add_option("--out", options->out, "Point file")->required();
     command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
         ->transform(CLI::CheckedTransformer(modes))
@@ -256,10 +269,13 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     command.add_option("--rounding", decoding.rounding, "Of the number of steps of a segment")
         ->transform(CLI::CheckedTransformer(roundings))
         ->default_str("nearest");
-    command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s");
-    command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s");
-    command.add_option("--acceleration", decoding.acceleration, "Mode path: at the most, mm/s^2");
-    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3");
+    command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--acceleration", decoding.acceleration, "Mode path: at the most, mm/s^2")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3")->check(CLI::PositiveNumber);
     command.add_option("--pen-up", decoding.pen_up_z, "Z with the pen up, mm")->capture_default_str();
     command.add_option("--pen-down", decoding.pen_down_z, "Z with the pen down, mm")->capture_default_str();
     command.add_option("--decimals", options->decimals, "Of the point file")

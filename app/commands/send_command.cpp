@@ -158,7 +158,8 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->type_name("NAME");
     command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")
         ->delimiter(',')
-        ->expected(3);
+        ->expected(3)
+        ->allow_extra_args(false);
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
     command.add_option("--axes", options->machine.controller.axes, "Axes of the machine, for linuxcnc")

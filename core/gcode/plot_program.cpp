@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace millwright::gcode {
@@ -45,9 +46,7 @@ public:
         constexpr std::size_t others = 8; // up, spindle, end
         program_.blocks.reserve(program_.blocks.size() + path.size() + others);
         if (!path.empty()) {
-            // Up first: nobody knows what stands between the tool and the first stroke.
-            move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));
-            spindle(true);
+            begin_with(path);
         }
         bool first = true;
         for (const plot::CutPoint& point : path) {
@@ -84,6 +83,20 @@ private:
             add(on ? BlockKind::spindle_on : BlockKind::spindle_off).spindle_rpm =
                 on ? settings_.spindle_rpm : 0.0;
         }
+    }
+
+    /// The first tool, then up: nobody knows what stands between the tool and the first stroke.
+    void begin_with(const plot::CutPath& path) {
+        const bool changes = std::ranges::any_of(
+            path, [](const plot::CutPoint& point) { return point.move == plot::CutMove::tool_change; });
+        const std::string tool = fmt::format("tool {}", path.front().tool);
+        if (changes) { // another may be in the spindle from the last time
+            add(BlockKind::pause).text = "put in " + tool;
+        } else {
+            add(BlockKind::comment).text = tool;
+        }
+        move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));
+        spindle(true);
     }
 
     void change_tool(int tool) {
@@ -150,6 +163,59 @@ private:
 };
 
 } // namespace
+
+namespace {
+
+/// So far that all from `low` to `high` is inside of the axis, where it has the room.
+double shift_into(const kinematics::MachineAxis& axis, double low, double high) {
+    constexpr double steps = 1e3; // a thousandth of a millimetre, away from the limit
+    return (std::ceil(std::max(0.0, axis.min - low) * steps) -
+            std::ceil(std::max(0.0, high - axis.max) * steps)) /
+           steps;
+}
+
+} // namespace
+
+void expect_on_table(const plot::CutPath& path, const kinematics::MachineModel& machine, const Vec2& origin) {
+    if (path.empty()) {
+        return;
+    }
+    Vec3 low = path.front().at;
+    Vec3 high = low;
+    for (const plot::CutPoint& point : path) {
+        low = low.cwiseMin(point.at);
+        high = high.cwiseMax(point.at);
+    }
+    Vec2 better = origin;
+    std::string fault;
+    bool fits = true;
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        const auto n = static_cast<Eigen::Index>(std::string_view("XYZ").find(axis.letter));
+        if (n < 0 || n > 1) {
+            continue;
+        }
+        constexpr double rounding = 1e-4; // of a program's targets
+        const bool below = low[n] < axis.min - rounding;
+        if (fault.empty() && (below || high[n] > axis.max + rounding)) {
+            fault = fmt::format("axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} mm",
+                                axis.letter,
+                                below ? low[n] : high[n],
+                                axis.min,
+                                axis.max);
+        }
+        better[n] += shift_into(axis, low[n], high[n]);
+        fits = fits && high[n] - low[n] <= axis.max - axis.min;
+    }
+    if (fault.empty()) {
+        return;
+    }
+    const Vec3 size = high - low;
+    const std::string hint =
+        fits ? fmt::format(
+                   "put its origin at {0:.3f}, {1:.3f}, as --origin {0:.3f},{1:.3f}", better.x(), better.y())
+             : fmt::format("it is {:.1f} x {:.1f} mm, too large for this machine", size.x(), size.y());
+    throw Error(fault, {}, hint);
+}
 
 std::string plot_axes(const kinematics::MachineModel& machine) {
     std::string letters;

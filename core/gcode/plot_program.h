@@ -21,13 +21,19 @@ struct PlotProgramSettings {
     int length_decimals = 4;              ///< targets are rounded to them, as they are written
 };
 
+/// Throws Error for the first axis that cannot go where the path does, which was moved by `origin`; its hint
+/// says which origin would do, if any does. Heights are left to those who write the program.
+void expect_on_table(const plot::CutPath& path,
+                     const kinematics::MachineModel& machine,
+                     const Vec2& origin = Vec2::Zero());
+
 /// The letters of a machine's axes, for PlotProgramSettings. Throws Error unless they are X, Y and Z.
 [[nodiscard]] std::string plot_axes(const kinematics::MachineModel& machine);
 
 /// Each block tells the point of the path where it ends, from 0. Rapids go where the path travels, up before
-/// across; each change of tool stops the spindle and waits for a person. Points that rounding makes equal are
-/// left out. Throws Error for a path longer than most_program_points, Defect if a point is not finite, or for
-/// other axes.
+/// across. The first tool is named at the start; a program that changes tools waits for a person there, and
+/// at each change, with the spindle stopped. Points that rounding makes equal are left out. Throws Error for
+/// a path longer than most_program_points, Defect if a point is not finite, or for other axes.
 [[nodiscard]] Program plot_program(const plot::CutPath& path, const PlotProgramSettings& settings = {});
 
 } // namespace millwright::gcode

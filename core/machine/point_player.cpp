@@ -56,7 +56,9 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
     std::set<std::pair<std::size_t, bool>> told;
     const auto tell = [&](std::size_t n, std::size_t axis, bool place, std::string sentence) {
         if (told.insert({axis, place}).second) {
-            found.push_back({{file, static_cast<int>(n) + 1, 0, -1}, std::move(sentence), {}});
+            found.push_back({{file, static_cast<int>(n) + 1, 0, -1},
+                             std::move(sentence),
+                             place ? "" : "decode it with a lower velocity, or round the samples up"});
         }
     };
     for (std::size_t n = 0; n < points.size(); ++n) {

@@ -1,11 +1,17 @@
 #include "core/plot/compensation.h"
 
 #include "core/base/error.h"
+#include "core/plot/internal/point_grid.h"
 
 #include <fmt/format.h>
 #include <polyclipping/clipper.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
 
 namespace millwright::plot {
 namespace {
@@ -57,6 +63,41 @@ Strokes closed_strokes(const Region& region, int pen) {
     return strokes;
 }
 
+/// Clipper begins its rings anywhere and gives them in any order. Here each begins where it is nearest to the
+/// beginning of a ring as drawn, and they come in the order of those.
+Region begun_as(const Region& drawn, Region found) {
+    std::vector<Vec2> begins;
+    for (const Ring& ring : drawn) {
+        if (!ring.empty()) {
+            begins.push_back(ring.front());
+        }
+    }
+    const internal::PointGrid grid(begins);
+    std::vector<std::pair<int, Ring>> rings;
+    for (Ring& ring : found) {
+        std::size_t first = 0;
+        int like = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const int near = grid.nearest(ring[n]);
+            const double distance = (begins[static_cast<std::size_t>(near)] - ring[n]).norm();
+            if (distance < least) {
+                least = distance;
+                like = near;
+                first = n;
+            }
+        }
+        std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
+        rings.emplace_back(like, std::move(ring));
+    }
+    std::ranges::stable_sort(rings, {}, &std::pair<int, Ring>::first);
+    found.clear();
+    for (auto& [like, ring] : rings) {
+        found.push_back(std::move(ring));
+    }
+    return found;
+}
+
 } // namespace
 
 Region offset(const Region& region, double distance, Corners corners, double arc_tolerance) {
@@ -81,7 +122,8 @@ Strokes compensated(const Region& region, const CompensationSettings& settings, 
     }
     const double radius = settings.tool_diameter / 2.0;
     const double distance = settings.side == CutterSide::outside ? radius : -radius;
-    return closed_strokes(offset(region, distance, settings.corners, settings.arc_tolerance), pen);
+    return closed_strokes(
+        begun_as(region, offset(region, distance, settings.corners, settings.arc_tolerance)), pen);
 }
 
 Strokes contour_hatch(const Region& region, double first, double pitch, int pen) {

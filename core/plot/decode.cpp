@@ -93,7 +93,9 @@ private:
         if (settings_.acceleration) {
             limited_line(to, velocity);
         } else {
-            segment(to, velocity, settings_.rounding);
+            // These are the machine's own speeds: rounding never makes them faster.
+            const bool exact = settings_.rounding == SampleRounding::exact;
+            segment(to, velocity, exact ? SampleRounding::exact : SampleRounding::up);
         }
     }
 

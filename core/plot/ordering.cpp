@@ -10,7 +10,7 @@
 namespace millwright::plot {
 namespace {
 
-/// A stroke in its place in the order, perhaps backwards.
+/// A stroke in its place in the order; an open one perhaps backwards.
 struct Visit {
     std::size_t stroke = 0;
     bool reversed = false;
@@ -21,33 +21,97 @@ constexpr int most_rounds = 20;
 constexpr std::size_t longest_reversal = 50'000; // so that a million strokes do not take for ever
 constexpr double least_gain = 1e-9;              // mm
 
+/// Exactly, so that nothing is drawn otherwise by beginning elsewhere.
+bool is_closed(const Stroke& stroke) {
+    return stroke.points.size() > 2 && stroke.points.front() == stroke.points.back();
+}
+
 /// The order of the strokes of one pen, between two fixed places.
 class Tour {
 public:
     Tour(const std::vector<const Stroke*>& strokes, const Vec2& start, const Vec2& end)
-        : strokes_(strokes), start_(start), end_(end) {}
+        : strokes_(strokes), start_(start), end_(end), begins_(strokes.size(), 0) {}
 
+    /// To the nearest end of an open stroke or the nearest point of a closed one, again and again.
     void nearest_neighbours(const Progress& progress) {
-        internal::PointGrid grid(ends());
+        const Ways ways = ways_in();
+        internal::PointGrid grid(ways.places);
         Vec2 at = start_;
         while (!grid.empty()) {
             if (visits_.size() % 1024 == 0) {
                 progress.check();
             }
-            const int end = grid.nearest(at);
-            const std::size_t stroke = static_cast<std::size_t>(end) / 2;
-            grid.remove(static_cast<int>(2 * stroke));
-            grid.remove(static_cast<int>(2 * stroke + 1));
-            visits_.push_back({stroke, end % 2 == 1});
+            const auto way = static_cast<std::size_t>(grid.nearest(at));
+            const std::size_t stroke = ways.strokes[way];
+            const std::size_t place = way - ways.first[stroke];
+            for (std::size_t n = ways.first[stroke]; n < ways.first[stroke + 1]; ++n) {
+                grid.remove(static_cast<int>(n));
+            }
+            const bool closed = is_closed(*strokes_[stroke]);
+            begins_[stroke] = closed ? place : 0;
+            visits_.push_back({stroke, !closed && place == 1});
             at = exit(visits_.size() - 1);
         }
     }
 
-    /// Reverses stretches of the order as long as that makes the travel shorter.
-    void two_opt(const Progress& progress) {
-        find_neighbours(progress);
+    /// Reverses stretches of the order, and begins closed strokes elsewhere, as long as that makes the travel
+    /// shorter.
+    void improve(const Progress& progress) {
         places_.resize(visits_.size());
         note_places(0, visits_.size());
+        constexpr int most_turns = 4;
+        for (int turn = 0; turn < most_turns; ++turn) {
+            two_opt(progress);
+            if (!begin_nearer(progress)) {
+                return;
+            }
+        }
+    }
+
+    [[nodiscard]] Strokes strokes() const {
+        Strokes order;
+        order.reserve(visits_.size());
+        for (const Visit& visit : visits_) {
+            order.push_back(*strokes_[visit.stroke]);
+            std::vector<Vec2>& points = order.back().points;
+            if (is_closed(order.back())) { // the way around stays: it says on which side the tool cuts
+                points.pop_back();
+                std::ranges::rotate(points,
+                                    points.begin() + static_cast<std::ptrdiff_t>(begins_[visit.stroke]));
+                points.push_back(points.front());
+            } else if (visit.reversed) {
+                std::ranges::reverse(points);
+            }
+        }
+        return order;
+    }
+
+private:
+    /// Places where strokes can be entered: the two ends of an open one, every point of a closed one.
+    struct Ways {
+        std::vector<Vec2> places;
+        std::vector<std::size_t> strokes; ///< of each place
+        std::vector<std::size_t> first;   ///< place of each stroke, and one behind the last
+    };
+    [[nodiscard]] Ways ways_in() const {
+        Ways ways;
+        for (std::size_t n = 0; n < strokes_.size(); ++n) {
+            const std::vector<Vec2>& points = strokes_[n]->points;
+            ways.first.push_back(ways.places.size());
+            if (is_closed(*strokes_[n])) {
+                ways.places.insert(ways.places.end(), points.begin(), points.end() - 1);
+            } else {
+                ways.places.push_back(points.front());
+                ways.places.push_back(points.back());
+            }
+            ways.strokes.resize(ways.places.size(), n);
+        }
+        ways.first.push_back(ways.places.size());
+        return ways;
+    }
+
+    void two_opt(const Progress& progress) {
+        find_neighbours(progress);
         bool better = true;
         for (int round = 0; better && round < most_rounds; ++round) {
             better = false;
@@ -60,24 +124,50 @@ public:
         }
     }
 
-    [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+    /// Begins each closed stroke where the way there and on is the shortest. Whether one has moved.
+    bool begin_nearer(const Progress& progress) {
+        bool better = false;
+        for (std::size_t n = 0; n < visits_.size(); ++n) {
+            if (n % 1024 == 0) {
+                progress.check();
+            }
+            const std::size_t stroke = visits_[n].stroke;
+            const std::vector<Vec2>& points = strokes_[stroke]->points;
+            if (!is_closed(*strokes_[stroke])) {
+                continue;
+            }
+            const auto detour = [&](const Vec2& p) { return (p - before(n)).norm() + (after(n) - p).norm(); };
+            double least = detour(points[begins_[stroke]]) - least_gain;
+            for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+                if (const double found = detour(points[k]); found < least) {
+                    least = found;
+                    begins_[stroke] = k;
+                    better = true;
+                }
+            }
+        }
+        return better;
+    }
 
-private:
     [[nodiscard]] std::vector<Vec2> ends() const {
         std::vector<Vec2> points;
-        for (const Stroke* stroke : strokes_) {
-            points.push_back(stroke->points.front());
-            points.push_back(stroke->points.back());
+        for (std::size_t n = 0; n < strokes_.size(); ++n) {
+            points.push_back(begin_of(n));
+            points.push_back(end_of(n));
         }
         return points;
     }
+    [[nodiscard]] const Vec2& begin_of(std::size_t stroke) const {
+        return strokes_[stroke]->points[begins_[stroke]];
+    }
+    [[nodiscard]] const Vec2& end_of(std::size_t stroke) const {
+        return is_closed(*strokes_[stroke]) ? begin_of(stroke) : strokes_[stroke]->points.back();
+    }
     [[nodiscard]] const Vec2& entry(std::size_t n) const {
-        const Stroke& stroke = *strokes_[visits_[n].stroke];
-        return visits_[n].reversed ? stroke.points.back() : stroke.points.front();
+        return visits_[n].reversed ? end_of(visits_[n].stroke) : begin_of(visits_[n].stroke);
     }
     [[nodiscard]] const Vec2& exit(std::size_t n) const {
-        const Stroke& stroke = *strokes_[visits_[n].stroke];
-        return visits_[n].reversed ? stroke.points.front() : stroke.points.back();
+        return visits_[n].reversed ? begin_of(visits_[n].stroke) : end_of(visits_[n].stroke);
     }
     [[nodiscard]] const Vec2& before(std::size_t n) const { return n == 0 ? start_ : exit(n - 1); }
     [[nodiscard]] const Vec2& after(std::size_t n) const {
@@ -151,24 +241,13 @@ private:
     const std::vector<const Stroke*>& strokes_;
     Vec2 start_;
     Vec2 end_;
+    std::vector<std::size_t> begins_; ///< point of each closed stroke where it begins; 0 of the others
     std::vector<Visit> visits_;
     std::vector<std::size_t> places_;         ///< of each stroke in the order
     std::vector<std::vector<int>> near_ends_; ///< of each end, the ends near it
     std::vector<int> near_start_;
     std::vector<int> near_end_;
 };
-
-Strokes in_order(const std::vector<const Stroke*>& strokes, const std::vector<Visit>& visits) {
-    Strokes order;
-    order.reserve(visits.size());
-    for (const Visit& visit : visits) {
-        order.push_back(*strokes[visit.stroke]);
-        if (visit.reversed) {
-            std::ranges::reverse(order.back().points);
-        }
-    }
-    return order;
-}
 
 /// The strokes of each pen, pens in the order in which they first draw.
 std::vector<std::vector<const Stroke*>> by_pen(const Strokes& strokes) {
@@ -186,20 +265,20 @@ std::vector<std::vector<const Stroke*>> by_pen(const Strokes& strokes) {
 
 } // namespace
 
-Strokes ordered(const Strokes& strokes, const Vec2& start, const Progress& progress) {
+Strokes ordered(const Strokes& strokes, const Vec2& start, const Vec2& end, const Progress& progress) {
     Strokes found;
     found.reserve(strokes.size());
     Vec2 at = start;
     for (const auto& group : by_pen(strokes)) {
-        Tour tour(group, at, start);
+        Tour tour(group, at, end);
         tour.nearest_neighbours(progress);
-        tour.two_opt(progress);
-        for (Stroke& stroke : in_order(group, tour.visits())) {
+        tour.improve(progress);
+        for (Stroke& stroke : tour.strokes()) {
             found.push_back(std::move(stroke));
         }
         at = found.back().points.back();
     }
-    return air_length(found, start, start) < air_length(strokes, start, start) ? found : strokes;
+    return air_length(found, start, end) < air_length(strokes, start, end) ? found : strokes;
 }
 
 } // namespace millwright::plot

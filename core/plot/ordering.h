@@ -6,11 +6,13 @@
 
 namespace millwright::plot {
 
-/// The same strokes, some reversed, with little air travel: nearest neighbours first, then 2-opt among the
-/// near ones. Pens keep their order (in which they first draw), with all strokes of a pen together. From
-/// `start`, and back to it. Never more air travel than the order given: where that is not beaten, it is what
-/// comes back. Deterministic. Throws Cancelled through `progress`.
-[[nodiscard]] Strokes
-ordered(const Strokes& strokes, const Vec2& start = Vec2::Zero(), const Progress& progress = Progress());
+/// The same strokes with little air travel from `start` to `end`, some reversed, closed ones begun at another
+/// of their points: nearest neighbours first, then 2-opt among the near ones. Pens keep their order (in which
+/// they first draw), with all strokes of a pen together. Never more air travel than the order given: where
+/// that is not beaten, it is what comes back. Deterministic. Throws Cancelled through `progress`.
+[[nodiscard]] Strokes ordered(const Strokes& strokes,
+                              const Vec2& start = Vec2::Zero(),
+                              const Vec2& end = Vec2::Zero(),
+                              const Progress& progress = Progress());
 
 } // namespace millwright::plot

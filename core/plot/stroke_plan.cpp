@@ -111,7 +111,7 @@ ShapedStrokes planned(const Strokes& drawn, const StrokePlan& plan, const Progre
     ShapedStrokes result = shaped(drawn, plan);
     progress.check();
     if (plan.order) {
-        result.strokes = ordered(result.strokes, Vec2::Zero(), progress);
+        result.strokes = ordered(result.strokes, Vec2::Zero(), Vec2::Zero(), progress);
     }
     result.strokes = linked(result.strokes, drawn, plan);
     return result;

@@ -3,6 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/plot/hpgl/reader.h"
+#include "core/plot/left_alone.h"
+#include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
 #include "core/plot/picture/finished_look.h"
@@ -11,6 +13,7 @@
 #include "core/project/internal/plot_view.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace millwright::project {
@@ -32,7 +35,7 @@ void PlotDerivation::make_path() {
     } else {
         const plot::Plot read = plot::read_hpgl_file(result_.input.file, settings_.hpgl);
         result_.notices = plot::notices(read, result_.input.file);
-        cut_strokes(read.strokes);
+        cut_strokes(read.strokes, read.end);
     }
     if (result_.path->empty()) {
         throw Error("there is nothing to cut", result_.input.file);
@@ -78,8 +81,8 @@ void PlotDerivation::cut_picture() {
     case PictureUse::relief:
         return cut_relief(picture, pitch);
     case PictureUse::outlines:
-        return cut_strokes(
-            plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords));
+        return cut_strokes(plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords),
+                           Vec2::Zero());
     case PictureUse::halftone:
         return use(plot::halftone(picture,
                                   pitch,
@@ -143,12 +146,22 @@ std::vector<plot::Level> PlotDerivation::levels_of(const plot::Strokes& strokes)
     return levels;
 }
 
-void PlotDerivation::cut_strokes(const plot::Strokes& drawn) {
-    const plot::Strokes planned = plot::planned(drawn, settings_.strokes, progress_.part(0.2, 0.4)).strokes;
+plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& drawn, const Vec2& end) {
+    plot::ShapedStrokes shaped = plot::shaped(drawn, settings_.strokes);
+    if (const std::string left_alone = plot::left_alone(drawn, shaped); !left_alone.empty()) {
+        result_.notices.push_back({.place = {.file = result_.input.file}, .message = left_alone, .hint = {}});
+    }
+    if (settings_.strokes.order) {
+        shaped.strokes = plot::ordered(shaped.strokes, Vec2::Zero(), end, progress_.part(0.2, 0.4));
+    }
+    return plot::linked(shaped.strokes, drawn, settings_.strokes);
+}
+
+void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
+    const plot::Strokes planned = plan_strokes(drawn, end);
     result_.drawn_strokes = drawn.size();
-    const Vec2 home = Vec2::Zero();
-    result_.as_drawn = plot::work_time(drawn, {}, home, home);
-    result_.as_planned = plot::work_time(planned, {}, home, home);
+    result_.as_drawn = plot::work_time(drawn, {}, Vec2::Zero(), end);
+    result_.as_planned = plot::work_time(planned, {}, Vec2::Zero(), end);
     result_.levels = levels_of(planned);
     std::vector<plot::Level> in_order = result_.levels;
     std::ranges::stable_sort(in_order, {}, &plot::Level::order);

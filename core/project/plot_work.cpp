@@ -23,6 +23,7 @@ std::string plot_program_text(const PlotResult& result, const fs::path& assets) 
     expects(result.path != nullptr, "there is a path to be written");
     const kinematics::MachineModel machine = kinematics::read_machine(
         machine_path(result.input.settings.machine, result.input.file.parent_path(), assets));
+    gcode::expect_on_table(*result.path, machine, result.input.settings.origin);
     const gcode::Program program =
         gcode::plot_program(*result.path,
                             {.machine = machine.name(),

@@ -118,30 +118,36 @@ TEST(PictureCommand, ReliefOverCutsNoPixelOfItsProgram) {
 TEST(PictureCommand, ReliefIsCutOutOfItsPlateWithTabs) {
     const ScratchFolder folder;
     const std::string file = (folder / "frame.ngc").string();
-    const Ended ended = run({"picture",
-                             "relief",
-                             "assets/samples/pictures/snail.png",
-                             "--width",
-                             "40",
-                             "--depth",
-                             "1",
-                             "--tool",
-                             "ball:2",
-                             "--step-over",
-                             "1",
-                             "--frame",
-                             "3",
-                             "--tabs",
-                             "3",
-                             "--out",
-                             file});
+    std::vector<std::string> command = {"picture",
+                                        "relief",
+                                        "assets/samples/pictures/snail.png",
+                                        "--width",
+                                        "40",
+                                        "--depth",
+                                        "1",
+                                        "--tool",
+                                        "ball:2",
+                                        "--step-over",
+                                        "1",
+                                        "--frame",
+                                        "3",
+                                        "--tabs",
+                                        "3",
+                                        "--out",
+                                        file};
+    const Ended outside = run(command); // the frame is around the picture, which begins at 0, 0
+    EXPECT_EQ(outside.exit_code, 1);
+    EXPECT_THAT(outside.err, HasSubstr("axis X would have to go to -2.100"));
+    EXPECT_THAT(outside.err, HasSubstr("--origin 2.100,2.100"));
+    command.insert(command.begin() + 2, {"--origin", "3,3"});
+    const Ended ended = run(command);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out,
-                testing::ContainsRegex("points, cuts [0-9]+.[0-9]+ m, [0-9]+.[0-9]+ m in the air"));
-    EXPECT_THAT(ended.out, testing::ContainsRegex("lines, [0-9]+:[0-9]+ min on XYZ router"));
+                testing::ContainsRegex("points: [0-9]+.[0-9]+ m at a feed, [0-9]+.[0-9]+ m at rapid"));
+    EXPECT_THAT(ended.out, testing::ContainsRegex("lines, [0-9]+:[0-9]+ min on forming table"));
     const std::vector<Place> way = places(content_of(file));
     EXPECT_NEAR(std::ranges::min(way, {}, &Place::z).z, -3.0, 1e-9);
-    EXPECT_NEAR(std::ranges::min(way, {}, &Place::x).x, -0.1 - 1.0 - 1.0, 1e-9);
+    EXPECT_NEAR(std::ranges::min(way, {}, &Place::x).x, 3.0 - 0.1 - 1.0 - 1.0, 1e-9);
     const auto on_tabs =
         std::ranges::count_if(way, [](const Place& p) { return std::abs(p.z + 2.0) < 1e-9; });
     EXPECT_GE(on_tabs, 6);

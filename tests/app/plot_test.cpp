@@ -1,6 +1,7 @@
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -59,7 +60,133 @@ TEST(PlotCommand, ToolpathIsAProgramWithoutErrors) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("linked: "));
     EXPECT_EQ(run({"gcode", "check", file}).exit_code, 0);
-    EXPECT_EQ(run({"gcode", "time", file, "--machine", "router-xyz"}).exit_code, 0);
+    EXPECT_EQ(run({"gcode", "time", file, "--machine", "forming-table"}).exit_code, 0);
+}
+
+// One drawing, one distance: info, its JSON and the first line of toolpath.
+TEST(PlotCommand, SaysOneDistanceEverywhere) {
+    const ScratchFolder folder;
+    for (const char* name : {"thesis-sign", "moves", "everyday"}) {
+        SCOPED_TRACE(name);
+        const std::string file = std::string("assets/samples/plot/") + name + ".plt";
+        const auto answer = nlohmann::json::parse(run({"plot", "info", file, "--json"}).out);
+        const double drawn = answer.at("draw_mm"), air = answer.at("air_mm"), lifts = answer.at("lifts");
+        EXPECT_NEAR(answer.at("time_s").get<double>(), drawn / 2.0 + air / 10.0 + 6.0 * lifts, 1e-6);
+        const std::string told = fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m in the air), {} lifts, ",
+                                             (drawn + air) / 1000.0,
+                                             drawn / 1000.0,
+                                             air / 1000.0,
+                                             lifts);
+        EXPECT_THAT(run({"plot", "info", file}).out, HasSubstr(told));
+        EXPECT_THAT(run({"plot", "toolpath", file, "--out", (folder / "out.ngc").string()}).out,
+                    HasSubstr("as drawn: " + told));
+    }
+}
+
+TEST(PlotCommand, OrderBringsTheToolToTheNearestCornerOfAClosedStroke) {
+    const ScratchFolder folder;
+    std::string shapes = "IN;SP1;";
+    for (const int x : {4400, 400, 2400}) {
+        shapes += fmt::format("PU{0},{1};PD{2},{1},{2},{3},{0},{3},{0},{1};", x + 800, 1200, x, 400);
+    }
+    write_content(folder / "shapes.plt", shapes + "PU0,0;SP0;");
+    const Ended ended = run({"plot",
+                             "toolpath",
+                             (folder / "shapes.plt").string(),
+                             "--side",
+                             "outside",
+                             "--order",
+                             "--out",
+                             (folder / "out.ngc").string()});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const std::size_t ordered = ended.out.find("ordered: ");
+    ASSERT_NE(ordered, std::string::npos) << ended.out;
+    // Along the lower edges to the third shape and back to the origin.
+    EXPECT_THAT(ended.out.substr(ordered), HasSubstr("0.218 m in the air")) << ended.out;
+}
+
+TEST(PlotCommand, WritesOverNothingThatItReads) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "line.plt").string();
+    const std::string plot = "IN;SP1;PU0,0;PD400,400;PU;SP;";
+    write_content(file, plot);
+    std::filesystem::create_symlink(file, folder / "link.plt");
+    const std::string link = (folder / "link.plt").string();
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"plot", "decode", file, "--velocity", "40", "--period", "0.01", "--out", file},
+             {"plot", "decode", file, "--velocity", "40", "--period", "0.01", "--out", link},
+             {"plot", "view", link, "--out", file},
+             {"plot", "toolpath", file, "--out", file},
+             {"plot", "toolpath", file, "--out", (folder / "o.ngc").string(), "--path", file}}) {
+        const Ended ended = run(command);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr("would write over FILE, which is read"));
+        EXPECT_EQ(content_of(file), plot);
+    }
+    const std::string out = (folder / "o.ngc").string();
+    EXPECT_THAT(run({"plot", "toolpath", file, "--out", out, "--path", out}).err,
+                HasSubstr("name the same file"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(PlotCommand, RefusesNumbersThatAreNone) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.ngc").string();
+    const auto refused = [&](const std::string& option, const std::string& value) {
+        const Ended ended = run({"plot", "toolpath", sample, "--out", out, option, value});
+        EXPECT_EQ(ended.exit_code, 2) << option << " " << value;
+        EXPECT_THAT(ended.err, HasSubstr(option));
+        EXPECT_FALSE(std::filesystem::exists(out));
+    };
+    for (const char* option :
+         {"--link", "--depth", "--hatch", "--feed", "--tool-diameter", "--safe-height"}) {
+        refused(option, "nan");
+        refused(option, "-1");
+    }
+    for (const char* option : {"--hatch", "--contours", "--passes", "--feed", "--plate"}) {
+        refused(option, "0");
+    }
+    for (const char* option : {"--velocity", "--period", "--travel-velocity"}) {
+        std::vector<std::string> command = {
+            "plot", "decode", sample, "--velocity", "40", "--period", "0.01", "--out", out};
+        command.insert(command.end(), {option, "0"});
+        if (std::string(option) != "--travel-velocity") {
+            command = {"plot", "decode", sample, "--out", out, option, "0"};
+        }
+        EXPECT_EQ(run(command).exit_code, 2) << option;
+    }
+    EXPECT_EQ(run({"plot", "play", sample, "--period", "0"}).exit_code, 2);
+}
+
+TEST(PlotCommand, SaysThatNothingIsClosedWhereItIsToBeFilled) {
+    const ScratchFolder folder;
+    write_content(folder / "open.plt", "IN;SP1;PU40,40;PD440,40,440,440;PU;SP;");
+    const Ended ended = run({"plot",
+                             "toolpath",
+                             (folder / "open.plt").string(),
+                             "--hatch",
+                             "1.5",
+                             "--out",
+                             (folder / "out.ngc").string()});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("no stroke is closed: none is filled or compensated"));
+}
+
+TEST(PlotCommand, InfoOfNoPlotFails) {
+    const ScratchFolder folder;
+    const auto info_of = [&](const std::string& bytes, std::vector<std::string> more) {
+        write_content(folder / "file.plt", bytes);
+        std::vector<std::string> command = {"plot", "info", (folder / "file.plt").string()};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--json"}}) {
+        EXPECT_EQ(info_of("", more).exit_code, 1);
+        EXPECT_THAT(info_of("", more).err, HasSubstr("there is no command of HPGL in it"));
+        EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("no command of HPGL"));
+        EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("there is nothing to draw in it"));
+    }
+    EXPECT_EQ(nlohmann::json::parse(info_of("IN;SP1;", {"--json"}).out).at("extents_mm"), nullptr);
 }
 
 // A square of 100 mm and a tool of 3 mm: 412 mm around, as in the thesis.
@@ -82,7 +209,7 @@ TEST(PlotCommand, ToolpathGoesAroundItsPartWithTheToolOutside) {
     EXPECT_THAT(ended.out, HasSubstr("by the planner"));
     const std::string text = content_of(file);
     for (const char* word :
-         {"X8.5000", "X111.5000", "Y8.5000", "Y111.5000", "Z-1.0000", "Z-2.0000", "F600.0000"}) {
+         {"X8.5000", "X111.5000", "Y8.5000", "Y111.5000", "Z-1.0000", "Z-2.0000", "F480.0000"}) {
         EXPECT_THAT(text, HasSubstr(word));
     }
     EXPECT_THAT(
@@ -102,11 +229,12 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
         return run(arguments).out;
     };
     // 40 mm of the square and 2.828 mm from and to the origin: 20 s, 0.28 s, and 6 s for the lift.
-    EXPECT_THAT(runs({}), HasSubstr("0.043 m, 1 times down, 0:26 min by the thesis, "));
+    EXPECT_THAT(runs({}),
+                HasSubstr("0.043 m (0.040 m drawn, 0.003 m in the air), 1 lift, 0:26 min by the thesis, "));
     EXPECT_THAT(runs({"--hatch", "1.5"}),
-                HasSubstr(", 8 times down")); // the square, lines at 1.5, 3, ... 10.5
-    EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 times down"));
-    EXPECT_THAT(runs({"--contours", "2"}), HasSubstr("times down"));
+                HasSubstr(", 8 lifts")); // the square, lines at 1.5, 3, ... 10.5
+    EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 lifts"));
+    EXPECT_THAT(runs({"--contours", "2"}), HasSubstr(" lifts, "));
     EXPECT_THAT(runs({"--hatch", "1.5", "--link", "3"}), HasSubstr("linked: "));
 }
 

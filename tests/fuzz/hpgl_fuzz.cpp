@@ -24,7 +24,7 @@ void read(std::string_view bytes, const ReaderSettings& settings) {
             }
         }
         expects(points <= settings.most_points, "a plot keeps to its budget");
-        expects(std::isfinite(plot.air) && is_finite(plot.end), "the way of the pen is finite");
+        expects(is_finite(plot.end), "the way of the pen is finite");
         for (const Diagnostic& diagnostic : plot.diagnostics) {
             expects(diagnostic.place.byte >= 0 && diagnostic.place.byte <= std::ssize(bytes) &&
                         !diagnostic.message.empty(),

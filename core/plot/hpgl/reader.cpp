@@ -63,10 +63,14 @@ private:
         } else if (!take_numbers(row, command)) {
             return false;
         }
+        const Pen::Mark before = run_.pen.mark();
         try {
             row.follow(run_, {.command = command, .numbers = numbers_});
             return true;
         } catch (const Refusal& refusal) {
+            if (row.moves) {
+                run_.pen.take_back(before);
+            }
             problems_.add(command.byte, refusal.message);
             return false;
         }

@@ -39,7 +39,6 @@ struct Plot {
     Strokes strokes;
     std::map<int, PenUse> pens; ///< all that drew or that the file says something about
     Vec2 end = Vec2::Zero();    ///< where the pen is left, mm
-    double air = 0.0;           ///< length of all travel with the pen up, from the origin, mm
     std::int64_t commands = 0;
     std::vector<LeftOut> left_out;
     std::vector<Diagnostic> diagnostics; ///< in the order of the file, each with its byte

@@ -16,9 +16,7 @@ CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     }
     Level level;
     level.depth = *plan.plate;
-    const double deepest = -static_cast<double>(std::ranges::min(field.z));
-    const double per_pass =
-        relief.roughing ? relief.roughing->depth_per_pass : std::max(deepest, relief.tip.diameter / 2.0);
+    const double per_pass = relief.roughing ? relief.roughing->depth_per_pass : relief.tip.diameter / 2.0;
     constexpr double most_passes = 1e4;
     level.passes = static_cast<int>(std::clamp(std::ceil(level.depth / per_pass), 1.0, most_passes));
     level.cutting = relief.cutting;

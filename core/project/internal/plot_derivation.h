@@ -26,7 +26,9 @@ public:
 private:
     void cut_picture();
     void cut_relief(const plot::Picture& picture, double pitch);
-    void cut_strokes(const plot::Strokes& drawn);
+    void cut_strokes(const plot::Strokes& drawn, const Vec2& end);
+    /// Compensated, filled, ordered and linked, for a tool that comes from the origin and goes to `end`.
+    [[nodiscard]] plot::Strokes plan_strokes(const plot::Strokes& drawn, const Vec2& end);
     void use(plot::CutPath path);
     [[nodiscard]] plot::CutSettings cut_of(std::vector<plot::Level> levels) const;
     [[nodiscard]] std::vector<plot::Level> levels_of(const plot::Strokes& strokes) const;

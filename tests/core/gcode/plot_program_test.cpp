@@ -1,8 +1,10 @@
 // Programs that cut plots, read back by our own interpreter.
 #include "core/gcode/plot_program.h"
 
+#include "core/base/error.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/writer.h"
+#include "core/kinematics/machine_file.h"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,43 @@ TEST(PlotProgram, IsReadBackMoveByMove) {
     EXPECT_NEAR(cut, 2 * 400.0, 1e-6);
     EXPECT_NE(listing.text.find("change to tool 2"), std::string::npos);
     EXPECT_NE(listing.text.find("M2"), std::string::npos);
+}
+
+TEST(PlotProgram, TellsTheFirstToolBeforeTheSpindleTurns) {
+    const auto text_of = [](const plot::CutPath& path) { return write_gcode(plot_program(path), {}).text; };
+    const std::string two = text_of(square_and_hole());
+    const std::size_t told = two.find("put in tool 1");
+    ASSERT_NE(told, std::string::npos) << two;
+    EXPECT_LT(two.find("M0", told), two.find("M3"));
+    const plot::Strokes line = {{.pen = 4, .points = {{0.0, 0.0}, {10.0, 10.0}}}};
+    const std::string one = text_of(plot::cut_path(line, {.levels = {{.pen = 4, .tool = 7}}}));
+    EXPECT_LT(one.find("tool 7"), one.find("M3")) << one;
+    EXPECT_EQ(one.find("M0"), std::string::npos) << one; // nobody is waited for
+}
+
+TEST(PlotProgram, SaysWhichOriginKeepsItOnTheTable) {
+    const kinematics::MachineModel table = kinematics::read_machine("assets/machines/forming-table.json");
+    const auto path_over = [](double low, double high) {
+        return plot::CutPath{{.at = {low, 10.0, 5.0}}, {.at = {high, 20.0, -1.0}}};
+    };
+    const auto fault_of = [&](const plot::CutPath& path, const Vec2& origin) {
+        try {
+            expect_on_table(path, table, origin);
+        } catch (const Error& error) {
+            return error.diagnostic().message + "; " + error.diagnostic().hint;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(fault_of(path_over(0.0, 480.0), {0.0, 0.0}), "");
+    EXPECT_EQ(fault_of(path_over(-1.5, 100.0), {0.0, 0.0}),
+              "axis X would have to go to -1.500, outside 0.000 ... 480.000 mm; "
+              "put its origin at 1.500, 0.000, as --origin 1.500,0.000");
+    EXPECT_EQ(fault_of(path_over(100.0, 500.0), {50.0, 5.0}),
+              "axis X would have to go to 500.000, outside 0.000 ... 480.000 mm; "
+              "put its origin at 30.000, 5.000, as --origin 30.000,5.000");
+    EXPECT_NE(fault_of(path_over(-100.0, 500.0), {0.0, 0.0}).find("too large for this machine"),
+              std::string::npos);
+    EXPECT_EQ(fault_of({}, {0.0, 0.0}), "");
 }
 
 TEST(PlotProgram, MovesUpBeforeAcross) {

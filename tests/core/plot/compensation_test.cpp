@@ -54,6 +54,20 @@ TEST(Compensation, PathsOfTheThesisHaveTheirLengths) {
     EXPECT_NEAR(draw_length(rounded), 400.0 + 2.0 * pi * 1.5, 0.02);
 }
 
+// Clipper gives rings in its own order and begins them at their top.
+TEST(Compensation, BeginsWhereTheDrawingDoesAndKeepsItsOrder) {
+    Region shapes;
+    for (const double x : {120.0, 40.0, 80.0, 0.0}) {
+        shapes.push_back({{x, 0.0}, {x + 20.0, 0.0}, {x + 20.0, 20.0}, {x, 20.0}});
+    }
+    const Strokes paths = compensated(shapes, {.tool_diameter = 3.0});
+    ASSERT_EQ(paths.size(), shapes.size());
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+        EXPECT_LT((paths[n].points.front() - shapes[n].front()).norm(), 1.5 * std::sqrt(2.0) + 1e-6) << n;
+        EXPECT_EQ(paths[n].points.front(), paths[n].points.back());
+    }
+}
+
 TEST(Compensation, HolesAreKeptAndThoseTooSmallHaveNoPath) {
     const Region plate = {square(0.0, 100.0), square(30.0, 70.0), square(10.0, 12.0)};
     const Strokes paths = compensated(plate, {.tool_diameter = 3.0});

@@ -66,6 +66,23 @@ TEST(Decoding, PointFileIsThatOfTheThesis) {
     }
 }
 
+// A machine that is told its own greatest speed refuses points that are farther apart than that.
+TEST(Decoding, TravelIsNeverFasterThanItsVelocity) {
+    const Strokes strokes = {{.pen = 1, .points = {{7.03, 3.1}, {8.0, 3.1}}}};
+    for (const auto rounding : {SampleRounding::down, SampleRounding::nearest, SampleRounding::exact}) {
+        DecodeSettings settings = steps_of(0.4);
+        settings.rounding = rounding;
+        settings.pen_up_z = 2.1;
+        settings.end = Vec2(0.0, 0.0);
+        const auto points = decode(strokes, settings);
+        for (std::size_t n = 1; n < points.size(); ++n) {
+            if (points[n].z() > 0.0 || points[n - 1].z() > 0.0) {
+                EXPECT_LE((points[n] - points[n - 1]).norm(), 0.4 + 1e-9);
+            }
+        }
+    }
+}
+
 TEST(Decoding, RoundingUpAndExactTakeOneStepMore) {
     DecodeSettings settings = steps_of(0.4);
     settings.rounding = SampleRounding::up;

@@ -78,6 +78,85 @@ TEST(StrokeOrdering, ComesNearTheBestOrder) {
     }
 }
 
+Stroke ring_of(const Vec2& centre, double size, int first, int byte) {
+    std::vector<Vec2> corners = {
+        centre, centre + Vec2(size, 0.0), centre + Vec2(size, size), centre + Vec2(0.0, size)};
+    std::ranges::rotate(corners, corners.begin() + first);
+    corners.push_back(corners.front());
+    return {.pen = 1, .points = corners, .byte = byte};
+}
+
+Strokes random_squares(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(0.0, 100.0);
+    Strokes squares;
+    for (int n = 0; n < count; ++n) {
+        const double x = coordinate(random), y = coordinate(random);
+        squares.push_back(ring_of({x, y}, 5.0 + coordinate(random) / 4.0, static_cast<int>(random() % 4), n));
+    }
+    return squares;
+}
+
+TEST(StrokeOrdering, BeginsClosedStrokesWhereTheToolIsNearest) {
+    // Both squares begin at their far corner; the tool comes along x from the origin and goes home.
+    const Strokes found = ordered({ring_of({10.0, 0.0}, 10.0, 2, 0), ring_of({30.0, 0.0}, 10.0, 2, 1)});
+    EXPECT_NEAR(air(found), 60.0, 1e-9); // to x = 30 at the most and back, whichever is cut on the way
+    for (const Stroke& stroke : found) {
+        EXPECT_EQ(stroke.points.front(), stroke.points.back());
+        EXPECT_EQ(stroke.points.size(), 5U);
+    }
+}
+
+TEST(StrokeOrdering, KeepsClosedStrokesAndTheirSense) {
+    const Strokes squares = random_squares(40, 7);
+    const Strokes found = ordered(squares);
+    EXPECT_LT(air(found), air(squares));
+    for (const Stroke& stroke : found) {
+        std::vector<Vec2> original = squares[static_cast<std::size_t>(stroke.byte)].points;
+        original.pop_back();
+        const auto first = std::ranges::find(original, stroke.points.front());
+        ASSERT_NE(first, original.end());
+        std::ranges::rotate(original, first);
+        original.push_back(original.front());
+        EXPECT_EQ(stroke.points, original);
+    }
+}
+
+// All orders and beginnings of four squares by brute force.
+TEST(StrokeOrdering, ComesNearTheBestOrderAndBeginningsOfClosedStrokes) {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        const Strokes squares = random_squares(4, seed);
+        std::vector<std::size_t> order = {0, 1, 2, 3};
+        double best = air(squares);
+        do {
+            for (unsigned begins = 0; begins < 256; ++begins) {
+                Vec2 at = Vec2::Zero();
+                double way = 0.0;
+                for (const std::size_t n : order) {
+                    const Vec2& corner = squares[n].points[begins >> (2 * n) & 3U];
+                    way += (corner - at).norm();
+                    at = corner;
+                }
+                best = std::min(best, way + at.norm());
+            }
+        } while (std::ranges::next_permutation(order).found);
+        EXPECT_LE(air(ordered(squares)), 1.1 * best) << seed;
+        EXPECT_GE(air(ordered(squares)), best - 1e-9) << seed;
+    }
+}
+
+TEST(StrokeOrdering, IsNeverLongerToAnEndElsewhere) {
+    const Vec2 end(300.0, 300.0);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        Strokes strokes = random_strokes(5, seed);
+        for (const Stroke& square : random_squares(4, seed)) {
+            strokes.push_back(square);
+        }
+        EXPECT_LE(air_length(ordered(strokes, Vec2::Zero(), end), Vec2::Zero(), end),
+                  air_length(strokes, Vec2::Zero(), end) + 1e-9);
+    }
+}
+
 TEST(StrokeOrdering, CutsTheTravelOfAScatteredDrawing) {
     const Strokes strokes = random_strokes(3000, 7);
     EXPECT_LT(air(ordered(strokes)), 0.05 * air(strokes));

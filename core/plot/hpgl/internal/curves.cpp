@@ -19,6 +19,9 @@ int chord_count(const Vec2& p0, const Vec2& p1, const Vec2& p2, const Vec2& p3, 
 
 void curve(Run& run, const Vec2& p1, const Vec2& p2, const Vec2& p3) {
     const Vec2 p0 = run.at();
+    for (const Vec2& p : {p1, p2, p3}) {
+        run.pen.expect_near(run.units.plotter(p)); // or a point far away would bend the curve unseen
+    }
     const Vec2 unit(run.settings.unit.x, run.settings.unit.y);
     const auto mm = [&](const Vec2& p) { return Vec2(run.units.plotter(p).cwiseProduct(unit)); };
     const int count =

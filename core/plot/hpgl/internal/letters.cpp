@@ -205,11 +205,27 @@ void label_terminator(Run& run, const Given& given) {
 }
 
 void character_size(Run& run, const Given& given) {
+    constexpr double most_cm = 128.0; // of HP's plotters
+    for (const double cm : given.numbers) {
+        if (!(std::abs(cm) < most_cm)) {
+            throw Refusal{fmt::format(
+                "SI: characters of {} cm, at the most {}: two numbers may have become one", cm, most_cm)};
+        }
+    }
     run.modes.label.size_relative = false;
     run.modes.label.size = given.count() == 2 ? given.point(0) : LabelStyle().size;
 }
 
 void relative_character_size(Run& run, const Given& given) {
+    constexpr double most_percent = 128.0; // of HP's plotters
+    for (const double percent : given.numbers) {
+        if (!(std::abs(percent) < most_percent)) {
+            throw Refusal{
+                fmt::format("SR: characters of {} %, at the most {}: two numbers may have become one",
+                            percent,
+                            most_percent)};
+        }
+    }
     run.modes.label.size_relative = true;
     run.modes.label.size = given.count() == 2 ? given.point(0) : Vec2(0.75, 1.5);
 }

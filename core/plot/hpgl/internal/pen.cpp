@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace millwright::plot::internal {
 
 Pen::Pen(const ReaderSettings& settings, const Problems& problems)
-    : problems_(problems), unit_(settings.unit.x, settings.unit.y), points_left_(settings.most_points) {}
+    : problems_(problems), unit_(settings.unit.x, settings.unit.y),
+      farthest_(Vec2::Constant(settings.farthest).cwiseQuotient(unit_)), points_left_(settings.most_points) {}
 
 void Pen::select(int number) {
     end_dot();
@@ -56,15 +58,43 @@ void Pen::draw(const Vec2& to) {
     move(to, !lost_);
 }
 
+void Pen::expect_near(const Vec2& place) const {
+    if (!(std::abs(place.x()) <= farthest_.x() && std::abs(place.y()) <= farthest_.y())) {
+        constexpr double m = 1e-3;
+        throw Refusal{fmt::format("a position {:.0f} m away from the origin: two numbers may have become one",
+                                  m * mm(place).cwiseAbs().maxCoeff())};
+    }
+}
+
+Pen::Mark Pen::mark() const {
+    return {.strokes = strokes_.size(),
+            .points = strokes_.empty() ? 0 : strokes_.back().points.size(),
+            .points_left = points_left_,
+            .at = at_,
+            .down = down_,
+            .number = number_};
+}
+
+void Pen::take_back(const Mark& mark) {
+    strokes_.resize(mark.strokes);
+    if (!strokes_.empty()) {
+        strokes_.back().points.resize(mark.points);
+    }
+    points_left_ = mark.points_left;
+    at_ = mark.at;
+    down_ = mark.down;
+    number_ = mark.number;
+}
+
 void Pen::move(const Vec2& to, bool drawn) {
+    expect_near(to);
     if (polygon_open_) {
-        count_point();
+        count_points(1);
         polygon_.back().push_back({to, drawn});
     } else if (drawn && number_) {
         draw_vector(at_, to);
         dot_ = false;
     } else {
-        air_ += (mm(to) - mm(at_)).norm();
         open_ = false;
         line.restart();
     }
@@ -100,25 +130,27 @@ void Pen::draw_clipped(Vec2 from, Vec2 to) {
     if (!window || clip(*window, from, to)) {
         append(from, to);
     } else {
-        count_point(); // or endless dashes outside of the window would take for ever
+        count_points(1); // or endless dashes outside of the window would take for ever
     }
 }
 
 void Pen::append(const Vec2& from, const Vec2& to) {
     if (!open_ || from != tip_ || strokes_.back().pen != *number_) {
-        count_point();
+        constexpr int points_of_a_stroke = 4; // its own memory beside them
+        count_points(points_of_a_stroke);
         strokes_.push_back({.pen = *number_, .points = {mm(from)}, .byte = byte});
         open_ = true;
     }
     if (to != from) {
-        count_point();
+        count_points(1);
         strokes_.back().points.push_back(mm(to));
     }
     tip_ = to;
 }
 
-void Pen::count_point() {
-    if (--points_left_ < 0) {
+void Pen::count_points(int count) {
+    points_left_ -= count;
+    if (points_left_ < 0) {
         throw Error(problems_.at(byte, "the plot has more points than are allowed", "it may be damaged"));
     }
 }
@@ -144,7 +176,6 @@ void Pen::finish(Plot& plot, std::int64_t at_byte) {
     lift();
     plot.strokes = std::move(strokes_);
     plot.end = mm(at_);
-    plot.air = air_;
 }
 
 } // namespace millwright::plot::internal

@@ -4,6 +4,8 @@
 #include "core/plot/hpgl/internal/line_type.h"
 #include "core/plot/hpgl/internal/problems.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -45,6 +47,22 @@ public:
     /// Down, whatever the pen's state, which stays.
     void draw(const Vec2& to);
 
+    /// Throws Refusal for a place so far away that two numbers must have become one; plotter units.
+    void expect_near(const Vec2& place) const;
+
+    /// All that a command may change of the drawing.
+    struct Mark {
+        std::size_t strokes = 0;
+        std::size_t points = 0; ///< of the last of them
+        std::int64_t points_left = 0;
+        Vec2 at = Vec2::Zero();
+        bool down = false;
+        std::optional<int> number;
+    };
+    [[nodiscard]] Mark mark() const;
+    /// Takes back what was drawn since.
+    void take_back(const Mark& mark);
+
     /// A command was wrong: where the plotter would be now is not known, so nothing is drawn up to the next
     /// go().
     void lose();
@@ -70,12 +88,13 @@ private:
     void draw_vector(const Vec2& from, const Vec2& to);
     void draw_clipped(Vec2 from, Vec2 to);
     void append(const Vec2& from, const Vec2& to);
-    void count_point();
+    void count_points(int count);
     void end_dot();
     [[nodiscard]] Vec2 mm(const Vec2& plotter) const { return plotter.cwiseProduct(unit_); }
 
     const Problems& problems_;
     Vec2 unit_;
+    Vec2 farthest_; ///< of the origin on each axis
     std::int64_t points_left_;
     Vec2 at_ = Vec2::Zero();
     bool down_ = false;
@@ -85,7 +104,6 @@ private:
     Strokes strokes_;
     bool open_ = false;       ///< the last stroke may go on
     Vec2 tip_ = Vec2::Zero(); ///< where it ends
-    double air_ = 0.0;
     Polygon polygon_;
     bool polygon_open_ = false;
 };

@@ -66,9 +66,14 @@ void hatch_polygon(Run& run, const Polygon& polygon) {
         }
     }
     const HatchSettings settings = hatch_settings(run);
-    const double most_lines = 0.5 * static_cast<double>(run.settings.most_points);
+    constexpr double least_mm = 0.01; // no tool makes finer lines
+    if (!(settings.pitch * run.settings.unit.x >= least_mm)) {
+        throw Refusal{fmt::format("a filling of lines {:.4g} mm apart is too fine to be cut",
+                                  settings.pitch * run.settings.unit.x)};
+    }
+    constexpr double most_lines = 1e6;
     if (!(line_count(region, settings) < most_lines)) {
-        throw Refusal{fmt::format("a filling of more than {} lines", most_lines)};
+        throw Refusal{"a filling of more than a million lines"};
     }
     const Vec2 home = run.pen.at();
     for (const Stroke& stroke : hatch(region, settings)) {
@@ -102,11 +107,13 @@ void edge(Run& run, const Polygon& polygon) {
     draw_edges(run, polygon);
 }
 
-/// A closed figure of corners in user units.
+/// A closed figure of corners in user units. Throws Refusal as Pen::expect_near.
 Polygon figure(const Run& run, const std::vector<Vec2>& corners) {
     Outline outline;
     for (const Vec2& corner : corners) {
-        outline.push_back({run.units.plotter(corner), true});
+        const Vec2 at = run.units.plotter(corner);
+        run.pen.expect_near(at); // before it is filled with a thousand times the lines
+        outline.push_back({at, true});
     }
     return {outline};
 }

@@ -7,6 +7,11 @@
 
 namespace millwright::plot::internal {
 
+/// Why a command cannot be followed.
+struct Refusal {
+    std::string message;
+};
+
 class Problems {
 public:
     Problems(std::filesystem::path file, const ReaderSettings& settings)

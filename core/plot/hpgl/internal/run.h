@@ -1,5 +1,5 @@
 // The state of a plotter while a file is read, and what the commands are given. Each group of commands has
-// its own file; a command that cannot be followed throws Refusal before it has drawn anything.
+// its own file; a command that cannot be followed throws Refusal, and what it has drawn is taken back.
 #pragma once
 
 #include "core/plot/hpgl/internal/label_style.h"
@@ -15,11 +15,6 @@
 #include <utility>
 
 namespace millwright::plot::internal {
-
-/// Why a command cannot be followed.
-struct Refusal {
-    std::string message;
-};
 
 /// What fills a polygon (FT). Lengths in plotter units.
 struct Filling {

@@ -164,8 +164,11 @@ void line_type(Run& run, const Given& given) {
     const bool in_mm = given.value(2, 0.0) > 0.0;
     const double size = given.value(1, in_mm ? 5.0 : 4.0);
     const double length = in_mm ? size / run.settings.unit.x : size / 100.0 * run.diagonal();
-    if (!(length > 0.0)) {
-        throw Refusal{fmt::format("LT: a pattern of the length {}", size)};
+    constexpr double least_mm = 0.1; // no pen and no tool makes finer dashes
+    if (!(length * run.settings.unit.x >= least_mm)) {
+        run.pen.line.set_solid();
+        throw Refusal{fmt::format("LT: a pattern of {:.4g} mm is too fine to be cut; lines are solid",
+                                  length * run.settings.unit.x)};
     }
     const Pattern& pattern = run.modes.patterns[static_cast<std::size_t>(std::abs(index) - 1)];
     if (index > 0) {

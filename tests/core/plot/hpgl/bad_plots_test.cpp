@@ -93,6 +93,66 @@ TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {
     EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD8931039,800;PU;", "wide.plt", wide).diagnostics.empty());
 }
 
+// What was drawn before the number that cannot be is taken back: the token is one.
+TEST(BadPlots, NothingIsCutFromFusedNumbersOfAnyCommand) {
+    for (const char* damage : {"CI10001000;",
+                               "PD;AA10001000,0,90;",
+                               "PD;AR10001000,0,90;",
+                               "PD;AT100,100,10001000,0;",
+                               "PD;RT100,100,10001000,0;",
+                               "PD;BZ100,0,10001000,100,200,100;",
+                               "PD;BR100,0,100,10001000,200,100,1,1,1,1,1,1;",
+                               "PD;BZ100,0,100,100,200,100,1000,0,1000,1000,20001000,0;",
+                               "EA100,10001000;",
+                               "ER10001000,100;",
+                               "RA100,10001000;",
+                               "RR10001000,100;",
+                               "WG10001000,0,90;",
+                               "EW10001000,0,90;",
+                               "PM0;PD100,0,10001000,100;PM2;EP;",
+                               "PE<=[[[[[[[[;",
+                               "SI0.190.27,27;",
+                               "SI1927,0.27;LBx\x03",
+                               "SR0.75150,1.5;SR7515,1.5;"}) {
+        SCOPED_TRACE(damage);
+        const Plot plot =
+            read_hpgl(std::string("SP1;PU0,0;SI0.19,0.27;") + damage + "PU0,0;PD400,0;PU;", "bad.plt");
+        EXPECT_FALSE(plot.diagnostics.empty());
+        const auto box = extents(plot.strokes);
+        ASSERT_TRUE(box);
+        EXPECT_LE(box->upper.y(), 3.0); // of the label in the size that holds
+        EXPECT_EQ(plot.strokes.back().points, (std::vector<Vec2>{{0.0, 0.0}, {10.0, 0.0}}));
+    }
+}
+
+TEST(BadPlots, ACommandThatIsRefusedLeavesThePenAsItWas) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PD400,0;PD800,0,99999999,1;PA0,400;PA400,400;PU0,800;PD9999999,0;"
+                                "PA0,800;PA400,800;PU;",
+                                "bad.plt");
+    EXPECT_EQ(plot.diagnostics.size(), 2U);
+    ASSERT_EQ(plot.strokes.size(), 2U); // the pen was up at the second fault, and stays so
+    EXPECT_EQ(plot.strokes[0].points, (std::vector<Vec2>{{0.0, 0.0}, {10.0, 0.0}}));
+    EXPECT_EQ(plot.strokes[1].points, (std::vector<Vec2>{{0.0, 10.0}, {10.0, 10.0}}));
+}
+
+TEST(BadPlots, APatternTooFineToBeCutIsDrawnSolid) {
+    const Plot plot = read_hpgl("SP1;LT2,0.0001;PU0,0;PD400,0;PU;", "fine.plt");
+    ASSERT_EQ(plot.diagnostics.size(), 1U);
+    EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("too fine to be cut"));
+    ASSERT_EQ(plot.strokes.size(), 1U);
+    EXPECT_EQ(plot.strokes.front().points.size(), 2U);
+}
+
+TEST(BadPlots, AFillingTooFineToBeCutIsLeftOut) {
+    for (const char* fine : {"FT3,0.01;RA400,400;", "PW0.0001;RA400,400;", "PW0.0002;WG400,0,90;"}) {
+        SCOPED_TRACE(fine);
+        const Plot plot = read_hpgl(std::string("SP1;PU0,0;") + fine + "PU0,0;PD400,0;PU;", "fine.plt");
+        ASSERT_EQ(plot.diagnostics.size(), 1U);
+        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("a filling of"));
+        EXPECT_EQ(plot.strokes.size(), 1U);
+    }
+}
+
 TEST(BadPlots, ACommaBehindTheLastNumberIsToldAndDoesNoHarm) {
     const Plot plot = read_hpgl("SP1;PU0,0;PD400,0,400,400,;PD0,400;PU;", "comma.plt");
     ASSERT_EQ(plot.diagnostics.size(), 1U);
@@ -123,8 +183,8 @@ TEST(BadPlots, AGiganticPlotEndsWithAnError) {
     ReaderSettings settings;
     settings.most_points = 100'000;
     settings.farthest = 1e9;
-    for (const char* giant : {"SP1;LT2,0.0001;PU0,0;PD1000000000,0;",
-                              "SP1;IW0,0,1,1;LT2,0.0001;PU10,10;PD1000000000,10;",
+    for (const char* giant : {"SP1;LT2,0.1;PU0,0;PD1000000000,0;",
+                              "SP1;IW0,0,1,1;LT2,0.1;PU10,10;PD1000000000,10;",
                               "SP1;FT3,0.001;PU0,0;RA1000000,1000000;"}) {
         SCOPED_TRACE(giant);
         try {

@@ -11,7 +11,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -116,57 +118,50 @@ protected:
         expect_same_drawing(plot);
     }
 
-    static std::string sample(const std::string& name) {
-        return read_file("assets/samples/plot/" + name + ".plt");
-    }
-
 private:
     test::ScratchFolder folder_;
 };
 
-TEST_F(Hp2xx, DrawsMovesLikeUs) {
-    expect_same_drawing(sample("moves"));
+/// What hp2xx cannot read is taken out of a sample; the rest of it is compared.
+std::string as_hp2xx_reads_it(const std::string& name, std::string bytes) {
+    const auto without = [&](const std::string& from, const std::string& to = "") {
+        bytes = std::regex_replace(bytes, std::regex(from), to);
+    };
+    if (name == "everyday") { // behind the switch back to PCL, it begins another picture over the first
+        bytes.erase(bytes.find("\x1b%0A"));
+    }
+    if (name == "autocad-7475") { // wrapped lines are beyond it
+        without("[\r\n]");
+    }
+    if (name == "hatched-sign" || name == "thesis-sign" || name == "hatching") {
+        // Its hatch lines begin elsewhere than HP says (at the middle of the first gap): edges only.
+        without("FP;");
+        without("R[AR][-0-9,]*;");
+        without("WG", "EW");
+    }
+    return bytes;
 }
 
-TEST_F(Hp2xx, DrawsArcsAndCirclesLikeUs) {
-    expect_same_drawing(sample("arcs"));
-}
+/// Samples that hp2xx cannot judge, and why.
+const std::map<std::string, std::string> not_comparable = {
+    {"arcs-three-points",
+     "its AT and RT find a centre 100 m away; reader_test compares ours with AA around the centre that is "
+     "meant"},
+    {"labels", "letters are each program's own; where labels leave the pen is compared with blanks"},
+};
 
-TEST_F(Hp2xx, DrawsRectanglesWedgesAndPolygonsLikeUs) {
-    expect_same_drawing(sample("figures"));
-}
-
-TEST_F(Hp2xx, ScalesRotatesAndClipsLikeUs) {
-    expect_same_drawing(sample("scaling"));
-}
-
-TEST_F(Hp2xx, DashesLikeUs) {
-    expect_same_drawing(sample("line-types"));
-}
-
-TEST_F(Hp2xx, DecodesPolylinesLikeUs) {
-    expect_same_drawing(sample("encoded"));
-}
-
-TEST_F(Hp2xx, DrawsBezierCurvesLikeUs) {
-    expect_same_drawing(sample("curves"));
-}
-
-TEST_F(Hp2xx, DrawsTicksLikeUs) {
-    expect_same_drawing(sample("ticks"));
-}
-
-// Behind the switch back to PCL, hp2xx begins another picture over the first.
-TEST_F(Hp2xx, ReadsFilesOfTodayLikeUs) {
-    const std::string bytes = sample("everyday");
-    expect_same_drawing(bytes.substr(0, bytes.find("\x1b%0A")));
-}
-
-// Wrapped lines are beyond hp2xx: it gets them unwrapped.
-TEST_F(Hp2xx, DrawsAnAutocadFileLikeUs) {
-    std::string bytes = sample("autocad-7475");
-    std::erase_if(bytes, [](char c) { return c == '\r' || c == '\n'; });
-    expect_same_drawing(bytes);
+TEST_F(Hp2xx, DrawsEverySampleLikeUs) {
+    int compared = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("assets/samples/plot")) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() != ".plt" || not_comparable.contains(name)) {
+            continue;
+        }
+        SCOPED_TRACE(name);
+        expect_same_drawing(as_hp2xx_reads_it(name, read_file(entry.path())));
+        ++compared;
+    }
+    EXPECT_GE(compared, 13);
 }
 
 // Our letters are our own, so labels of blanks show that the pen ends where hp2xx has it.

@@ -51,9 +51,9 @@ TEST(HpglReader, StrokesKnowTheirCommand) {
     EXPECT_EQ(plot.strokes.at(1).byte, 24);
 }
 
-TEST(HpglReader, AirIsAllTravelWithThePenUp) {
-    EXPECT_NEAR(
-        read("SP1;PU400,0;PU400,400;PD800,400;PU0,0;").air, 10.0 + 10.0 + std::hypot(20.0, 10.0), 1e-12);
+TEST(HpglReader, AirIsTheStraightWayBetweenStrokes) {
+    const Plot plot = read("SP1;PU400,0;PU400,400;PD800,400;PU0,400;");
+    EXPECT_NEAR(air_length(plot.strokes, Vec2::Zero(), plot.end), std::hypot(10.0, 10.0) + 20.0, 1e-12);
 }
 
 TEST(HpglReader, CommandsThatAMachineCannotFollowAreListed) {

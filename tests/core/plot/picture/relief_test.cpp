@@ -3,6 +3,7 @@
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/plot/picture/relief_plan.h"
 #include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
@@ -366,6 +367,29 @@ TEST(Relief, NamesTheSettingThatIsWrong) {
                 HasSubstr("passes"));
     EXPECT_THROW(static_cast<void>(height_field(thesis_picture(), 0.0, 1.0)), Error);
     EXPECT_THROW(static_cast<void>(height_field(thesis_picture(), 0.26, -1.0)), Error);
+}
+
+// A deep relief does not make the cut around it as deep.
+TEST(Relief, IsCutOutOfItsPlateInPasses) {
+    const HeightField field = field_of(20, 10, 1.0, [](int, int) { return -3.0; });
+    const auto steps_of = [&](ReliefPlan plan) {
+        plan.relief.tip = {.kind = TipKind::ball, .diameter = 1.0};
+        const std::size_t before = relief_path(field, plan).size();
+        plan.plate = 4.0;
+        const CutPath path = relief_path(field, plan);
+        double deepest_step = 0.0;
+        double depth = 0.0;
+        for (std::size_t n = before; n < path.size(); ++n) {
+            if (path[n].move == CutMove::plunge && -path[n].at.z() > depth) {
+                deepest_step = std::max(deepest_step, -path[n].at.z() - depth);
+                depth = -path[n].at.z();
+            }
+        }
+        EXPECT_DOUBLE_EQ(depth, 4.0);
+        return deepest_step;
+    };
+    EXPECT_NEAR(steps_of({}), 0.5, 1e-9); // half of the tool
+    EXPECT_NEAR(steps_of({.relief = {.roughing = Roughing{.depth_per_pass = 0.8}}}), 0.8, 1e-9);
 }
 
 TEST(Relief, HasAFrameAroundIt) {

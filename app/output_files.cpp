@@ -1,0 +1,86 @@
+#include "app/output_files.h"
+
+#include "core/base/error.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace millwright::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Options of all commands that name a file to be written.
+constexpr std::array<std::string_view, 7> outputs{
+    "--out", "--path", "--preview", "--picture", "--pulses", "--servo", "--trace"};
+
+struct Named {
+    std::string option; ///< as it is called on the command line
+    std::string value;
+};
+
+struct Files {
+    std::vector<Named> written;
+    std::vector<Named> others; ///< whatever else was given; not all of them are files
+};
+
+void collect(const CLI::App& command, Files& files) {
+    for (const CLI::Option* const option : command.get_options()) {
+        auto& list =
+            std::ranges::find(outputs, option->get_name()) != outputs.end() ? files.written : files.others;
+        for (const std::string& value : option->results()) {
+            list.push_back({option->get_name(), value});
+        }
+    }
+    for (const CLI::App* const chosen : command.get_subcommands()) {
+        collect(*chosen, files);
+    }
+}
+
+/// A device can be read and written: only what would be replaced counts.
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code failure;
+    if (fs::equivalent(a, b, failure)) {
+        return fs::is_regular_file(a, failure);
+    }
+    const fs::path first = fs::weakly_canonical(a, failure);
+    const fs::path second = fs::weakly_canonical(b, failure);
+    return !fs::exists(a, failure) && !first.empty() && first == second;
+}
+
+} // namespace
+
+void expect_outputs_apart(const CLI::App& app) {
+    Files files;
+    collect(app, files);
+    for (std::size_t n = 0; n < files.written.size(); ++n) {
+        const Named& out = files.written[n];
+        for (const Named& other : files.others) {
+            std::error_code failure;
+            if (fs::exists(other.value, failure) && same_file(out.value, other.value)) {
+                throw Error(fmt::format("{} would write over {}, which is read", out.option, other.option),
+                            out.value,
+                            "give it another name");
+            }
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            if (same_file(out.value, files.written[k].value)) {
+                throw Error(fmt::format("{} and {} name the same file", files.written[k].option, out.option),
+                            out.value,
+                            "give one of them another name");
+            }
+        }
+    }
+}
+
+} // namespace millwright::app

@@ -1,0 +1,12 @@
+// A command never writes over what it reads.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace millwright::app {
+
+/// Of the commands that were meant. Throws Error where a file that is to be written (--out and the like) is
+/// also an argument that is read, under whatever name, or is to be written twice.
+void expect_outputs_apart(const CLI::App& app);
+
+} // namespace millwright::app

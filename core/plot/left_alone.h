@@ -1,0 +1,14 @@
+// What a person should know of strokes that were to be compensated or filled.
+#pragma once
+
+#include "core/plot/stroke_plan.h"
+
+#include <string>
+
+namespace millwright::plot {
+
+/// One sentence on those of the drawing that are not closed and stay as they are; empty: all were, or nothing
+/// was asked for.
+[[nodiscard]] std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped);
+
+} // namespace millwright::plot
