@@ -1,5 +1,6 @@
 #include "app/cutting.h"
 
+#include "app/finite_number.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
@@ -24,16 +25,16 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--machine", options.machine, "Shipped machine or machine file")
         ->capture_default_str();
     command.add_option("--feed", options.feed_mm_per_min, "Cutting, mm/min")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_option("--plunge", options.plunge_mm_per_min, "Into the work, mm/min")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_option("--safe-height", options.safe_height, "Above the top, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
     command.add_option("--origin", options.origin, "Where the drawing's origin lies on the machine: X,Y, mm")
@@ -52,10 +53,10 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_flag(
         "--against-light", preview.against_light, "Preview the light that goes through the plate");
     command.add_option("--plate", preview.plate, "Thickness of the plate, mm; nothing is cut deeper")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_flag("--through", preview.through, "Cuts may go deeper than the plate");
     command.add_option("--half-light", preview.half_light, "So much of the plate halves the light, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
 }
 

@@ -21,6 +21,22 @@ CLI::Validator finite_number() {
     return {fault_of, ""};
 }
 
+CLI::Validator above_zero() {
+    const auto fault_of = [](std::string& text) {
+        return std::strtod(text.c_str(), nullptr) > 0.0 ? std::string()
+                                                        : fmt::format("\"{}\" has to be above 0", text);
+    };
+    return {fault_of, ""};
+}
+
+CLI::Validator not_below_zero() {
+    const auto fault_of = [](std::string& text) {
+        return std::strtod(text.c_str(), nullptr) >= 0.0 ? std::string()
+                                                         : fmt::format("\"{}\" has to be 0 or more", text);
+    };
+    return {fault_of, ""};
+}
+
 void expect_finite_numbers(CLI::App& app) {
     for (CLI::Option* const option : app.get_options()) {
         if (option->get_type_name().find("FLOAT") != std::string::npos) {

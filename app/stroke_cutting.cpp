@@ -1,5 +1,6 @@
 #include "app/stroke_cutting.h"
 
+#include "app/finite_number.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/left_alone.h"
@@ -87,42 +88,38 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command
         .add_option(
             "--tool-diameter", options.plan.tool_diameter, "Of an end mill, for --side and --preview, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_option("--corners", options.plan.corners, "For --side: sharp or round")
         ->transform(CLI::CheckedTransformer(corner_kinds))
         ->default_str("sharp");
     command
         .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--hatch-angle", options.hatch_angle_deg, "Of the lines to x, degrees");
     command.add_flag("--hatch-cross", options.plan.hatch_cross, "And once more at right angles");
     command
         .add_option(
             "--contours", options.plan.contour_pitch, "Fill closed strokes with outlines so far apart, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_flag("--order", options.plan.order, "Reorder and reverse strokes for less travel");
     command.add_option("--link", options.plan.link, "Join strokes over gaps shorter than so many mm")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_below_zero());
     command.add_flag("--inside", options.plan.link_inside, "Links keep to their side of closed strokes");
     command.add_option("--depth", options.depth, "Below the top, mm")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command.add_option("--passes", options.passes, "Cuts to the depth")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command
         .add_option("--level", options.levels, "Of one pen: PEN:depth=MM,passes=N,feed=F,order=N,tool=N,off")
         ->allow_extra_args(false);
     command.add_option("--tabs", options.tabs.count, "Left standing on closed strokes")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--tab-width", options.tabs.width, "mm")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command.add_option("--tab-height", options.tabs.height, "mm")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    command.add_option("--tab-width", options.tabs.width, "mm")->check(above_zero())->capture_default_str();
+    command.add_option("--tab-height", options.tabs.height, "mm")->check(above_zero())->capture_default_str();
     add_cutting_options(command, options.cutting);
 }
 

@@ -1,5 +1,6 @@
 #include "app/commands/picture_engrave.h"
 
+#include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
 #include "app/watched_work.h"
@@ -83,14 +84,14 @@ void add_picture_engrave(CLI::App& group, Command& chosen) {
         ->check(CLI::IsMember({"halftone", "dither"}))
         ->capture_default_str();
     command.add_option("--pitch", options->pitch, "Between dots, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
         ->capture_default_str();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
         ->capture_default_str();
     command.add_option("--depth", options->depth, "Of dithered dots, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command.add_flag("--join", options->join, "Dithered neighbours in a row become one cut");
     add_cutting_options(command, options->cutting);

@@ -1,6 +1,7 @@
 #include "app/commands/picture_relief.h"
 
 #include "app/cutting.h"
+#include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/watched_work.h"
 #include "core/base/units.h"
@@ -75,34 +76,31 @@ void add_picture_relief(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
     add_picture_options(command, options->picture);
-    command.add_option("--depth", options->depth, "Of white, mm")->check(CLI::PositiveNumber)->required();
+    command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
         ->capture_default_str();
     command.add_option("--out", options->cutting.out, "G-code file")->required();
-    command.add_option("--step-over", options->step_over, "Between rows, mm")->check(CLI::PositiveNumber);
+    command.add_option("--step-over", options->step_over, "Between rows, mm")->check(above_zero());
     command.add_option("--merge", options->merge, "Join moves that stay so near above the path, mm")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command.add_option("--depth-per-pass", options->depth_per_pass, "Rough in passes so deep, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--allowance", options->allowance, "Roughing leaves so much, mm")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command.add_option("--rough-step-over", options->rough_step_over, "Between rows of roughing, mm")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--frame", options->frame, "Cut it out of a plate so thick, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
+    command.add_option("--frame", options->frame, "Cut it out of a plate so thick, mm")->check(above_zero());
     command.add_option("--frame-margin", options->frame_margin, "Between picture and frame, mm")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command.add_option("--tabs", options->tabs.count, "That hold the frame")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--tab-width", options->tabs.width, "mm")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    command.add_option("--tab-width", options->tabs.width, "mm")->check(above_zero())->capture_default_str();
     command.add_option("--tab-height", options->tabs.height, "mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     add_cutting_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return relief(*options); }; });

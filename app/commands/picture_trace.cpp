@@ -1,5 +1,6 @@
 #include "app/commands/picture_trace.h"
 
+#include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
 #include "app/watched_work.h"
@@ -75,12 +76,12 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
     command.add_option("--threshold", tracing.threshold, "What is not brighter is dark, 0 to 1")
         ->capture_default_str();
     command.add_option("--speckle", tracing.speckle, "Leave out what has so few pixels")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command.add_option("--corner", tracing.corner, "0: corners stay, 1.334: all are smoothed")
         ->capture_default_str();
     command.add_option("--tolerance", tracing.tolerance, "Join curves that change so little, pixels")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_below_zero())
         ->capture_default_str();
     command
         .add_option(
@@ -88,7 +89,7 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
         ->transform(CLI::CheckedTransformer(turn_policies))
         ->default_str("minority");
     command.add_option("--chords", options->chord_tolerance, "Of a program: as near to the curves, mm")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     add_stroke_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return trace(*options); }; });

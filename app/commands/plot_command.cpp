@@ -1,6 +1,7 @@
 #include "app/commands/plot_command.h"
 
 #include "app/commands/plot_play.h"
+#include "app/finite_number.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -237,7 +238,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
                     "Plotter unit: nominal (0.025 mm), table (0.02488 mm), mm, or mm of each axis as X,Y")
         ->capture_default_str();
     command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
         ->transform(CLI::CheckedTransformer(by_id(project::fill_modes())))
         ->default_str("hatched");
@@ -257,11 +258,9 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
         add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
     plot::DecodeSettings& decoding = options->decode;
     command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->required();
-    command.add_option("--period", decoding.period, "Between two points, s")
-        ->check(CLI::PositiveNumber)
-        ->required();
+    command.add_option("--period", decoding.period, "Between two points, s")->check(above_zero())->required();
     command.add_option("--out", options->out, "Point file")->required();
     command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
         ->transform(CLI::CheckedTransformer(modes))
@@ -270,12 +269,12 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
         ->transform(CLI::CheckedTransformer(roundings))
         ->default_str("nearest");
     command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--acceleration", decoding.acceleration, "Mode path: at the most, mm/s^2")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3")->check(CLI::PositiveNumber);
+        ->check(above_zero());
+    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3")->check(above_zero());
     command.add_option("--pen-up", decoding.pen_up_z, "Z with the pen up, mm")->capture_default_str();
     command.add_option("--pen-down", decoding.pen_down_z, "Z with the pen down, mm")->capture_default_str();
     command.add_option("--decimals", options->decimals, "Of the point file")

@@ -1,5 +1,6 @@
 #include "app/commands/plot_play.h"
 
+#include "app/finite_number.h"
 #include "app/interrupt.h"
 #include "app/progress_printer.h"
 #include "app/record_choice.h"
@@ -139,14 +140,14 @@ void add_plot_play(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point a period");
     command.add_option("FILE", options->file, "Point file")->required();
     command.add_option("--period", options->player.period, "Between two points, s")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->required();
     command.add_option("--port", options->port, "Serial port or tcp:HOST:PORT; without it nothing is sent")
         ->type_name("PORT");
     command.add_option("--machine", options->machine, "Whose limits hold: shipped machine or machine file")
         ->capture_default_str();
     command.add_option("--speed", options->player.speed, "Times real time")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     add_record_options(command, options->record);
     command.add_flag("--json", options->json, "Print the answer as JSON");

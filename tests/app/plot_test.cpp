@@ -66,7 +66,7 @@ TEST(PlotCommand, ToolpathIsAProgramWithoutErrors) {
 // One drawing, one distance: info, its JSON and the first line of toolpath.
 TEST(PlotCommand, SaysOneDistanceEverywhere) {
     const ScratchFolder folder;
-    for (const char* name : {"thesis-sign", "moves", "everyday"}) {
+    for (const char* name : {"thesis-sign", "moves", "figures"}) {
         SCOPED_TRACE(name);
         const std::string file = std::string("assets/samples/plot/") + name + ".plt";
         const auto answer = nlohmann::json::parse(run({"plot", "info", file, "--json"}).out);
@@ -228,9 +228,9 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments).out;
     };
-    // 40 mm of the square and 2.828 mm from and to the origin: 20 s, 0.28 s, and 6 s for the lift.
+    // 40 mm of the square and 1.414 mm from the origin to it, where it stays: 20 s, 0.14 s, 6 s for the lift.
     EXPECT_THAT(runs({}),
-                HasSubstr("0.043 m (0.040 m drawn, 0.003 m in the air), 1 lift, 0:26 min by the thesis, "));
+                HasSubstr("0.041 m (0.040 m drawn, 0.001 m in the air), 1 lift, 0:26 min by the thesis, "));
     EXPECT_THAT(runs({"--hatch", "1.5"}),
                 HasSubstr(", 8 lifts")); // the square, lines at 1.5, 3, ... 10.5
     EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 lifts"));
@@ -262,7 +262,7 @@ TEST(PlotCommand, ToolpathKeepsToTheTravelOfItsMachine) {
     const Ended ended = at("80,10");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(file), HasSubstr("X480.0000"));
-    EXPECT_THAT(content_of(folder / "line.path"), HasSubstr("\n480,10,-1,10,cut,1\n"));
+    EXPECT_THAT(content_of(folder / "line.path"), HasSubstr("\n480,10,-1,8,cut,1\n"));
 }
 
 TEST(PlotCommand, UnitsHaveNames) {
@@ -341,7 +341,7 @@ TEST(PlotCommand, JunkIsNotDecoded) {
                              "--out",
                              (folder / "points.csv").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("nothing to draw"));
+    EXPECT_THAT(ended.err, HasSubstr("no command of HPGL"));
     EXPECT_FALSE(std::filesystem::exists(folder / "points.csv"));
 }
 
