@@ -30,7 +30,8 @@ struct CompensationSettings {
 offset(const Region& region, double distance, Corners corners, double arc_tolerance = 0.002);
 
 /// The paths of the tool around (or inside) the region, closed: their last point is their first. They begin
-/// near where the rings do, and come in their order. A hole too small for the tool has none. Throws Error as `offset`, and for a tool without diameter.
+/// near where the rings do, and come in their order. A hole too small for the tool has none. Throws Error as
+/// `offset`, and for a tool without diameter.
 [[nodiscard]] Strokes compensated(const Region& region, const CompensationSettings& settings, int pen = 1);
 
 /// Closed paths inside the region, `first` from its outline and then `pitch` apart, outermost first, until

@@ -34,7 +34,8 @@ struct DecodeSettings {
     double pen_up_z = 0.0;                                ///< the thesis has 0 for both
     double pen_down_z = 0.0;
     DecodeMode mode = DecodeMode::segments;
-    /// Of segments. Lifts and ways with the pen up are rounded up, or exact: never faster than their velocity.
+    /// Of segments. Lifts and ways with the pen up are rounded up, or exact: never faster than their
+    /// velocity.
     SampleRounding rounding = SampleRounding::nearest;
     /// Given, in the mode path: strokes, lifts and ways with the pen up begin and end standing, and the speed
     /// along the path changes by this at the most, mm/s^2. At a corner the velocity changes by what it allows

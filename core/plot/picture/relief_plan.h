@@ -21,8 +21,9 @@ struct ReliefPlan {
 /// where the tool has no width.
 [[nodiscard]] double usual_step_over(const ToolTip& tip, double pitch);
 
-/// Relief and frame; passes of the frame are no deeper than those of the roughing, else than half of the tool,
-/// as the table of materials has it. Throws Error as relief(), and for the frame of a tool without a width; Cancelled.
+/// Relief and frame; passes of the frame are no deeper than those of the roughing, else than half of the
+/// tool, as the table of materials has it. Throws Error as relief(), and for the frame of a tool without a
+/// width; Cancelled.
 [[nodiscard]] CutPath
 relief_path(const HeightField& field, const ReliefPlan& plan, const Progress& progress = Progress());
 
