@@ -6,6 +6,7 @@
 #include "app/commands/cordic_run.h"
 #include "app/commands/cordic_sew.h"
 #include "app/outputs.h"
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/cordic/calculator.h"
@@ -29,9 +30,9 @@ namespace {
 constexpr std::int64_t most_vectors = 10'000'000;
 
 struct NumberOptions {
-    double x = 0.0;
-    double y = 0.0;
-    double angle_deg = 0.0;
+    std::string x; // as written: formats of more than 53 bits hold more digits than binary64
+    std::string y;
+    std::string angle_deg;
     std::string format = "f64";
     std::string rounding = "truncate";
     int iterations = 0; ///< 0: the thesis's 29 steps
@@ -54,8 +55,11 @@ cordic::Sequence sequence_of(const NumberOptions& options) {
 }
 
 int rotate(const NumberOptions& options) {
-    const cordic::Rotated found =
-        cordic::rotate(format_of(options), sequence_of(options), options.x, options.y, options.angle_deg);
+    const cordic::Rotated found = cordic::rotate(format_of(options),
+                                                 sequence_of(options),
+                                                 cordic::Decimal::parse(options.x),
+                                                 cordic::Decimal::parse(options.y),
+                                                 cordic::Decimal::parse(options.angle_deg));
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["x"] = found.x;
@@ -63,6 +67,9 @@ int rotate(const NumberOptions& options) {
         answer["z"] = found.z;
         answer["error"] = found.error;
         answer["clocks"] = found.clocks;
+        for (std::size_t n = 0; n < found.words.size(); ++n) {
+            answer["words"].push_back(fmt::format("{:#x}", found.words[n]));
+        }
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
@@ -76,7 +83,10 @@ int rotate(const NumberOptions& options) {
 }
 
 int vector(const NumberOptions& options) {
-    const cordic::Polar found = cordic::polar(format_of(options), sequence_of(options), options.x, options.y);
+    const cordic::Polar found = cordic::polar(format_of(options),
+                                              sequence_of(options),
+                                              cordic::Decimal::parse(options.x),
+                                              cordic::Decimal::parse(options.y));
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["magnitude"] = found.length;
@@ -126,13 +136,28 @@ CLI::App& add_command(CLI::App& group,
     return command;
 }
 
+void add_number(CLI::App& command, const char* name, std::string& number, const char* text) {
+    const auto fault_of = [](std::string& written) {
+        try {
+            (void)cordic::Decimal::parse(written);
+            return std::string();
+        } catch (const Error& error) {
+            return error.diagnostic().message;
+        }
+    };
+    command.add_option(name, number, text)
+        ->required()
+        ->check(CLI::Validator(fault_of, ""))
+        ->type_name("NUMBER");
+}
+
 CLI::App& add_numbers(CLI::App& group,
                       const char* name,
                       const char* text,
                       const std::shared_ptr<NumberOptions>& options) {
     CLI::App& command = add_command(group, name, text, options);
-    command.add_option("X", options->x, "First coordinate")->required();
-    command.add_option("Y", options->y, "Second coordinate")->required();
+    add_number(command, "X", options->x, "First coordinate");
+    add_number(command, "Y", options->y, "Second coordinate");
     command.add_flag("--json", options->json, "Print the answer as JSON");
     return command;
 }
@@ -160,7 +185,7 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     group.require_subcommand(1);
     const auto options = std::make_shared<NumberOptions>();
     CLI::App& rotating = add_numbers(group, "rotate", "Turn a vector by any angle", options);
-    rotating.add_option("DEGREES", options->angle_deg, "Counter-clockwise")->required();
+    add_number(rotating, "DEGREES", options->angle_deg, "Counter-clockwise");
     rotating.callback([&chosen, options] { chosen = [options] { return rotate(*options); }; });
     CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });

@@ -15,7 +15,9 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <span>
+#include <utility>
 
 namespace millwright::app {
 
@@ -31,32 +33,58 @@ void sample(const motion::Trajectory& trajectory, CordicMotionReport& report) {
     }
 }
 
+/// Rows of text that go to their file as they come: a job has gigabytes of them.
+class Rows {
+public:
+    explicit Rows(const std::string& file) : file_(file) {}
+
+    template <class... Values> void add(fmt::format_string<Values...> format, Values&&... values) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+        if (text_.size() >= at_once) {
+            flush();
+        }
+    }
+    /// There is no file before this.
+    void close() {
+        flush();
+        file_.close();
+    }
+
+private:
+    static constexpr std::size_t at_once = 1U << 20U; // bytes
+    FileWriter file_;
+    std::string text_;
+
+    void flush() {
+        file_.write(text_);
+        text_.clear();
+    }
+};
+
 std::vector<AxisPulses>
 pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& options, int axis_count) {
     motion::StepSettings settings;
     settings.steps_per_unit.assign(static_cast<std::size_t>(axis_count), options.steps_per_mm);
     settings.timer_frequency = options.timer_hz;
     settings.min_interval = options.min_interval;
-    std::string text = "tick,axis,direction,position\n";
-    const bool written = !options.pulses.empty();
-    const auto found = motion::step_pulses(
-        trajectory,
-        settings,
-        [&](std::span<const motion::StepPulse> pulses) {
-            for (const motion::StepPulse& pulse : pulses) {
-                if (written) {
-                    fmt::format_to(std::back_inserter(text),
-                                   "{},{},{},{}\n",
-                                   pulse.tick,
-                                   gcode::axis_letters[static_cast<std::size_t>(pulse.axis)],
-                                   pulse.direction,
-                                   pulse.position);
-                }
-            }
-        },
-        Progress());
-    if (written) {
-        write_file(options.pulses, text);
+    std::optional<Rows> rows;
+    if (!options.pulses.empty()) {
+        rows.emplace(options.pulses).add("tick,axis,direction,position\n");
+    }
+    const auto write = [&](std::span<const motion::StepPulse> pulses) {
+        for (const motion::StepPulse& pulse : pulses) {
+            rows->add("{},{},{},{}\n",
+                      pulse.tick,
+                      gcode::axis_letters[static_cast<std::size_t>(pulse.axis)],
+                      pulse.direction,
+                      pulse.position);
+        }
+    };
+    const auto pass_over = [](std::span<const motion::StepPulse>) {};
+    const auto found =
+        motion::step_pulses(trajectory, settings, rows ? motion::StepSink(write) : pass_over, Progress());
+    if (rows) {
+        rows->close();
     }
     std::vector<AxisPulses> axes;
     for (std::size_t n = 0; n < found.size(); ++n) {
@@ -75,24 +103,26 @@ pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& optio
 
 /// Position, velocity and acceleration of each axis in every period, the end included.
 void write_servo(const motion::Trajectory& trajectory, const CordicMotionOptions& options, int axis_count) {
-    std::string text = "time";
+    Rows rows(options.servo);
+    rows.add("time");
     for (const char* what : {"", "v", "a"}) {
         for (int axis = 0; axis < axis_count; ++axis) {
-            text += fmt::format(",{}{}", what, gcode::axis_letters[static_cast<std::size_t>(axis)]);
+            rows.add(",{}{}", what, gcode::axis_letters[static_cast<std::size_t>(axis)]);
         }
     }
     const auto periods = static_cast<std::int64_t>(std::ceil(trajectory.duration() / options.servo_period));
     for (std::int64_t n = 0; n <= periods; ++n) {
         const double time = std::min(static_cast<double>(n) * options.servo_period, trajectory.duration());
         const motion::Sample at = trajectory.at(time);
-        fmt::format_to(std::back_inserter(text), "\n{:.9g}", time);
+        rows.add("\n{:.9g}", time);
         for (const kinematics::AxisPositions* values : {&at.position, &at.velocity, &at.acceleration}) {
             for (int axis = 0; axis < axis_count; ++axis) {
-                fmt::format_to(std::back_inserter(text), ",{:.9g}", (*values)[axis]);
+                rows.add(",{:.9g}", (*values)[axis]);
             }
         }
     }
-    write_file(options.servo, text + "\n");
+    rows.add("\n");
+    rows.close();
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include "app/commands/cordic_source.h"
 #include "core/base/files.h"
-#include "core/cordic/assembler.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/microprogram.h"
 
 #include <CLI/Config.hpp>
@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
     CordicSource source;
+    CordicArithmetic arithmetic;
     std::string out;
     bool over_bus = false;
 };
@@ -30,7 +31,7 @@ int show_microprogram(const Options& options) {
 }
 
 int assemble(const Options& options) {
-    const gcode::CordicProgram program = cordic_program(options.source);
+    const gcode::CordicProgram program = cordic_program(options.source, options.arithmetic);
     const auto bytes = cordic::to_bytes(program.image);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     fmt::print("{} bytes of code, {}\n", program.image.code.size(), cordic::to_text(program.image.format));
@@ -38,7 +39,7 @@ int assemble(const Options& options) {
 }
 
 int disassemble(const Options& options) {
-    const std::string text = cordic::disassemble(cordic_program(options.source).image);
+    const std::string text = cordic::disassemble(cordic_program(options.source, options.arithmetic).image);
     std::fwrite(text.data(), 1, text.size(), stdout);
     return 0;
 }
@@ -47,6 +48,7 @@ CLI::App&
 add_file(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     add_cordic_source(command, options->source);
+    add_cordic_arithmetic(command, options->arithmetic);
     return command;
 }
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 namespace millwright::app {
 
@@ -19,26 +22,42 @@ bool has_arcs(const cordic::Processor& processor) {
     });
 }
 
+/// Set-points that are where the axes were already. Those of G-code are left out when it is compiled.
+std::optional<std::string> idle_remark(const cordic::Processor& processor,
+                                       const gcode::CordicProgram& program) {
+    const auto& published = processor.published();
+    const auto same_place = [](const cordic::Published& a, const cordic::Published& b) {
+        constexpr std::size_t z = 6;
+        return a.words[0] == b.words[0] && a.words[1] == b.words[1] && a.words[z] == b.words[z];
+    };
+    const auto first = std::ranges::adjacent_find(published, same_place);
+    if (first == published.end()) {
+        return std::nullopt;
+    }
+    const cordic::CodeAddress address = std::next(first)->instruction_at;
+    const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
+    const std::string place =
+        at.line > 0 ? fmt::format("line {}, column {}", at.line, at.column) : fmt::format("{:#06x}", address);
+    return fmt::format("motions lead to where the axes are already, the first one at {}", place);
+}
+
 } // namespace
 
 std::vector<std::string> remarks_on(const cordic::Processor& processor,
                                     const cordic::RunReport& report,
-                                    const CordicSource& source,
-                                    const CordicChoice& choice,
-                                    bool of_gcode) {
+                                    const gcode::CordicProgram& program,
+                                    const CordicChoice& choice) {
+    const bool of_gcode = !program.points.empty();
     std::vector<std::string> remarks;
-    const bool is_image = std::filesystem::path(source.file).extension() == ".bin";
-    if (is_image && (choice.iterations > 0 || choice.rounding != CordicChoice().rounding)) {
-        remarks.emplace_back(
-            "the image was made for 29 steps and truncation: with others its arcs may end beside their "
-            "places");
+    if (auto idle = idle_remark(processor, program)) {
+        remarks.push_back(std::move(*idle));
     }
-    if (of_gcode && choice.thesis_direction && has_arcs(processor)) {
+    if (of_gcode && choice.arithmetic.thesis_direction && has_arcs(processor)) {
         remarks.emplace_back(
             "arcs turn the other way, as in the thesis's model: they end beside where the program says, "
             "and what follows leads straight back");
     }
-    if (of_gcode && !choice.thesis_direction && report.speed_error > much) {
+    if (of_gcode && report.speed_error > much) {
         remarks.push_back(
             fmt::format("the speed is up to {:.0f} % beside the feed: {} has too few bits for it",
                         100.0 * report.speed_error,

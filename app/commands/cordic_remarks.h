@@ -10,11 +10,10 @@
 
 namespace millwright::app {
 
-/// `of_gcode`: the program was made here, for these settings. Sentences; none if all is as promised.
+/// Sentences; none if all is as promised.
 [[nodiscard]] std::vector<std::string> remarks_on(const cordic::Processor& processor,
                                                   const cordic::RunReport& report,
-                                                  const CordicSource& source,
-                                                  const CordicChoice& choice,
-                                                  bool of_gcode);
+                                                  const gcode::CordicProgram& program,
+                                                  const CordicChoice& choice);
 
 } // namespace millwright::app

@@ -4,6 +4,7 @@
 #include "app/commands/cordic_plc.h"
 #include "app/commands/cordic_remarks.h"
 #include "app/commands/cordic_source.h"
+#include "app/json_members.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
@@ -19,7 +20,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -82,41 +82,44 @@ nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const c
     return point;
 }
 
-nlohmann::ordered_json json_of(const cordic::Processor& processor,
-                               const gcode::CordicProgram& program,
-                               const cordic::RunReport& report,
-                               bool has_exact) {
-    nlohmann::ordered_json answer;
-    answer["stop"] = cordic::to_text(report.stop);
-    answer["format"] = cordic::to_text(processor.format());
-    answer["clocks"] = {{"total", report.clocks.total},
-                        {"cordic", report.clocks.cordic},
-                        {"fetch", report.clocks.fetch},
-                        {"immediate", report.clocks.immediate},
-                        {"publish", report.clocks.publish},
-                        {"data", report.clocks.data},
-                        {"control", report.clocks.control()}};
-    answer["seconds"] = report.seconds;
+nlohmann::ordered_json json_of(const cordic::ClockCounts& clocks) {
+    return {{"total", clocks.total},
+            {"cordic", clocks.cordic},
+            {"fetch", clocks.fetch},
+            {"immediate", clocks.immediate},
+            {"publish", clocks.publish},
+            {"data", clocks.data},
+            {"control", clocks.control()}};
+}
+
+void print_json(JsonMembers& answer,
+                const cordic::Processor& processor,
+                const gcode::CordicProgram& program,
+                const cordic::RunReport& report,
+                bool has_exact) {
+    answer.add("stop", cordic::to_text(report.stop));
+    answer.add("format", cordic::to_text(processor.format()));
+    answer.add("clocks", json_of(report.clocks));
+    answer.add("seconds", report.seconds);
     if (has_exact) {
-        answer["errors"] = {{"position_mm", report.position_error}, {"speed", report.speed_error}};
+        answer.add("errors", {{"position_mm", report.position_error}, {"speed", report.speed_error}});
     }
-    answer["late"] = report.late.size();
-    answer["fastest_mm_per_min"] = to_mm_per_min(report.fastest);
-    answer["points"] = nlohmann::ordered_json::array();
-    for (const cordic::Published& record : processor.published()) {
-        answer["points"].push_back(json_of_point(processor, record));
-    }
-    answer["commands"] = nlohmann::ordered_json::array();
-    for (const cordic::Commanded& command : processor.commanded()) {
-        const std::size_t n = answer["commands"].size();
-        answer["commands"].push_back(
-            {{"clock", command.clock},
-             {"command", cordic::to_text(command.opcode)},
-             {"parameter", command.parameter},
-             {"behind_points", command.behind_set_points},
-             {"line", n < program.command_lines.size() ? program.command_lines[n] : 0}});
-    }
-    return answer;
+    answer.add("late", report.late.size());
+    answer.add("fastest_mm_per_min",
+               report.fastest ? nlohmann::ordered_json(to_mm_per_min(*report.fastest)) : nullptr);
+    answer.add_each("points", processor.published(), [&](const cordic::Published& record) {
+        return json_of_point(processor, record);
+    });
+    std::size_t n = 0;
+    answer.add_each("commands", processor.commanded(), [&](const cordic::Commanded& command) {
+        const int line = n < program.command_lines.size() ? program.command_lines[n] : 0;
+        ++n;
+        return nlohmann::ordered_json{{"clock", command.clock},
+                                      {"command", cordic::to_text(command.opcode)},
+                                      {"parameter", command.parameter},
+                                      {"behind_points", command.behind_set_points},
+                                      {"line", line}};
+    });
 }
 
 void print(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
@@ -139,10 +142,10 @@ void print(const cordic::RunReport& report, const cordic::Processor& processor, 
                    report.position_error,
                    report.speed_error);
     }
-    if (report.fastest > 0.0) {
+    if (report.fastest) {
         fmt::print("{} set-points late; none would be up to {:.6g} mm/min\n",
                    report.late.size(),
-                   to_mm_per_min(report.fastest));
+                   to_mm_per_min(*report.fastest));
     }
 }
 
@@ -181,7 +184,7 @@ bool is_at_an_end(const cordic::Processor& processor,
 }
 
 int run(const Options& options) {
-    const gcode::CordicProgram program = cordic_program(options.source, processor_settings(options.choice));
+    const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     fill_ram(processor, options);
     const auto supervised = execute(processor, program, options);
@@ -189,29 +192,27 @@ int run(const Options& options) {
         const auto& ram = processor.memory().ram;
         write_file(options.ram_out, {reinterpret_cast<const char*>(ram.data()), ram.size()});
     }
-    // Turned the other way, or stepped from elsewhere, the points are not those of the G-code.
-    const bool has_exact = !program.points.empty() && !options.choice.thesis_direction;
-    const auto exact = has_exact ? std::span(program.points) : std::span<const cordic::ExactPoint>();
-    const cordic::RunReport report = cordic::report_of(processor, exact, options.clock_hz);
+    const bool has_exact = !program.points.empty();
+    const cordic::RunReport report = cordic::report_of(processor, program.points, options.clock_hz);
     const auto motion =
         report.stop == cordic::Stop::halted
             ? move_along(processor, program, options.motion, path_acceleration(options), options.source.file)
             : std::nullopt;
-    const auto remarks =
-        remarks_on(processor, report, options.source, options.choice, !program.points.empty());
+    const auto remarks = remarks_on(processor, report, program, options.choice);
     for (const std::string& remark : remarks) {
         fmt::print(stderr, "warning: {}: {}\n", options.source.file, remark);
     }
     if (options.json) {
-        auto answer = json_of(processor, program, report, has_exact);
-        answer["warnings"] = remarks;
+        JsonMembers answer(stdout);
+        print_json(answer, processor, program, report, has_exact);
+        answer.add("warnings", remarks);
         if (motion) {
-            answer["motion"] = json_of(*motion);
+            answer.add("motion", json_of(*motion));
         }
         if (supervised) {
-            answer["logic"] = app::json_of(*supervised);
+            answer.add("logic", app::json_of(*supervised));
         }
-        fmt::print("{}\n", answer.dump(2));
+        answer.end();
     } else {
         print(report, processor, has_exact);
         if (motion) {

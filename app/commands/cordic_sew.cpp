@@ -30,7 +30,7 @@ int line_of(const cordic::Processor& processor, const gcode::CordicProgram& prog
 }
 
 int sew(const Options& options) {
-    const gcode::CordicProgram program = cordic_program(options.source, processor_settings(options.choice));
+    const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     constexpr std::int64_t long_enough = 1'000'000'000;
     processor.run(long_enough);

@@ -42,10 +42,35 @@ void print_first(const std::vector<Diagnostic>& found) {
     }
 }
 
-gcode::CordicProgram compiled(const CordicSource& source, const cordic::ProcessorSettings& processor) {
+cordic::MadeFor asked_for(const CordicArithmetic& arithmetic) {
+    const cordic::MadeFor usual;
+    return {arithmetic.iterations.value_or(usual.iterations),
+            arithmetic.rounding ? cordic::parse_rounding(*arithmetic.rounding) : usual.rounding,
+            arithmetic.matlab_zero ? cordic::SignOfZero::zero : usual.zero,
+            arithmetic.thesis_direction ? cordic::ArcSense::thesis : usual.sense};
+}
+
+cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
+    cordic::ProcessorSettings settings;
+    settings.sequence = cordic::sequence_of(made_for);
+    settings.rounding = made_for.rounding;
+    settings.zero = made_for.zero;
+    settings.sense = made_for.sense;
+    return settings;
+}
+
+void print_warnings(const std::vector<Diagnostic>& warnings) {
+    print_first(warnings);
+    if (warnings.size() > most_printed) {
+        fmt::print(stderr, "millwright: {} warnings\n", warnings.size());
+    }
+}
+
+gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
+    const cordic::MadeFor made_for = asked_for(arithmetic);
     gcode::CordicProgramSettings settings;
     settings.format = format_of(source);
-    settings.processor = processor;
+    settings.processor = processor_settings(made_for);
     settings.chord_tolerance = source.tolerance;
     settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
     settings.lets_arcs_drift = source.whole_arcs;
@@ -61,10 +86,8 @@ gcode::CordicProgram compiled(const CordicSource& source, const cordic::Processo
     refuse(program.errors());
     gcode::CordicProgram made = builder.take();
     refuse(made.faults);
-    print_first(made.warnings);
-    if (made.warnings.size() > most_printed) {
-        fmt::print(stderr, "millwright: {} warnings\n", made.warnings.size());
-    }
+    print_warnings(made.warnings);
+    made.image.made_for = made_for;
     return made;
 }
 
@@ -85,18 +108,52 @@ void expect_format(const CordicSource& source, const cordic::NumberFormat& found
     }
 }
 
-gcode::CordicProgram loaded(const CordicSource& source) {
+std::string name_of_iterations(int iterations) {
+    return iterations == 0 ? "the thesis's 29 steps" : fmt::format("{} iterations", iterations);
+}
+
+/// A program that is executed with other arithmetic than it was made for leads elsewhere.
+void expect_arithmetic(const CordicSource& source,
+                       const CordicArithmetic& asked,
+                       const cordic::MadeFor& found) {
+    const auto refused = [&](std::string_view made_for, std::string_view option) {
+        throw Error(fmt::format("the program is made for {}", made_for),
+                    source.file,
+                    fmt::format("leave {} out", option));
+    };
+    if (asked.iterations && *asked.iterations != found.iterations) {
+        refused(name_of_iterations(found.iterations), "--iterations");
+    }
+    if (asked.rounding && cordic::parse_rounding(*asked.rounding) != found.rounding) {
+        refused(fmt::format("rounding \"{}\"", to_text(found.rounding)), "--rounding");
+    }
+    if (asked.thesis_direction && found.sense != cordic::ArcSense::thesis) {
+        refused("G02 clockwise", "--thesis-direction");
+    }
+    if (asked.matlab_zero && found.zero != cordic::SignOfZero::zero) {
+        refused("0 as a positive number", "--matlab-zero");
+    }
+}
+
+gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const std::string bytes = read_file(source.file);
     cordic::Image image = cordic::parse_image(bytes_of(bytes), source.file);
     expect_format(source, image.format);
+    expect_arithmetic(source, arithmetic, image.made_for);
     return {std::move(image), {}, {}, {}, {}, {}};
 }
 
-gcode::CordicProgram assembled(const CordicSource& source) {
-    auto made = cordic::assemble(read_file(source.file), source.file, format_of(source));
+gcode::CordicProgram assembled(const CordicSource& source, const CordicArithmetic& arithmetic) {
+    auto made =
+        cordic::assemble(read_file(source.file), source.file, format_of(source), asked_for(arithmetic));
     refuse(made.errors);
     expect_format(source, made.image.format);
-    return {std::move(made.image), {}, std::move(made.lines), {}, {}, {}};
+    expect_arithmetic(source, arithmetic, made.image.made_for);
+    if (made.image.code.empty()) {
+        throw Error("there is no instruction in the program", source.file, "HLT ends one");
+    }
+    print_warnings(made.warnings);
+    return {std::move(made.image), {}, std::move(made.lines), {}, {}, std::move(made.warnings)};
 }
 
 /// What only a microprogram of one's own comes to.
@@ -110,7 +167,7 @@ bool is_of_microprogram(cordic::Stop stop) {
 
 void add_cordic_source(CLI::App& command, CordicSource& source) {
     command.add_option("FILE", source.file, "G-code, assembler text (.asm) or image (.bin)")->required();
-    command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q8.24")
+    command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q12.20")
         ->default_str("f32");
     source.of_gcode = {
         command.add_option("--tolerance", source.tolerance, "Farthest that the path may be from its arc, mm")
@@ -129,17 +186,24 @@ void add_cordic_source(CLI::App& command, CordicSource& source) {
         ->capture_default_str();
 }
 
-void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
-    command.add_option("--iterations", choice.iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {
+    command
+        .add_option("--iterations", arithmetic.iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
-    command.add_option("--rounding", choice.rounding, "What a fixed-point shift does with the bits it drops")
+    command
+        .add_option("--rounding", arithmetic.rounding, "What a fixed-point shift does with the bits it drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}))
-        ->capture_default_str();
+        ->default_str("truncate");
+    command.add_flag(
+        "--thesis-direction", arithmetic.thesis_direction, "G2 counter-clockwise, as the thesis's model");
+    command.add_flag(
+        "--matlab-zero", arithmetic.matlab_zero, "The thesis's MATLAB model where an angle is 0");
+}
+
+void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
+    add_cordic_arithmetic(command, choice.arithmetic);
     command.add_option("--wait-states", choice.wait_states, "Clocks that a bus cycle waits")
         ->check(CLI::Range(0, 255));
-    command.add_flag(
-        "--thesis-direction", choice.thesis_direction, "G2 counter-clockwise, as the thesis's model");
-    command.add_flag("--matlab-zero", choice.matlab_zero, "The thesis's MATLAB model where an angle is 0");
     command.add_flag("--over-bus", choice.over_bus, "Set-points byte by byte over the bus");
     command.add_option("--microprogram", choice.microprogram, "A microprogram of one's own")
         ->type_name("FILE");
@@ -164,31 +228,20 @@ void refuse(const std::vector<Diagnostic>& errors) {
     }
 }
 
-gcode::CordicProgram cordic_program(const CordicSource& source, const cordic::ProcessorSettings& processor) {
+gcode::CordicProgram cordic_program(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const auto kind = std::filesystem::path(source.file).extension();
     if (kind != ".bin" && kind != ".asm") {
-        return compiled(source, processor);
+        return compiled(source, arithmetic);
     }
     refuse_options_of_gcode(source);
-    return kind == ".bin" ? loaded(source) : assembled(source);
-}
-
-cordic::ProcessorSettings processor_settings(const CordicChoice& choice) {
-    cordic::ProcessorSettings settings;
-    if (choice.iterations > 0) {
-        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice.iterations);
-    }
-    settings.rounding = cordic::parse_rounding(choice.rounding);
-    settings.zero = choice.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
-    settings.sense = choice.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
-    settings.publishing = choice.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
-    settings.halves_acceleration = !choice.whole_acceleration;
-    settings.wait_states = choice.wait_states;
-    return settings;
+    return kind == ".bin" ? loaded(source, arithmetic) : assembled(source, arithmetic);
 }
 
 cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image) {
-    const cordic::ProcessorSettings settings = processor_settings(choice);
+    cordic::ProcessorSettings settings = processor_settings(image.made_for);
+    settings.publishing = choice.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
+    settings.halves_acceleration = !choice.whole_acceleration;
+    settings.wait_states = choice.wait_states;
     if (choice.microprogram.empty()) {
         return {settings, image};
     }

@@ -25,30 +25,35 @@ struct CordicSource {
     std::vector<const CLI::Option*> of_gcode; ///< that mean nothing to other programs
 };
 
-struct CordicChoice {
-    std::string microprogram; ///< text file; empty: ours
-    int iterations = 0;       ///< 0: the thesis's 29 steps
-    std::string rounding = "truncate";
-    int wait_states = 0;
+/// What was asked for of the arithmetic; what was not, a program in assembler text or an image says.
+struct CordicArithmetic {
+    std::optional<int> iterations;
+    std::optional<std::string> rounding;
     bool thesis_direction = false;
     bool matlab_zero = false;
+};
+
+struct CordicChoice {
+    CordicArithmetic arithmetic;
+    std::string microprogram; ///< text file; empty: ours
+    int wait_states = 0;
     bool whole_acceleration = false;
     bool over_bus = false;
 };
 
 void add_cordic_source(CLI::App& command, CordicSource& source);
-void add_cordic_choice(CLI::App& command, CordicChoice& choice);
+void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic);
+void add_cordic_choice(CLI::App& command, CordicChoice& choice); ///< the arithmetic among it
 void add_cordic_clock(CLI::App& command, double& clock_hz);
 
 /// Throws Error if there are any: it, or how many they are behind the first of them, which are printed.
 void refuse(const std::vector<Diagnostic>& errors);
 
-[[nodiscard]] cordic::ProcessorSettings processor_settings(const CordicChoice& choice);
-
-/// Made for a processor of such settings. Throws Error, after printing what is wrong, if it is no program of
-/// the processor, and for options that mean nothing to it. Warnings are printed.
+/// Made for such arithmetic. Throws Error, after printing what is wrong, if it is no program of the
+/// processor, for options that mean nothing to it, and if it is made for other arithmetic. Warnings are
+/// printed.
 [[nodiscard]] gcode::CordicProgram cordic_program(const CordicSource& source,
-                                                  const cordic::ProcessorSettings& processor = {});
+                                                  const CordicArithmetic& arithmetic);
 
 [[nodiscard]] cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image);
 

@@ -1,8 +1,9 @@
 #include "core/cordic/assembler.h"
 
-#include "core/base/text.h"
+#include "core/base/numbers.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic/internal/line_words.h"
+#include "core/cordic/internal/move_check.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,10 @@ namespace {
 
 class Assembler {
 public:
-    Assembler(std::filesystem::path name, const NumberFormat& format) : name_(std::move(name)) {
+    Assembler(std::filesystem::path name, const NumberFormat& format, const MadeFor& made_for)
+        : name_(std::move(name)) {
         result_.image.format = format;
+        result_.image.made_for = made_for;
     }
 
     Assembled assemble(std::string_view text) {
@@ -74,8 +77,9 @@ private:
             read_mov(word.column);
         } else if (name == "LD" || name == "ST") {
             read_transfer(name == "LD" ? Opcode::ld : Opcode::st, word.column);
-        } else if (name == ".FORMAT") {
-            read_format();
+        } else if (name == ".FORMAT" || name == ".ITERATIONS" || name == ".ROUNDING" ||
+                   name == ".DIRECTION" || name == ".ZERO") {
+            read_setting(name, word.text);
         } else if (name == ".BYTE") {
             read_byte();
         } else if (name == ".PAGE") {
@@ -97,19 +101,33 @@ private:
         } else if (!labels_.emplace(std::string(words_[0].text), result_.image.code.size()).second) {
             fail(words_[0].column, fmt::format("label {} is there already", words_[0].text));
         }
+        moves_.forget();
     }
 
-    void read_format() {
+    /// What the whole program is made for.
+    void read_setting(std::string_view name, std::string_view written) {
         if (!more()) {
-            fail(column(), ".format needs a number format");
+            fail(column(), fmt::format("a value is missing behind {}", written));
             return;
         }
         if (begun_) {
-            fail(column(), ".format stands behind the first instruction");
+            fail(column(), fmt::format("{} stands behind the first instruction", written));
             return;
         }
+        MadeFor& made_for = result_.image.made_for;
+        const std::string_view value = words_[at_].text;
         try {
-            result_.image.format = parse_number_format(words_[at_].text);
+            if (name == ".FORMAT") {
+                result_.image.format = parse_number_format(value);
+            } else if (name == ".ITERATIONS") {
+                made_for.iterations = parse_iterations(value);
+            } else if (name == ".ROUNDING") {
+                made_for.rounding = parse_rounding(value);
+            } else if (name == ".DIRECTION") {
+                made_for.sense = parse_arc_sense(value);
+            } else {
+                made_for.zero = parse_sign_of_zero(value);
+            }
         } catch (const Error& error) {
             fail(column(), error.diagnostic().message, error.diagnostic().hint);
         }
@@ -120,6 +138,9 @@ private:
         std::vector<std::uint8_t>& code = result_.image.code;
         const std::size_t at = code.size();
         append(code, instruction, result_.image.format);
+        if (const auto idle = moves_.idle(instruction); !idle.empty()) {
+            result_.warnings.push_back({{name_, line_, column, -1}, std::string(idle), {}});
+        }
         if (at / rom_size != (code.size() - 1) / rom_size) {
             fail(column,
                  "the instruction crosses the end of a page of the program ROM",
@@ -146,6 +167,7 @@ private:
         }
         ++at_;
         begun_ = true;
+        moves_.forget();
         result_.image.code.push_back(static_cast<std::uint8_t>(number));
     }
 
@@ -240,9 +262,18 @@ private:
             return std::nullopt;
         }
         bool overflow = false;
+        bool vanishes = false;
         const Word number = with_arithmetic(result_.image.format, [&](const auto& arithmetic) {
-            return arithmetic.to_word(arithmetic.from_double(value, overflow));
+            const auto held = arithmetic.from_double(value, overflow);
+            vanishes = !exactly_equal(value, 0.0) && exactly_equal(arithmetic.to_double(held), 0.0);
+            return arithmetic.to_word(held);
         });
+        if (vanishes) {
+            fail(word.column,
+                 fmt::format("{} is less than {} can tell", word.text, to_text(result_.image.format)),
+                 "choose a number format with more bits behind the point, or write 0");
+            return std::nullopt;
+        }
         if (overflow) {
             fail(word.column,
                  fmt::format("{} does not fit into {}", word.text, to_text(result_.image.format)));
@@ -289,79 +320,18 @@ private:
     std::size_t at_ = 0;
     int line_ = 0;
     bool begun_ = false;
+    internal::MoveCheck moves_;
     std::map<std::string, std::size_t> labels_;
     std::vector<OpenLabel> open_;
 };
 
-/// The shortest number that assembles to these bits, else the bits.
-std::string immediate_text(const Instruction& instruction, const NumberFormat& format) {
-    std::string bits = fmt::format("{:#x}", instruction.immediate);
-    if (is_whole(instruction.target)) {
-        return fmt::format("{}", instruction.immediate);
-    }
-    return with_arithmetic(format, [&](const auto& arithmetic) {
-        bool overflow = false;
-        const auto number = arithmetic.from_word(from_immediate(format, instruction.immediate), overflow);
-        if (overflow) {
-            return bits;
-        }
-        const double value = arithmetic.to_double(number);
-        const std::string text = format.kind == NumberKind::binary32
-                                     ? fmt::format("{}", static_cast<float>(value))
-                                     : shortest(value);
-        double again = 0.0;
-        const bool reads_back =
-            read_real(text, again) &&
-            to_immediate(format, arithmetic.to_word(arithmetic.from_double(again, overflow))) ==
-                instruction.immediate;
-        return reads_back && !overflow ? text : bits;
-    });
-}
-
-std::string instruction_text(const Instruction& instruction, const NumberFormat& format) {
-    if (instruction.opcode == Opcode::mov) {
-        return fmt::format("MOV {}, {}", to_text(instruction.target), immediate_text(instruction, format));
-    }
-    const std::string name(to_text(instruction.opcode));
-    return operand_bytes(instruction.opcode, format) == 0
-               ? name
-               : fmt::format("{} {}, {:#06x}", name, to_text(instruction.target), instruction.immediate);
-}
-
-/// A page of the ROM, or what there is of the last one, which begins at `offset` of the code.
-std::string page_text(std::span<const std::uint8_t> page, std::size_t offset, const NumberFormat& format) {
-    std::size_t end = page.size();
-    while (page.size() == rom_size && end > 0 && page[end - 1] == 0xff) {
-        --end;
-    }
-    std::string text;
-    for (std::size_t at = 0; at < end;) {
-        auto found = decode(page.subspan(at, end - at), format);
-        if (found && !is_possible(found->instruction, format)) {
-            found.reset(); // as bytes, which is what the assembler would take
-        }
-        const std::string line =
-            found ? instruction_text(found->instruction, format) : fmt::format(".byte {:#04x}", page[at]);
-        text += fmt::format("        {:<32}; {:04x}\n", line, code_address_at(offset + at));
-        at += static_cast<std::size_t>(found ? found->size : 1);
-    }
-    return end < page.size() ? text + "        .page\n" : text;
-}
-
 } // namespace
 
-Assembled assemble(std::string_view text, const std::filesystem::path& name, const NumberFormat& format) {
-    return Assembler(name, format).assemble(text);
-}
-
-std::string disassemble(const Image& image) {
-    std::string text = fmt::format("        .format {}\n", to_text(image.format));
-    const std::span<const std::uint8_t> code(image.code);
-    for (std::size_t begin = 0; begin < code.size(); begin += rom_size) {
-        const std::size_t size = std::min<std::size_t>(rom_size, code.size() - begin);
-        text += page_text(code.subspan(begin, size), begin, image.format);
-    }
-    return text;
+Assembled assemble(std::string_view text,
+                   const std::filesystem::path& name,
+                   const NumberFormat& format,
+                   const MadeFor& made_for) {
+    return Assembler(name, format, made_for).assemble(text);
 }
 
 } // namespace millwright::cordic

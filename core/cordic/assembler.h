@@ -1,11 +1,11 @@
-// The processor's assembler and disassembler. Text: docs/reference/cordic.md#assembler.
+// The processor's assembler. Text: docs/reference/cordic.md#assembler.
 #pragma once
 
 #include "core/base/error.h"
+#include "core/cordic/image.h"
 #include "core/cordic/instruction.h"
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,13 +15,14 @@ struct Assembled {
     Image image;
     std::vector<CodeLine> lines;    ///< of each instruction, in the order of their addresses
     std::vector<Diagnostic> errors; ///< with line and column; the image is of use only if there are none
+    std::vector<Diagnostic>
+        warnings; ///< motions that lead nowhere, as far as that can be told without running
 };
 
-/// `format` holds unless the text names one.
-[[nodiscard]] Assembled
-assemble(std::string_view text, const std::filesystem::path& name, const NumberFormat& format = binary32);
-
-/// Text that assembles to the same image. Bytes that are no instruction become .byte lines.
-[[nodiscard]] std::string disassemble(const Image& image);
+/// `format` and `made_for` hold where the text names nothing else.
+[[nodiscard]] Assembled assemble(std::string_view text,
+                                 const std::filesystem::path& name,
+                                 const NumberFormat& format = binary32,
+                                 const MadeFor& made_for = {});
 
 } // namespace millwright::cordic

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/cordic/angles.h"
 #include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
 
@@ -10,24 +11,12 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <type_traits>
 
 namespace millwright::cordic {
 namespace {
 
 constexpr double right_angle_deg = 90.0;
-constexpr long double pi_long = std::numbers::pi_v<long double>;
-
-struct TurnedDegrees {
-    std::int64_t quarter_turns = 0;
-    double rest_deg = 0.0; ///< -45 to 45
-};
-
-/// Exact: degrees of a circle are whole numbers.
-TurnedDegrees reduced_degrees(double angle_deg) {
-    const double within = std::fmod(angle_deg, 360.0);
-    const double quarters = std::nearbyint(within / right_angle_deg);
-    return {static_cast<std::int64_t>(quarters), within - quarters * right_angle_deg};
-}
 
 void refuse(bool overflow, const NumberFormat& format) {
     if (overflow) {
@@ -39,62 +28,106 @@ void refuse(bool overflow, const NumberFormat& format) {
 }
 
 template <class Arithmetic>
-typename Arithmetic::Number entered(const Arithmetic& arithmetic, const NumberFormat& format, double value) {
+typename Arithmetic::Number
+entered(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal& value) {
     bool overflow = false;
-    const auto number = arithmetic.from_double(value, overflow);
+    typename Arithmetic::Number number{};
+    if constexpr (std::is_same_v<Arithmetic, FixedArithmetic>) {
+        number = value.to_fixed(format, overflow);
+    } else {
+        number = arithmetic.from_double(value.nearest_double(), overflow);
+    }
     if (overflow) {
-        throw Error(fmt::format("{} does not fit into {}", value, to_text(format)));
+        throw Error(fmt::format("{} does not fit into {}", value.nearest_double(), to_text(format)));
     }
     return number;
 }
 
-/// How far `found` is from (x, y) turned by `angle_deg`.
-double distance_from_rotated(long double x, long double y, double angle_deg, const Rotated& found) {
-    const long double angle = static_cast<long double>(angle_deg) * (pi_long / 180.0L);
-    const long double c = std::cos(angle);
-    const long double s = std::sin(angle);
-    return static_cast<double>(std::hypot(static_cast<long double>(found.x) - (x * c - y * s),
-                                          static_cast<long double>(found.y) - (y * c + x * s)));
+/// With all bits of a fixed-point word.
+template <class Arithmetic>
+long double exactly(const Arithmetic& arithmetic, typename Arithmetic::Number number) {
+    if constexpr (std::is_same_v<Arithmetic, FixedArithmetic>) {
+        return std::ldexp(static_cast<long double>(number), -arithmetic.fraction_bits());
+    } else {
+        return static_cast<long double>(number);
+    }
+}
+
+template <class Number> struct Turn {
+    std::int64_t quarter_turns = 0;
+    Number rest{};           ///< rad, within 45 degrees
+    long double exact = 0.0; ///< the same
+};
+
+/// Exact as far as the quarter turns go: degrees of a circle are whole numbers.
+template <class Arithmetic>
+Turn<typename Arithmetic::Number>
+turn_of(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal& angle_deg) {
+    if constexpr (std::is_same_v<Arithmetic, FixedArithmetic>) {
+        const auto [quarters, rest] = angle_deg.as_degrees();
+        const auto nearest_rest =
+            static_cast<std::int64_t>(nearest(rest, angle_places - format.fraction_bits));
+        if (nearest_rest > arithmetic.largest() || nearest_rest < -arithmetic.largest() - 1) {
+            refuse(true, format);
+        }
+        return {quarters, nearest_rest, std::ldexp(static_cast<long double>(rest), -angle_places)};
+    } else {
+        const double within = std::fmod(angle_deg.nearest_double(), 360.0);
+        const double quarters = std::nearbyint(within / right_angle_deg);
+        const double rest_deg = within - quarters * right_angle_deg;
+        constexpr long double degree = std::numbers::pi_v<long double> / 180.0L;
+        bool overflow = false; // 45 degrees fit every floating format
+        return {static_cast<std::int64_t>(quarters),
+                arithmetic.from_double(from_degrees(rest_deg), overflow),
+                static_cast<long double>(rest_deg) * degree};
+    }
 }
 
 } // namespace
 
-Rotated rotate(const NumberFormat& format, const Sequence& sequence, double x, double y, double angle_deg) {
-    if (!std::isfinite(angle_deg)) {
-        throw Error("the angle is no finite number");
-    }
-    const auto [quarter_turns, rest_deg] = reduced_degrees(angle_deg);
-    return with_arithmetic(format, [&, turns = quarter_turns, rest = rest_deg](const auto& arithmetic) {
+Rotated rotate(const NumberFormat& format,
+               const Sequence& sequence,
+               const Decimal& x,
+               const Decimal& y,
+               const Decimal& angle_deg) {
+    return with_arithmetic(format, [&](const auto& arithmetic) {
         const Kernel kernel(arithmetic, sequence);
         auto from_x = entered(arithmetic, format, x);
         auto from_y = entered(arithmetic, format, y);
+        const auto turn = turn_of(arithmetic, format, angle_deg);
         bool overflow = false;
-        quarter_turn(arithmetic, from_x, from_y, turns, overflow);
-        const auto turned =
-            kernel.rotated({from_x, from_y, entered(arithmetic, format, from_degrees(rest))}, overflow);
+        quarter_turn(arithmetic, from_x, from_y, turn.quarter_turns, overflow);
+        const auto turned = kernel.rotated({from_x, from_y, turn.rest}, overflow);
         refuse(overflow, format);
-        Rotated answer{arithmetic.to_double(turned.x),
-                       arithmetic.to_double(turned.y),
-                       arithmetic.to_double(turned.z),
-                       0.0,
-                       sequence.clock_count()};
+        Rotated answer{
+            arithmetic.to_double(turned.x),
+            arithmetic.to_double(turned.y),
+            arithmetic.to_double(turned.z),
+            0.0,
+            sequence.clock_count(),
+            {arithmetic.to_word(turned.x), arithmetic.to_word(turned.y), arithmetic.to_word(turned.z)}};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
-        double exact_x = x;
-        double exact_y = y;
-        quarter_turn(FloatArithmetic<double>(), exact_x, exact_y, turns, overflow);
-        answer.error = distance_from_rotated(
-            static_cast<long double>(exact_x), static_cast<long double>(exact_y), rest, answer);
+        long double exact_x = x.nearest_long_double();
+        long double exact_y = y.nearest_long_double();
+        quarter_turn(FloatArithmetic<long double>(), exact_x, exact_y, turn.quarter_turns, overflow);
+        const long double c = std::cos(turn.exact);
+        const long double s = std::sin(turn.exact);
+        answer.error =
+            static_cast<double>(std::hypot(exactly(arithmetic, turned.x) - (exact_x * c - exact_y * s),
+                                           exactly(arithmetic, turned.y) - (exact_y * c + exact_x * s)));
         return answer;
     });
 }
 
-Polar polar(const NumberFormat& format, const Sequence& sequence, double x, double y) {
+Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal& x_in, const Decimal& y_in) {
+    const double x = x_in.nearest_double();
+    const double y = y_in.nearest_double();
     return with_arithmetic(format, [&](const auto& arithmetic) {
         const Kernel kernel(arithmetic, sequence);
         bool overflow = false;
         const auto folded =
-            pre(arithmetic, entered(arithmetic, format, x), entered(arithmetic, format, y), overflow);
+            pre(arithmetic, entered(arithmetic, format, x_in), entered(arithmetic, format, y_in), overflow);
         const Reach reach = kernel.reach_of_vectoring(folded.x, folded.y);
         if (reach == Reach::zero_vector) {
             throw Error(fmt::format("({}, {}) has no direction in {}", x, y, to_text(format)));

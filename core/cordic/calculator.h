@@ -2,22 +2,32 @@
 // for by numbers, with the error against exact arithmetic.
 #pragma once
 
+#include "core/cordic/arithmetic.h"
+#include "core/cordic/decimal.h"
 #include "core/cordic/number_format.h"
 #include "core/cordic/sequence.h"
 
+#include <array>
+
 namespace millwright::cordic {
 
+/// Of words of more than 53 bits x, y and z are the nearest binary64; `words` has all bits.
 struct Rotated {
     double x = 0.0, y = 0.0;
     double z = 0.0;     ///< angle that is left, rad
     double error = 0.0; ///< distance from the exactly rotated vector as it was given
     int clocks = 0;
+    std::array<Word, 3> words{}; ///< x, y and z as the registers hold them
 };
 
 /// (x, y) turned counter-clockwise by any angle: quarter turns exactly, the rest by `sequence`, which is
-/// circular. Throws Error if a value does not fit the format or is not finite.
-[[nodiscard]] Rotated
-rotate(const NumberFormat& format, const Sequence& sequence, double x, double y, double angle_deg);
+/// circular. In fixed point the nearest numbers of the format to what is written are turned. Throws Error if
+/// a value does not fit the format.
+[[nodiscard]] Rotated rotate(const NumberFormat& format,
+                             const Sequence& sequence,
+                             const Decimal& x,
+                             const Decimal& y,
+                             const Decimal& angle_deg);
 
 struct Polar {
     double length = 0.0;
@@ -27,8 +37,8 @@ struct Polar {
     int clocks = 0;
 };
 
-/// Length and direction of (x, y). Throws Error for (0, 0), and if a value does not fit the format or is not
-/// finite.
-[[nodiscard]] Polar polar(const NumberFormat& format, const Sequence& sequence, double x, double y);
+/// Length and direction of (x, y). Throws Error for (0, 0), and if a value does not fit the format.
+[[nodiscard]] Polar
+polar(const NumberFormat& format, const Sequence& sequence, const Decimal& x, const Decimal& y);
 
 } // namespace millwright::cordic

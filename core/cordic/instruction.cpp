@@ -1,12 +1,7 @@
 #include "core/cordic/instruction.h"
 
-#include "core/base/error.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
-#include <string>
 
 namespace millwright::cordic {
 namespace {
@@ -39,24 +34,8 @@ constexpr std::array<NamedOpcode, 24> plain = {{
     {"M08", Opcode::m08},   {"M09", Opcode::m09},   {"M30", Opcode::m30},   {"MUSER", Opcode::muser},
 }};
 
-constexpr std::array<std::uint8_t, 4> magic = {'M', 'W', 'C', 'P'};
-constexpr std::uint8_t version = 1;
-constexpr std::size_t head_size = 12; // magic, version, kind, integer bits, fraction bits, length in 4 bytes
-
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
-    std::uint64_t value = 0;
-    for (std::size_t n = 0; n < bytes.size(); ++n) {
-        value |= std::uint64_t{bytes[n]} << (8 * n);
-    }
-    return value;
-}
-
-[[noreturn]] void fail(const std::filesystem::path& file, std::int64_t byte, std::string message) {
-    throw Error(Diagnostic{{file, 0, 0, byte}, std::move(message), "write it with millwright cordic asm"});
 }
 
 } // namespace
@@ -138,6 +117,14 @@ void append(std::vector<std::uint8_t>& code, const Instruction& instruction, con
     }
 }
 
+Word little_endian(std::span<const std::uint8_t> bytes) {
+    Word value = 0;
+    for (std::size_t n = 0; n < bytes.size(); ++n) {
+        value |= Word{bytes[n]} << (8 * n);
+    }
+    return value;
+}
+
 std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFormat& format) {
     if (code.empty()) {
         return std::nullopt;
@@ -161,57 +148,6 @@ std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFo
 CodeLine line_at(std::span<const CodeLine> lines, CodeAddress address) {
     const auto after = std::ranges::upper_bound(lines, address, {}, &CodeLine::address);
     return after == lines.begin() ? CodeLine{} : *std::prev(after);
-}
-
-std::vector<std::uint8_t> to_bytes(const Image& image) {
-    std::vector<std::uint8_t> bytes(magic.begin(), magic.end());
-    bytes.push_back(version);
-    bytes.push_back(static_cast<std::uint8_t>(image.format.kind));
-    bytes.push_back(static_cast<std::uint8_t>(image.format.integer_bits));
-    bytes.push_back(static_cast<std::uint8_t>(image.format.fraction_bits));
-    for (unsigned byte = 0; byte < 4; ++byte) {
-        bytes.push_back(static_cast<std::uint8_t>(image.code.size() >> (8 * byte)));
-    }
-    bytes.insert(bytes.end(), image.code.begin(), image.code.end());
-    return bytes;
-}
-
-Image parse_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
-    if (bytes.size() < head_size || !std::ranges::equal(bytes.first(magic.size()), magic)) {
-        fail(file, 0, "no program of the CORDIC processor");
-    }
-    if (bytes[4] != version) {
-        fail(file, 4, fmt::format("version {} of the program file is not known", bytes[4]));
-    }
-    Image image;
-    switch (bytes[5]) {
-    case static_cast<std::uint8_t>(NumberKind::binary64):
-        image.format = binary64;
-        break;
-    case static_cast<std::uint8_t>(NumberKind::binary32):
-        image.format = binary32;
-        break;
-    case static_cast<std::uint8_t>(NumberKind::fixed):
-        try {
-            image.format = fixed_format(bytes[6], bytes[7]);
-        } catch (const Error& error) {
-            fail(file, 6, error.diagnostic().message);
-        }
-        break;
-    default:
-        fail(file, 5, fmt::format("kind {} of numbers is not known", bytes[5]));
-    }
-    const std::uint64_t size = little_endian(bytes.subspan(8, 4));
-    if (size != bytes.size() - head_size) {
-        fail(file,
-             8,
-             fmt::format("{} bytes of code are announced, {} are there", size, bytes.size() - head_size));
-    }
-    if (size > most_code) {
-        fail(file, 8, fmt::format("{} bytes of code, the program ROM holds {}", size, most_code));
-    }
-    image.code.assign(bytes.begin() + head_size, bytes.end());
-    return image;
 }
 
 } // namespace millwright::cordic

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -144,6 +143,9 @@ inline constexpr int command_bytes = 5; ///< opcode and P, as they go over the b
 /// are there, of St outside of the ROM.
 [[nodiscard]] bool is_possible(const Instruction& instruction, const NumberFormat& format);
 
+/// At most 8 bytes, lowest first.
+[[nodiscard]] Word little_endian(std::span<const std::uint8_t> bytes);
+
 void append(std::vector<std::uint8_t>& code, const Instruction& instruction, const NumberFormat& format);
 
 struct Decoded {
@@ -153,14 +155,6 @@ struct Decoded {
 
 /// The instruction at the front of `code`; nothing if there is none, or not all of it.
 [[nodiscard]] std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFormat& format);
-
-/// A program as it lies in memory from address 0, with the format it was made for.
-struct Image {
-    NumberFormat format;
-    std::vector<std::uint8_t> code{};
-
-    friend bool operator==(const Image&, const Image&) = default;
-};
 
 /// All pages of the ROM.
 inline constexpr std::size_t most_code = std::size_t{rom_size} * most_pages;
@@ -189,12 +183,5 @@ struct CodeLine {
 /// What the instruction at `address` comes from; nothing known of those in front of the first line. `lines`
 /// by ascending address.
 [[nodiscard]] CodeLine line_at(std::span<const CodeLine> lines, CodeAddress address);
-
-/// The bytes of an image file.
-[[nodiscard]] std::vector<std::uint8_t> to_bytes(const Image& image);
-
-/// Reads an image file. Throws Error with file and byte for anything but a whole and valid one; its
-/// instructions are not looked at.
-[[nodiscard]] Image parse_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 } // namespace millwright::cordic

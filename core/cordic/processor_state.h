@@ -3,6 +3,7 @@
 
 #include "core/cordic/arithmetic.h"
 #include "core/cordic/bus.h"
+#include "core/cordic/image.h"
 #include "core/cordic/instruction.h"
 #include "core/cordic/kernel.h"
 #include "core/cordic/microprogram.h"
@@ -13,12 +14,6 @@
 #include <string_view>
 
 namespace millwright::cordic {
-
-/// Which way G02 turns.
-enum class ArcSense : std::uint8_t {
-    iso,   ///< clockwise, as ISO 6983 says
-    thesis ///< counter-clockwise, as the thesis's model does
-};
 
 struct ProcessorSettings {
     Sequence sequence = thesis_sequence(); ///< circular

@@ -68,7 +68,7 @@ void find_late(RunReport& report, const Processor& processor, double clock_hz, P
         fastest = std::min(fastest, way / computing);
         from = set.at;
     }
-    report.fastest = published.size() > 1 ? fastest : 0.0;
+    report.fastest = published.size() > 1 ? std::optional(fastest) : std::nullopt;
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct RunReport {
     double speed_error = 0.0;    ///< largest, in parts of the programmed speed
     /// Set-points, from 0 and ascending, that took longer to compute than the motion before them.
     std::vector<std::size_t> late;
-    double fastest = 0.0; ///< speed up to which none would be late; 0 with fewer than two set-points
+    std::optional<double>
+        fastest; ///< speed up to which none would be late; not with fewer than two set-points
 };
 
 /// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0; `start`: where the axes were.

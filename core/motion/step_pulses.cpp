@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace millwright::motion {
 
@@ -15,8 +17,9 @@ namespace {
 
 using internal::Part;
 
-constexpr std::int64_t usual_most_pulses = 10'000'000; // a block: 400 MB
-constexpr double farthest = 1e15;                      // steps: as integers still exact in a double
+constexpr std::int64_t usual_most_pulses = 1'000'000'000; // a block: minutes of computing
+constexpr std::size_t handed_over = 4096;                 // pulses at once
+constexpr double farthest = 1e15;                         // steps: as integers still exact in a double
 
 void check(const Trajectory& trajectory, const StepSettings& settings) {
     if (std::ssize(settings.steps_per_unit) != trajectory.axis_count()) {
@@ -43,22 +46,30 @@ public:
     Motor(int axis, double steps_per_unit, double start, const StepSettings& settings)
         : axis_(axis), steps_per_unit_(steps_per_unit), settings_(settings), position_(nearest_step(start)) {}
 
-    /// Adds the pulses of a part of one block, in the order in which they are due.
-    void add(const Trajectory& trajectory, int block, const Part& part, std::vector<StepPulse>& pulses) {
+    /// Begins with a part of a block.
+    void enter(const Trajectory& trajectory, int block, const Part& part) {
         const Path& path = trajectory.path();
-        const double length = path.segments[static_cast<std::size_t>(block)].length;
-        for (const Part& piece : internal::monotone_parts(path, block, axis_, part)) {
-            const double end = steps_at(path.at(block, piece.end).position);
-            const int direction = end > steps_at(path.at(block, piece.begin).position) ? 1 : -1;
-            check_number(block, std::abs(end - static_cast<double>(position_)));
-            // The middle that is passed next, while it lies on this piece.
-            for (double middle = next_middle(direction); direction * (end - middle) > 0.0;
-                 middle = next_middle(direction)) {
-                const double offset =
-                    internal::offset_of(path, block, axis_, piece, middle / steps_per_unit_);
-                add(trajectory.time_at(block, offset / length), direction, block, pulses);
+        trajectory_ = &trajectory;
+        block_ = block;
+        length_ = path.segments[static_cast<std::size_t>(block)].length;
+        pieces_ = internal::monotone_parts(path, block, axis_, part);
+        piece_ = 0;
+        enter_piece();
+    }
+
+    /// The pulse that is due next there; nothing behind the last one.
+    std::optional<StepPulse> next() {
+        while (piece_ < pieces_.size()) {
+            const double middle = static_cast<double>(position_) + 0.5 * direction_;
+            if (direction_ * (end_ - middle) > 0.0) {
+                const double offset = internal::offset_of(
+                    trajectory_->path(), block_, axis_, pieces_[piece_], middle / steps_per_unit_);
+                return pulse(trajectory_->time_at(block_, offset / length_));
             }
+            ++piece_;
+            enter_piece();
         }
+        return std::nullopt;
     }
 
     [[nodiscard]] StepJitter report(const kinematics::AxisPositions& end) const {
@@ -79,6 +90,24 @@ private:
     int last_direction_ = 0;
     double last_due_ = 0.0;
     std::int64_t last_tick_ = 0;
+    // Where it is on its way:
+    const Trajectory* trajectory_ = nullptr;
+    int block_ = 0;
+    double length_ = 0.0;      ///< of the block
+    std::vector<Part> pieces_; ///< of the block, on each of which the axis goes one way
+    std::size_t piece_ = 0;
+    double end_ = 0.0;  ///< of the piece, steps
+    int direction_ = 1; ///< on it
+
+    void enter_piece() {
+        if (piece_ < pieces_.size()) {
+            const Path& path = trajectory_->path();
+            const Part& piece = pieces_[piece_];
+            end_ = steps_at(path.at(block_, piece.end).position);
+            direction_ = end_ > steps_at(path.at(block_, piece.begin).position) ? 1 : -1;
+            check_number(block_, std::abs(end_ - static_cast<double>(position_)));
+        }
+    }
 
     [[nodiscard]] double steps_at(const kinematics::AxisPositions& q) const {
         return q[axis_] * steps_per_unit_;
@@ -90,21 +119,18 @@ private:
         }
         return std::llround(steps);
     }
-    [[nodiscard]] double next_middle(int direction) const {
-        return static_cast<double>(position_) + 0.5 * direction;
-    }
-
     void check_number(int block, double pulses) const {
         const double most = static_cast<double>(
             settings_.most_pulses_a_block > 0 ? settings_.most_pulses_a_block : usual_most_pulses);
         if (pulses > most) {
-            throw Error(fmt::format("block {} needs {:.0f} pulses", block, pulses),
-                        {},
-                        "fewer steps a unit, or shorter blocks");
+            throw Error(
+                fmt::format("block {} needs {:.0f} pulses of an axis, more than {:.0f}", block, pulses, most),
+                {},
+                "fewer steps a unit, or shorter blocks");
         }
     }
 
-    void add(double due, int direction, int block, std::vector<StepPulse>& pulses) {
+    StepPulse pulse(double due) {
         std::int64_t tick = std::llround(due * settings_.timer_frequency);
         if (report_.pulses > 0) {
             const std::int64_t earliest = last_tick_ + settings_.min_interval;
@@ -113,18 +139,18 @@ private:
             if (due > last_due_) {
                 report_.max_frequency = std::max(report_.max_frequency, 1.0 / (due - last_due_));
             }
-            report_.reversals += direction != last_direction_ ? 1 : 0;
+            report_.reversals += direction_ != last_direction_ ? 1 : 0;
         }
         const double jitter = std::abs(static_cast<double>(tick) / settings_.timer_frequency - due);
         report_.max_jitter = std::max(report_.max_jitter, jitter);
         report_.over_limit += settings_.jitter_limit > 0.0 && jitter > settings_.jitter_limit ? 1 : 0;
         squares_ += square(jitter);
         ++report_.pulses;
-        position_ += direction;
-        last_direction_ = direction;
+        position_ += direction_;
+        last_direction_ = direction_;
         last_due_ = due;
         last_tick_ = tick;
-        pulses.push_back({tick, due, axis_, direction, position_, block});
+        return {tick, due, axis_, direction_, position_, block_};
     }
 };
 
@@ -141,6 +167,30 @@ Part executed_part(const Trajectory& trajectory, int block) {
     return part;
 }
 
+/// The pulses of all motors on their way through a block, in the order of their ticks; of equal ticks, axis
+/// by axis. Only the next pulse of each motor is in memory, and what is handed over at once.
+void merge(std::vector<Motor>& motors, const StepSink& sink, const Progress& progress) {
+    std::vector<std::optional<StepPulse>> heads;
+    for (Motor& motor : motors) {
+        heads.push_back(motor.next());
+    }
+    const auto tick_of = [](const std::optional<StepPulse>& head) {
+        return head ? head->tick : std::numeric_limits<std::int64_t>::max();
+    };
+    std::vector<StepPulse> pulses;
+    for (auto first = std::ranges::min_element(heads, {}, tick_of); first->has_value();
+         first = std::ranges::min_element(heads, {}, tick_of)) {
+        pulses.push_back(**first);
+        *first = motors[static_cast<std::size_t>(first - heads.begin())].next();
+        if (pulses.size() >= handed_over) {
+            progress.check();
+            sink(pulses);
+            pulses.clear();
+        }
+    }
+    sink(pulses);
+}
+
 } // namespace
 
 std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
@@ -154,16 +204,13 @@ std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
     for (int n = 0; n < trajectory.axis_count(); ++n) {
         motors.emplace_back(n, settings.steps_per_unit[static_cast<std::size_t>(n)], start[n], settings);
     }
-    std::vector<StepPulse> pulses;
     for (int block = trajectory.first_block(); block <= trajectory.last_block(); ++block) {
         progress.check();
         const Part part = executed_part(trajectory, block);
-        pulses.clear();
         for (Motor& motor : motors) {
-            motor.add(trajectory, block, part, pulses);
+            motor.enter(trajectory, block, part);
         }
-        std::ranges::stable_sort(pulses, {}, &StepPulse::tick);
-        sink(pulses);
+        merge(motors, sink, progress);
         progress.report(static_cast<double>(block + 1) / trajectory.block_count());
     }
     std::vector<StepJitter> reports;

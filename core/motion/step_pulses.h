@@ -21,7 +21,7 @@ struct StepSettings {
     double timer_frequency = 1e6;         ///< Hz
     std::int64_t min_interval = 2;        ///< ticks between two pulses of one axis, >= 1
     double jitter_limit = 0.0;            ///< s: pulses that are off by more are counted; 0: none is
-    std::int64_t most_pulses_a_block = 0; ///< more is an error, which guards the memory; 0: 10 million
+    std::int64_t most_pulses_a_block = 0; ///< of an axis: more is an error; 0: 1000 million
 };
 
 struct StepPulse {
@@ -48,8 +48,9 @@ struct StepJitter {
 using StepSink = std::function<void(std::span<const StepPulse>)>;
 
 /// Gives the pulses to `sink` in the order of their ticks, block by block, and returns the report of every
-/// axis. The motor starts on the step nearest to the trajectory's start. Throws Error for settings that make
-/// no sense or too many pulses in one block, Cancelled through `progress`.
+/// axis. The memory that it takes does not grow with the number of pulses. The motor starts on the step
+/// nearest to the trajectory's start. Throws Error for settings that make no sense or too many pulses in one
+/// block, Cancelled through `progress`.
 std::vector<StepJitter> step_pulses(const Trajectory& trajectory,
                                     const StepSettings& settings,
                                     const StepSink& sink,

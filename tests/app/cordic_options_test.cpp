@@ -180,7 +180,9 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
     const std::string image = path("arc.bin");
     ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
     EXPECT_EQ(warnings({image}), "[]");
-    EXPECT_THAT(warnings({image, "--iterations", "9"}), HasSubstr("was made for 29 steps"));
+    const std::string loop =
+        written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  G01\n  G01\nHLT\n");
+    EXPECT_THAT(warnings({loop}), HasSubstr("where the axes are already, the first one at line 5, column 3"));
     const std::string slow = written("slow.ngc", "G21 G90\nF1\nG1 X10 Y7\nM2\n");
     EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}), HasSubstr("beside the feed"));
 }
@@ -191,6 +193,101 @@ TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
     EXPECT_THAT(ended.err, HasSubstr("raw.asm:1:5: \"\\x1b[31m\\x07\\xff\" is no register"));
     const Ended umlaut = run({"cordic", "run", written("word.asm", "MOV \xc3\x84, 1\n")});
     EXPECT_THAT(umlaut.err, HasSubstr("\"\xc3\x84\" is no register"));
+}
+
+TEST_F(CordicOptions, OfTheArithmeticAreRecordedInTheImage) {
+    const std::string image = path("arc.bin");
+    const std::vector<std::string> settings = {
+        "--iterations", "24", "--rounding", "nearest", "--thesis-direction", "--matlab-zero"};
+    std::vector<std::string> words = {
+        "cordic", "asm", arc, "--format", "q8.24", "--acceleration", "100", "--out", image};
+    words.insert(words.end(), settings.begin(), settings.end());
+    const Ended made = run(words);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Ended text = run({"cordic", "disasm", image});
+    EXPECT_THAT(text.out,
+                HasSubstr(".format q8.24\n        .iterations 24\n        .rounding nearest\n"
+                          "        .direction thesis\n        .zero matlab\n"));
+    // Without a word it is executed as what it was made for: as the G-code with the same options.
+    const auto points = [](const Ended& ended) {
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return nlohmann::json::parse(ended.out).at("points");
+    };
+    words = {"cordic", "run", arc, "--format", "q8.24", "--acceleration", "100", "--json"};
+    words.insert(words.end(), settings.begin(), settings.end());
+    const auto of_image = points(run({"cordic", "run", image, "--json"}));
+    EXPECT_EQ(of_image, points(run(words)));
+    EXPECT_EQ(of_image, points(run({"cordic", "run", written("again.asm", text.out), "--json"})));
+    const auto refusal = [&](const std::string& file, std::vector<std::string> options) {
+        options.insert(options.begin(), {"cordic", "run", file});
+        const Ended ended = run(options);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_EQ(ended.out, "");
+        return ended.err;
+    };
+    EXPECT_THAT(refusal(image, {"--iterations", "32"}), HasSubstr("the program is made for 24 iterations"));
+    EXPECT_THAT(refusal(image, {"--rounding", "truncate"}), HasSubstr("made for rounding \"nearest\""));
+    EXPECT_THAT(refusal(image, {"--format", "f32"}), HasSubstr("the program is in q8.24, not in f32"));
+    const std::string plain = path("plain.bin");
+    ASSERT_EQ(run({"cordic", "asm", arc, "--out", plain}).exit_code, 0);
+    EXPECT_THAT(refusal(plain, {"--iterations", "9"}), HasSubstr("made for the thesis's 29 steps"));
+    EXPECT_THAT(refusal(plain, {"--thesis-direction"}), HasSubstr("made for G02 clockwise"));
+    EXPECT_THAT(refusal(plain, {"--matlab-zero"}), HasSubstr("leave --matlab-zero out"));
+}
+
+TEST_F(CordicOptions, OfImagesOfVersionOneAreNotGuessed) {
+    std::string bytes = "MWCP";
+    bytes += std::string({1, 1, 0, 0, 1, 0, 0, 0, 1});
+    const Ended old = run({"cordic", "run", written("old.bin", bytes)});
+    EXPECT_EQ(old.exit_code, 1);
+    EXPECT_THAT(old.err,
+                HasSubstr("of version 1, which does not say what steps and rounding it is made for"));
+    EXPECT_THAT(old.err, HasSubstr("write it with millwright cordic asm"));
+}
+
+TEST_F(CordicOptions, SayThatThereIsNothingInAProgramOfNoInstruction) {
+    const Ended ended = run({"cordic", "run", written("empty.asm", "; nothing\n")});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("there is no instruction in the program"));
+}
+
+TEST_F(CordicOptions, WarnWithThePlaceOfMotionsThatLeadNowhere) {
+    const std::string twice = written("twice.asm", "MOV XI, 1\nMOV Vmax, 1\nG01\n  G01\nHLT\n");
+    const Ended made = run({"cordic", "asm", twice, "--out", path("twice.bin")});
+    EXPECT_EQ(made.exit_code, 0);
+    EXPECT_THAT(made.err, HasSubstr("twice.asm:4:3: a move without length"));
+    const Ended vanished = run(
+        {"cordic", "asm", written("dz.asm", "MOV Dz, 1e-9\n"), "--format", "q8.24", "--out", path("dz.bin")});
+    EXPECT_EQ(vanished.exit_code, 1);
+    EXPECT_THAT(vanished.err, HasSubstr("dz.asm:1:9: 1e-9 is less than q8.24 can tell"));
+}
+
+TEST_F(CordicOptions, PrintOneDocumentOfJson) {
+    for (const char* text : {"G1 X10 F600\nM3 S100\nG2 X20 I5\nM30\n", "G1 X1 F60\nM2\n", "M2\n"}) {
+        const Ended ended = run({"cordic", "run", written("a.ngc", text), "--json"});
+        const auto answer = nlohmann::ordered_json::parse(ended.out);
+        EXPECT_EQ(ended.out, answer.dump(2) + "\n") << text;
+        EXPECT_EQ(answer.at("fastest_mm_per_min").is_null(), answer.at("points").size() < 2) << text;
+    }
+}
+
+TEST_F(CordicOptions, LeaveTheFileOfPulsesAsItWasWhereThereAreTooMany) {
+    const std::string pulses = path("pulses.csv");
+    write_content(pulses, "as it was");
+    const Ended ended = run({"cordic",
+                             "run",
+                             written("many.ngc", "G1 X0.01 F600\nX2000\nM2\n"),
+                             "--profile",
+                             "trapezoid",
+                             "--steps",
+                             "1000000",
+                             "--timer",
+                             "1e10",
+                             "--pulses",
+                             pulses});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("pulses of an axis, more than 1000000000"));
+    EXPECT_EQ(content_of(pulses), "as it was");
 }
 
 } // namespace

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <set>
+#include <string>
 #include <string_view>
 
 namespace millwright::architecture {
@@ -232,6 +234,31 @@ std::vector<Finding> check_paths(const std::vector<TextFile>& files, const Exist
         } else if (is_source(path)) {
             for (const auto& line : lines_of(text)) {
                 check(path, line.number, pages_in(line.text));
+            }
+        }
+    }
+    return findings;
+}
+
+std::vector<Finding> check_tests(const std::vector<TextFile>& files) {
+    const std::regex of_source(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
+    const std::regex of_table(R"(`([A-Z]\w*\.(?:\w+|\*))`)");
+    std::set<std::string> there;
+    for (const TextFile& file : files) {
+        for (std::sregex_iterator found(file.text.begin(), file.text.end(), of_source), end; found != end;
+             ++found) {
+            there.insert({found->str(1) + "." + found->str(2), found->str(1) + ".*"});
+        }
+    }
+    std::vector<Finding> findings;
+    for (const TextFile& file : files) {
+        for (const Line& line : lines_of(file.path.ends_with(".md") ? file.text : std::string_view())) {
+            const std::string text(line.text.starts_with('|') ? line.text : std::string_view());
+            for (std::sregex_iterator found(text.begin(), text.end(), of_table), end; found != end; ++found) {
+                if (!there.contains(found->str(1))) {
+                    findings.push_back(
+                        {file.path, line.number, "names a test that is not there: " + found->str(1)});
+                }
             }
         }
     }

@@ -20,4 +20,7 @@ using Exists = std::function<bool(const std::string&)>;
 /// stand-in (NAME) is not taken for a path.
 [[nodiscard]] std::vector<Finding> check_paths(const std::vector<TextFile>& files, const Exists& exists);
 
+/// Tests named in tables of Markdown, as `Suite.Test` or `Suite.*`, that no source has.
+[[nodiscard]] std::vector<Finding> check_tests(const std::vector<TextFile>& files);
+
 } // namespace millwright::architecture

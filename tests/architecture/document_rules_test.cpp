@@ -87,11 +87,24 @@ TEST(Paths, OfPagesInCommentsAreThere) {
         ElementsAre(Finding{"core/grid/a.h", 1, "names what is not there: docs/reference/grid.md"}));
 }
 
+TEST(Tests, NamedInATableAreThere) {
+    const TextFile source{"tests/a_test.cpp", "TEST(Arc, Ends) {\nTEST_F(Line, Begins) {\n"};
+    EXPECT_THAT(check_tests({source, {"a.md", "| x | `Arc.Ends`, `Line.*`, `Line.Begins` |\n`No.Table`\n"}}),
+                IsEmpty());
+    EXPECT_THAT(check_tests({source, {"a.md", "| x | `Arc.Starts`, `Circle.*` |\n"}}),
+                ElementsAre(Finding{"a.md", 1, "names a test that is not there: Arc.Starts"},
+                            Finding{"a.md", 1, "names a test that is not there: Circle.*"}));
+}
+
 class TheseDocuments : public ::testing::Test {
 protected:
     const std::vector<TextFile> files_ = read_repository(".");
     const Exists exists_ = [](const std::string& path) { return std::filesystem::exists(path); };
 };
+
+TEST_F(TheseDocuments, NameTestsThatAreThere) {
+    EXPECT_THAT(check_tests(files_), IsEmpty());
+}
 
 TEST_F(TheseDocuments, LinkToWhatIsThere) {
     EXPECT_THAT(check_links(files_, exists_), IsEmpty());

@@ -2,6 +2,7 @@
 // without leaving a defined state.
 #include "core/base/error.h"
 #include "core/cordic/assembler.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/processor.h"
 
 #include <cstddef>

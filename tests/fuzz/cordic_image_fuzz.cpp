@@ -1,6 +1,6 @@
 // Any bytes are an image or an Error; an image disassembles and runs without leaving a defined state.
 #include "core/base/error.h"
-#include "core/cordic/assembler.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/processor.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "ui/actions/processor_bench.h"
 
 #include "core/base/error.h"
-#include "core/cordic/assembler.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/microprogram.h"
 #include "core/gcode/reader/interpreter.h"
 

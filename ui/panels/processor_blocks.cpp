@@ -21,8 +21,10 @@ ControlSignals lit_by(ProcessorBlock block) {
     case ProcessorBlock::ir:
         return signals({Control::load_opcode});
     case ProcessorBlock::registers:
-        return unfold_signals |
-               signals({Control::store_register, Control::take_position, Control::count_chord});
+        return unfold_signals | signals({Control::store_register,
+                                         Control::take_position,
+                                         Control::count_chord,
+                                         Control::write_data});
     case ProcessorBlock::fold:
         return fold_signals | unfold_signals;
     case ProcessorBlock::first:
@@ -106,11 +108,26 @@ std::string flag(std::string_view name, bool on) {
     return fmt::format("{} {:d}  ", name, on);
 }
 
+/// Of the last bus cycle, if it was one of `device`.
+std::vector<std::string> access_lines(const cordic::BusState& bus, cordic::Device device) {
+    if (cordic::device_at(bus.address) != device) {
+        return {};
+    }
+    return {fmt::format("byte {:02x}", bus.data), fmt::format("at {:04x}", bus.address)};
+}
+
 std::vector<std::string> rom_lines(const ProcessorState& state) {
     const std::string page = state.bus.page > 0 ? fmt::format("{:x}:", state.bus.page) : "";
-    return {fmt::format("PC {}{:04x}", page, register_of(state, Register::PC)),
-            fmt::format("byte {:02x}", state.bus.data),
-            fmt::format("at {:04x}", state.bus.address)};
+    std::vector<std::string> lines = access_lines(state.bus, cordic::Device::rom);
+    lines.insert(lines.begin(), fmt::format("PC {}{:04x}", page, register_of(state, Register::PC)));
+    return lines;
+}
+
+/// What LD and ST have moved.
+std::vector<std::string> ram_lines(const ProcessorState& state) {
+    std::vector<std::string> lines = access_lines(state.bus, cordic::Device::ram);
+    lines.insert(lines.begin(), fmt::format("{:04x}-{:04x}", cordic::ram_begin, cordic::port_begin - 1));
+    return lines;
 }
 
 } // namespace
@@ -160,7 +177,7 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
     case ProcessorBlock::rom:
         return rom_lines(state);
     case ProcessorBlock::ram:
-        return {"8000", "to bfff"};
+        return ram_lines(state);
     case ProcessorBlock::port:
         return port_lines(processor);
     case ProcessorBlock::ir:

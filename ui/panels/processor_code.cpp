@@ -28,6 +28,17 @@ void act(ActionQueue& ask, bool runs, const RunTo& run_to, const Toggle& toggle)
     }
 }
 
+/// A word of the microprogram as narrow as the panel: its columns are cut to one blank.
+std::string micro_line(int address, const std::string& text) {
+    std::string line = fmt::format("{:02x}{}", address, text.starts_with(' ') ? "  " : " ");
+    for (const char c : text) {
+        if (c != ' ' || line.back() != ' ') {
+            line += c;
+        }
+    }
+    return line;
+}
+
 } // namespace
 
 void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -95,7 +106,7 @@ void ProcessorCode::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue&
     view.line = [&](std::ptrdiff_t row) {
         const int address = bench.micro_address(row);
         const std::string& text = bench.microprogram()[static_cast<std::size_t>(row)];
-        return address < 0 ? text : fmt::format("{:02x} {}", address, text);
+        return address < 0 ? text : micro_line(address, text);
     };
     view.current = bench.micro_row();
     view.mark = [&](std::ptrdiff_t row) {

@@ -83,6 +83,95 @@ std::string bits_text(const cordic::Processor& processor, Register name) {
     return fmt::format("{:0{}x}", word & mask, digits);
 }
 
+constexpr std::array<std::string_view, 4> source_actions{
+    "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
+
+constexpr widgets::FieldInfo bits_field{
+    "fraction", "Bits behind the point", {}, "10 before it, sign included", 4.0, 54.0};
+constexpr widgets::FieldInfo steps_field{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
+constexpr widgets::FieldInfo tolerance_field{
+    "tolerance", "Chord tolerance", "mm", "Farthest that a chord may be from its arc", 1e-5, 10.0, 0.01, 5};
+constexpr widgets::FieldInfo clock_field{"clock",
+                                         "Clock",
+                                         "kHz",
+                                         "Of the processor. A set-point is late that takes longer to compute "
+                                         "than the motion before it",
+                                         1e-3,
+                                         1e6,
+                                         8000.0,
+                                         3};
+constexpr widgets::FieldInfo needle_field{
+    "needle",
+    "Needle",
+    "rpm",
+    "Of a sewing machine that takes each set-point as a stitch. It is computed during the stitch before, and "
+    "moved to in the 2/3 of a turn in which the needle is up, by a screw of 20 mm a turn that turns 3000 "
+    "times a minute at most",
+    1.0,
+    1e6,
+    3000.0,
+    0};
+
+void draw_format(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
+    const auto kind = static_cast<int>(std::ranges::find(kind_of, choice.format.kind) - kind_of.begin());
+    if (const auto chosen = ui.segmented("kind", "Format", kind, kinds)) {
+        ProcessorChoice wanted = choice;
+        constexpr int usual_fraction_bits = 22;
+        wanted.format = *chosen == 0   ? cordic::binary32
+                        : *chosen == 1 ? cordic::binary64
+                                       : cordic::fixed_format(integer_bits, usual_fraction_bits);
+        choose(ask, wanted);
+    }
+    if (choice.format.kind != NumberKind::fixed) {
+        return;
+    }
+    if (const auto value = widgets::slider(ui, choice.format.fraction_bits, bits_field)) {
+        ProcessorChoice wanted = choice;
+        wanted.format = cordic::fixed_format(integer_bits, *value);
+        choose(ask, wanted);
+    }
+}
+
+void draw_iterations(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
+    const bool classic = choice.iterations > 0;
+    if (const auto on = ui.toggle("classic",
+                                  "Classic sequence",
+                                  classic,
+                                  "Shifts 0, 1, 2 ... in place of the thesis's 29, and one multiplication")) {
+        ProcessorChoice wanted = choice;
+        wanted.iterations = *on ? thesis_steps : 0;
+        choose(ask, wanted);
+    }
+    const auto allowed =
+        classic ? widgets::Permission{} : widgets::Permission::refused("The thesis's sequence has 29.");
+    const int steps = classic ? choice.iterations : thesis_steps;
+    if (const auto value = widgets::slider(ui, steps, steps_field, allowed)) {
+        ProcessorChoice wanted = choice;
+        wanted.iterations = *value;
+        choose(ask, wanted);
+    }
+}
+
+/// Of the thesis's own model.
+void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
+    if (const auto on = ui.toggle("thesis_direction",
+                                  "Thesis direction",
+                                  choice.thesis_direction,
+                                  "G2 counter-clockwise, as the thesis's model; else as ISO 6983 says")) {
+        ProcessorChoice wanted = choice;
+        wanted.thesis_direction = *on;
+        choose(ask, wanted);
+    }
+    if (const auto on = ui.toggle("matlab_zero",
+                                  "MATLAB sign(0)",
+                                  choice.matlab_zero,
+                                  "No turn where the angle is 0: lengths along X are then short by 21.6 %")) {
+        ProcessorChoice wanted = choice;
+        wanted.matlab_zero = *on;
+        choose(ask, wanted);
+    }
+}
+
 } // namespace
 
 void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -140,82 +229,29 @@ void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (!section) {
         return;
     }
+    draw_source(ui, now, ask);
     const ProcessorChoice& choice = now.processor.choice();
-    constexpr std::array<std::string_view, 4> ids{
-        "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
+    draw_format(ui, choice, ask);
+    draw_iterations(ui, choice, ask);
+    draw_peculiarities(ui, choice, ask);
+    if (const auto value = ui.number(choice.chord_tolerance, tolerance_field)) {
+        ProcessorChoice wanted = choice;
+        wanted.chord_tolerance = *value;
+        choose(ask, wanted);
+    }
+}
+
+void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     std::array<widgets::Option, 4> sources{{{"arc", "Thesis: arc"},
                                             {"path", "Thesis: path"},
                                             {"file", "G-code file"},
                                             {"project", "This project"}}};
     for (std::size_t n = 0; n < sources.size(); ++n) {
-        sources[n].permission = catalogue_.find(ids[n]).permission(now);
+        sources[n].permission = catalogue_.find(source_actions[n]).permission(now);
     }
-    if (const auto chosen = ui.choice("source", "Program", static_cast<int>(choice.source), sources)) {
-        ask.run(std::string(ids[static_cast<std::size_t>(*chosen)]));
-    }
-    const auto kind = static_cast<int>(std::ranges::find(kind_of, choice.format.kind) - kind_of.begin());
-    if (const auto chosen = ui.segmented("kind", "Format", kind, kinds)) {
-        ProcessorChoice wanted = choice;
-        constexpr int usual_fraction_bits = 22;
-        wanted.format = *chosen == 0   ? cordic::binary32
-                        : *chosen == 1 ? cordic::binary64
-                                       : cordic::fixed_format(integer_bits, usual_fraction_bits);
-        choose(ask, wanted);
-    }
-    if (choice.format.kind == NumberKind::fixed) {
-        const widgets::FieldInfo bits{
-            "fraction", "Bits behind the point", {}, "10 before it, sign included", 4.0, 54.0};
-        if (const auto value = widgets::slider(ui, choice.format.fraction_bits, bits)) {
-            ProcessorChoice wanted = choice;
-            wanted.format = cordic::fixed_format(integer_bits, *value);
-            choose(ask, wanted);
-        }
-    }
-    const bool classic = choice.iterations > 0;
-    if (const auto on = ui.toggle("classic",
-                                  "Classic sequence",
-                                  classic,
-                                  "Shifts 0, 1, 2 ... in place of the thesis's 29, and one multiplication")) {
-        ProcessorChoice wanted = choice;
-        wanted.iterations = *on ? thesis_steps : 0;
-        choose(ask, wanted);
-    }
-    const widgets::FieldInfo steps{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
-    const auto allowed =
-        classic ? widgets::Permission{} : widgets::Permission::refused("The thesis's sequence has 29.");
-    if (const auto value = widgets::slider(ui, classic ? choice.iterations : thesis_steps, steps, allowed)) {
-        ProcessorChoice wanted = choice;
-        wanted.iterations = *value;
-        choose(ask, wanted);
-    }
-    if (const auto on = ui.toggle("thesis_direction",
-                                  "Thesis direction",
-                                  choice.thesis_direction,
-                                  "G2 counter-clockwise, as the thesis's model; else as ISO 6983 says")) {
-        ProcessorChoice wanted = choice;
-        wanted.thesis_direction = *on;
-        choose(ask, wanted);
-    }
-    if (const auto on = ui.toggle("matlab_zero",
-                                  "MATLAB sign(0)",
-                                  choice.matlab_zero,
-                                  "No turn where the angle is 0: lengths along X are then short by 21.6 %")) {
-        ProcessorChoice wanted = choice;
-        wanted.matlab_zero = *on;
-        choose(ask, wanted);
-    }
-    const widgets::FieldInfo tolerance{"tolerance",
-                                       "Chord tolerance",
-                                       "mm",
-                                       "Farthest that a chord may be from its arc",
-                                       1e-5,
-                                       10.0,
-                                       0.01,
-                                       5};
-    if (const auto value = ui.number(choice.chord_tolerance, tolerance)) {
-        ProcessorChoice wanted = choice;
-        wanted.chord_tolerance = *value;
-        choose(ask, wanted);
+    const auto source = static_cast<int>(now.processor.choice().source);
+    if (const auto chosen = ui.choice("source", "Program", source, sources)) {
+        ask.run(std::string(source_actions[static_cast<std::size_t>(*chosen)]));
     }
 }
 
@@ -287,37 +323,19 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
         return;
     }
     const ProcessorChoice& choice = now.processor.choice();
-    const widgets::FieldInfo clock{
-        "clock",
-        "Clock",
-        "kHz",
-        "Of the processor. A set-point is late that takes longer to compute than the "
-        "motion before it",
-        1e-3,
-        1e6,
-        8000.0,
-        3};
     constexpr double hertz = 1e3; // a kHz
-    if (const auto value = ui.number(choice.clock_hz / hertz, clock)) {
+    if (const auto value = ui.number(choice.clock_hz / hertz, clock_field)) {
         ProcessorChoice wanted = choice;
         wanted.clock_hz = hertz * *value;
         choose(ask, wanted);
     }
     const cordic::RunReport& report = now.processor.report();
     ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
-    ui.value("fastest", "None up to", fmt::format("{:.6g}", to_mm_per_min(report.fastest)), "mm/min");
-    const widgets::FieldInfo needle{
-        "needle",
-        "Needle",
-        "rpm",
-        "Of a sewing machine that takes each set-point as a stitch. It is computed "
-        "during the stitch before, and moved to in the 2/3 of a turn in which the "
-        "needle is up, by a screw of 20 mm a turn that turns 3000 times a minute at most",
-        1.0,
-        1e6,
-        3000.0,
-        0};
-    if (const auto value = ui.number(choice.needle_rpm, needle)) {
+    ui.value("fastest",
+             "None up to",
+             report.fastest ? fmt::format("{:.6g}", to_mm_per_min(*report.fastest)) : "-",
+             "mm/min");
+    if (const auto value = ui.number(choice.needle_rpm, needle_field)) {
         ProcessorChoice wanted = choice;
         wanted.needle_rpm = *value;
         choose(ask, wanted);

@@ -23,6 +23,7 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_errors(Ui& ui, const Workbench& now) const;
     void draw_registers(Ui& ui, const Workbench& now) const;
     void draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const;

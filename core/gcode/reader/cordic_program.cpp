@@ -108,7 +108,7 @@ public:
                                     cordic::rom_size,
                                     settings_.rom_pages));
         }
-        return std::move(code_.result());
+        return code_.take();
     }
 
 private:
@@ -191,6 +191,7 @@ private:
 
     /// Nothing, and a fault, if they are more than anybody waits for.
     std::optional<std::int64_t> chords_of(double radius, const Move& move) {
+        warn_of_hair(radius, move);
         const std::int64_t chords = chord_count(radius, move.sweep, tolerance_of_chords());
         if (chords > most_chords) {
             code_.fault({move.source, 'G'},
@@ -199,6 +200,20 @@ private:
             return std::nullopt;
         }
         return chords;
+    }
+
+    /// An end so near behind the start is taken as the start itself.
+    void warn_of_hair(double radius, const Move& move) {
+        const double behind = std::fmod(std::abs(move.sweep), 2.0 * pi);
+        if (behind < hair_sweep && behind * radius > same_place) {
+            code_.warn(
+                move.source,
+                fmt::format("the arc ends {:.3g} mm, {:.2g} rad, behind its start and is a full circle: "
+                            "less than {:.0e} rad is none",
+                            behind * radius,
+                            behind,
+                            hair_sweep));
+        }
     }
 
     void arc(const Move& move, const AxisValues& end) {

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
+#include "core/cordic/image.h"
 #include "core/cordic/instruction.h"
 #include "core/cordic/processor_state.h"
 #include "core/cordic/run_report.h"

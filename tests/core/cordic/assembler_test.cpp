@@ -1,5 +1,7 @@
 #include "core/cordic/assembler.h"
 
+#include "core/cordic/disassembler.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,14 +17,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Assembler, TurnsTextIntoTheDocumentedBytes) {
-    const auto [image, lines, errors] = assemble("        .format q8.24\n"
-                                                 "start:  mov XI, -1.5     ; a comment\n"
-                                                 "        Mov n, 50\n"
-                                                 "        mov Dz, 0x00010203\n"
-                                                 "        G02\n"
-                                                 "        MOV PC, start\n"
-                                                 "        hlt\n",
-                                                 "a.asm");
+    const auto [image, lines, errors, warnings] = assemble("        .format q8.24\n"
+                                                           "start:  mov XI, -1.5     ; a comment\n"
+                                                           "        Mov n, 50\n"
+                                                           "        mov Dz, 0x00010203\n"
+                                                           "        G02\n"
+                                                           "        MOV PC, start\n"
+                                                           "        hlt\n",
+                                                           "a.asm");
     EXPECT_TRUE(errors.empty());
     EXPECT_EQ(image.format, fixed_format(8, 24));
     EXPECT_THAT(image.code,
@@ -51,7 +53,7 @@ TEST(Assembler, TurnsTextIntoTheDocumentedBytes) {
 }
 
 TEST(Assembler, UsesEightBytesForWideFormats) {
-    const auto [image, lines, errors] = assemble(".format f64\nmov Vmax, 1", "a.asm");
+    const auto [image, lines, errors, warnings] = assemble(".format f64\nmov Vmax, 1", "a.asm");
     EXPECT_TRUE(errors.empty());
     EXPECT_THAT(image.code, ElementsAre(0x12, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f));
 }
@@ -146,11 +148,59 @@ TEST(Disassembler, GivesTextThatAssemblesToTheSameBytes) {
                                                              (random() % 3 == 0 ? 0x80 : 0x10) + any % 20));
             }
             const std::string text = disassemble(image);
-            const auto [again, lines, errors] = assemble(text, "again.asm");
+            const auto [again, lines, errors, warnings] = assemble(text, "again.asm");
             ASSERT_TRUE(errors.empty()) << errors[0].message << '\n' << text;
             EXPECT_EQ(again, image) << text;
         }
     }
+}
+
+TEST(Disassembler, NamesTheArithmeticThatAnImageIsMadeFor) {
+    const MadeFor settings{24, Rounding::toward_zero, SignOfZero::zero, ArcSense::thesis};
+    const Image image{fixed_format(8, 24), {0x01}, settings};
+    const Assembled again = assemble(disassemble(image), "again.asm");
+    EXPECT_TRUE(again.errors.empty());
+    EXPECT_EQ(again.image, image);
+    const Assembled plain = assemble("HLT\n", "plain.asm", binary64, settings);
+    EXPECT_EQ(plain.image.made_for, settings) << "where the text names nothing else";
+}
+
+TEST(Assembler, RefusesNumbersThatTheFormatTakesForNone) {
+    const Assembled made = assemble(".format q8.24\nMOV XI, 0\nMOV YJ, -1e-8\nMOV Dz, 6e-8\n", "a.asm");
+    ASSERT_EQ(made.errors.size(), 1U);
+    EXPECT_EQ(made.errors[0].place.line, 3);
+    EXPECT_EQ(made.errors[0].place.column, 9);
+    EXPECT_THAT(made.errors[0].message, HasSubstr("-1e-8 is less than q8.24 can tell"));
+}
+
+/// The lines that the assembler warns of.
+std::vector<int> idle_lines(const std::string& text) {
+    const Assembled made = assemble(text, "a.asm");
+    EXPECT_TRUE(made.errors.empty());
+    std::vector<int> lines;
+    for (const Diagnostic& warning : made.warnings) {
+        EXPECT_GT(warning.place.column, 0);
+        lines.push_back(warning.place.line);
+    }
+    return lines;
+}
+
+TEST(Assembler, WarnsOfMotionsThatLeadNowhere) {
+    EXPECT_THAT(idle_lines("G01\n"), ElementsAre(1)) << "all registers are 0 after reset";
+    EXPECT_THAT(idle_lines("MOV XI, 1\nG01\nG01\n"), ElementsAre(3));
+    EXPECT_THAT(idle_lines("MOV Z, 1\nG01Z\nG01\nG00Z\n"), ElementsAre(3, 4));
+    EXPECT_THAT(idle_lines("MOV Dz, 0.1\nMOV N, 3\nG02\nMOV N, 3\nG02\n"), ElementsAre(3))
+        << "where the first arc ends is known to the processor alone";
+    EXPECT_THAT(idle_lines("MOV XI, 1\nMOV N, 3\nG03\n"), ElementsAre(3)) << "Dz is 0";
+    EXPECT_THAT(idle_lines("MOV XI, 1\nMOV Dz, 0.1\nMOV N, 3\nG03\nG03\n"), ElementsAre(5)) << "N is 0";
+    EXPECT_THAT(idle_lines("MOV N, 3\nMOV Z, 0.1\nG02Z\n"), ElementsAre()) << "it climbs";
+}
+
+TEST(Assembler, DoesNotWarnWhereAnotherWayMayLead) {
+    EXPECT_THAT(idle_lines("G: NOP\nG01\n"), ElementsAre());
+    EXPECT_THAT(idle_lines("MOV PC, 5\nG01\n"), ElementsAre());
+    EXPECT_THAT(idle_lines(".byte 0x00\nG01\n"), ElementsAre());
+    EXPECT_THAT(idle_lines("LD XI, 0x8000\nG01\n"), ElementsAre());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -75,6 +76,20 @@ TEST(Calculator, RefusesWhatDoesNotFit) {
         EXPECT_THROW(static_cast<void>(polar(binary64, few, -1.0, 0.0)), Error) << steps;
         EXPECT_NO_THROW(static_cast<void>(polar(binary64, few, 1.0, 0.1))) << steps;
     }
+}
+
+// A decimal input goes into the widest words to their last place: binary64 would be 2^-53 beside it.
+TEST(Calculator, LosesNoDigitOfWideWords) {
+    const NumberFormat widest = fixed_format(2, 62, Rounding::nearest);
+    const Sequence steps = classic_sequence(CoordinateSystem::circular, 62);
+    for (const char* deg : {"30.1", "-200.7", "359.9", "12.3456789012345678901"}) {
+        const Rotated found =
+            rotate(widest, steps, Decimal::parse("0.7"), Decimal::parse("-0.1"), Decimal::parse(deg));
+        EXPECT_LT(found.error, 64 * resolution(widest)) << deg << ": a rounding in each step";
+    }
+    const Rotated still = rotate(widest, steps, Decimal::parse("0.1"), 0.0, 0.0);
+    EXPECT_NEAR(
+        static_cast<double>(static_cast<std::int64_t>(still.words[0]) - 461168601842738790), 0.0, 64.0);
 }
 
 } // namespace

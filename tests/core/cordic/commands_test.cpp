@@ -10,7 +10,7 @@ namespace millwright::cordic {
 namespace {
 
 Processor run(const std::string& text, const ProcessorSettings& settings = {}) {
-    const auto [image, lines, errors] = assemble(text, "commands.asm");
+    const auto [image, lines, errors, warnings] = assemble(text, "commands.asm");
     EXPECT_TRUE(errors.empty()) << errors[0].message;
     Processor processor(settings, image);
     processor.run(100'000);

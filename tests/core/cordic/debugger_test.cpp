@@ -13,7 +13,7 @@ constexpr std::int64_t long_enough = 100'000;
 
 /// Two lines of a program: a line to (6, 8), an arc of three chords about (0, 0).
 Debugger debugger() {
-    const auto [image, lines, errors] = assemble(R"(
+    const auto [image, lines, errors, warnings] = assemble(R"(
         MOV Vmax, 1
         MOV Amax, 2
         MOV XI, 6
@@ -26,8 +26,8 @@ Debugger debugger() {
         G03
         HLT
     )",
-                                                 "two.asm",
-                                                 binary64);
+                                                           "two.asm",
+                                                           binary64);
     EXPECT_TRUE(errors.empty());
     return {Processor({}, image), {{0, 1}, {36, 1}, {37, 2}}};
 }

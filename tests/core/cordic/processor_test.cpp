@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace millwright::cordic {
@@ -417,18 +418,18 @@ TEST(SignOfZero, OfTheMatlabModelIsASwitchOfTheProcessor) {
 }
 
 TEST(Image, ReadsBackAndRefusesWhatIsNone) {
-    const Image image = line_to(fixed_format(8, 24), 1.0, 2.0).image();
+    Image image = line_to(fixed_format(8, 24), 1.0, 2.0).image();
+    image.made_for = {24, Rounding::nearest_even, SignOfZero::zero, ArcSense::thesis};
     const auto bytes = to_bytes(image);
     EXPECT_EQ(parse_image(bytes, "a.bin"), image);
-    for (std::size_t at : {0U, 4U, 5U, 6U, 8U}) {
+    for (std::size_t at : {0U, 4U, 5U, 6U, 8U, 12U, 13U, 14U, 15U}) {
         auto broken = bytes;
         broken[at] = 0xee;
         EXPECT_THROW(static_cast<void>(parse_image(broken, "a.bin")), Error) << at;
     }
-    auto cut = bytes;
-    cut.pop_back();
-    EXPECT_THROW(static_cast<void>(parse_image(cut, "a.bin")), Error);
-    EXPECT_THROW(static_cast<void>(parse_image({}, "a.bin")), Error);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        EXPECT_THROW(static_cast<void>(parse_image(std::span(bytes).first(size), "a.bin")), Error) << size;
+    }
 }
 
 } // namespace

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace millwright::motion {
 namespace {
@@ -154,6 +156,27 @@ TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
     EXPECT_NEAR(static_cast<double>(steps), 100.0 * (20.0 - braking.at(0.0).position[0]), 2.0);
     EXPECT_LE(std::abs(pulsed(braking, settings).axes[0].end_error_steps), 0.5 + 1e-9);
     EXPECT_LE(std::abs(pulsed(rest, settings).axes[1].end_error_steps), 0.5 + 1e-9);
+}
+
+TEST(StepPulses, OfALongBlockComeInOrderAndInSmallParts) {
+    StepSettings settings = hundred_a_mm();
+    settings.steps_per_unit = {1e4, 7e3, 100.0, 100.0, 100.0};
+    std::size_t most = 0;
+    std::int64_t count = 0;
+    std::int64_t last = 0;
+    bool ascends = true;
+    const StepSink look = [&](std::span<const StepPulse> part) {
+        most = std::max(most, part.size());
+        for (const StepPulse& pulse : part) {
+            ascends = ascends && pulse.tick >= last;
+            last = pulse.tick;
+            ++count;
+        }
+    };
+    (void)step_pulses(feeds({at(8.0, -6.0)}), settings, look, {});
+    EXPECT_EQ(count, 80'000 + 42'000);
+    EXPECT_TRUE(ascends);
+    EXPECT_LE(most, 4096U);
 }
 
 TEST(StepPulses, RefuseSettingsWithoutSense) {

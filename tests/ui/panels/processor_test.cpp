@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <string>
 
 namespace millwright::panels {
@@ -153,10 +155,15 @@ TEST(ProcessorWorkspace, RunsToALineThatIsClicked) {
 TEST(ProcessorWorkspace, HasTheDirectionAndTheSignOfZeroOfTheThesisAsSwitches) {
     Bench bench;
     Person& person = bench.person;
+    // The arc begins at (10, 10), about (5, 10).
+    const auto first_of_arc = [&] { return bench.processor().differences()[1]; };
     const double ours = bench.processor().report().position_error;
+    EXPECT_GT(first_of_arc().y, 10.1) << "G03 is counter-clockwise";
     person.click("inspector/format/thesis_direction");
     person.frames();
-    EXPECT_GT(bench.processor().report().position_error, 1.0); // mm: the arc goes the other way
+    EXPECT_LT(first_of_arc().y, 9.9);
+    EXPECT_LT(bench.processor().report().position_error, 1e-4) // mm
+        << "beside exact arithmetic that turns this way";
     person.click("inspector/format/thesis_direction");
     person.frames();
     EXPECT_EQ(bench.processor().report().position_error, ours);
@@ -228,12 +235,31 @@ TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
     bench.person.keep("processor-refused");
 }
 
+// In every micro-instruction of lines and arcs, whose signals the diagram tells, and in the widest words.
 TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
     Bench bench;
     Person& person = bench.person;
-    person.click("timeline/processor_set_point");
-    person.frames();
-    for (const std::string& text : person.desktop().ui().cut_texts()) {
+    std::set<std::string> cut;
+    const auto look = [&] {
+        person.frames();
+        const auto texts = person.desktop().ui().cut_texts();
+        cut.insert(texts.begin(), texts.end());
+    };
+    std::set<std::uint8_t> seen;
+    for (int n = 0; n < 400 && bench.processor().debugger().line() < 6; ++n) {
+        person.workshop().run("processor.micro");
+        if (seen.insert(bench.state().sequencer.address).second) {
+            look();
+        }
+    }
+    EXPECT_GT(seen.size(), 20U);
+    for (const char* kind : {"f64", "fixed"}) {
+        person.click(std::string("inspector/format/kind/") + kind);
+        person.click("timeline/processor_set_point");
+        person.click("timeline/processor_set_point");
+        look();
+    }
+    for (const std::string& text : cut) {
         ADD_FAILURE() << text;
     }
 }

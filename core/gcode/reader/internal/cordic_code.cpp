@@ -33,9 +33,21 @@ bool CordicCode::has_word(SourcePlace source, char letter, double code) const {
 }
 
 void CordicCode::fault(const FaultyWord& word, std::string message, std::string hint) {
-    if (result_.faults.size() < settings_.most_faults) {
+    if (const auto known = times_.find(message); known != times_.end()) {
+        ++known->second;
+    } else if (result_.faults.size() < settings_.most_faults) {
+        times_.emplace(message, 1);
         result_.faults.push_back({place_of(word), std::move(message), std::move(hint)});
     }
+}
+
+CordicProgram CordicCode::take() {
+    for (Diagnostic& fault : result_.faults) {
+        if (const std::int64_t times = times_.at(fault.message); times > 1) {
+            fault.message += fmt::format(" (the first of {} times)", times);
+        }
+    }
+    return std::move(result_);
 }
 
 void CordicCode::warn(SourcePlace source, std::string message) {

@@ -6,7 +6,9 @@
 #include "core/gcode/reader/cordic_program.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +28,7 @@ public:
 
     /// The line that the next faults may be in.
     void begin_line(const SourceLine& now) { now_ = now; }
+    /// What is said already is counted, not said again.
     void fault(const FaultyWord& word, std::string message, std::string hint = {});
     /// Whether the line that asked has such a word.
     [[nodiscard]] bool has_word(SourcePlace source, char letter, double code) const;
@@ -42,6 +45,8 @@ public:
     void set_loaded(cordic::Register target, std::optional<cordic::Word> word);
 
     [[nodiscard]] CordicProgram& result() { return result_; }
+    /// The result, with how often each fault was found. Nothing comes after it.
+    [[nodiscard]] CordicProgram take();
 
 private:
     [[nodiscard]] Place place_of(const FaultyWord& word) const;
@@ -52,7 +57,8 @@ private:
     std::filesystem::path file_;
     CordicProgramSettings settings_;
     CordicProgram result_;
-    SourceLine now_; ///< of the call that is being made
+    std::map<std::string, std::int64_t> times_; ///< that a fault was found, by its message
+    SourceLine now_;                            ///< of the call that is being made
     std::array<std::optional<cordic::Word>, cordic::register_count> loaded_;
 };
 

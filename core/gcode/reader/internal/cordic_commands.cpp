@@ -61,13 +61,18 @@ void CordicCommands::hand_over(Opcode opcode,
     if (!(parameter >= 0.0 && parameter <= std::numeric_limits<std::uint32_t>::max())) {
         return code_.fault(word, fmt::format("{} of {} does not fit into register P", what, parameter));
     }
-    code_.mov(Register::P, static_cast<Word>(std::llround(parameter)));
+    const auto whole = static_cast<Word>(std::llround(parameter));
+    if (whole == 0 && parameter > 0.0) {
+        return code_.fault(
+            word, fmt::format("{} of {} would be 0 in register P", what, parameter), "P holds whole numbers");
+    }
+    code_.mov(Register::P, whole);
     hand_over(opcode, word.source);
 }
 
 void CordicCommands::turn_spindle(Opcode opcode, SourcePlace source) {
     spindle_ = opcode;
-    hand_over(opcode, std::round(std::abs(spindle_rpm_)), {source, 'S'}, "a spindle speed");
+    hand_over(opcode, std::abs(spindle_rpm_), {source, 'S'}, "a spindle speed in rpm");
 }
 
 void CordicCommands::switch_coolant_off(SourcePlace source) {
@@ -96,7 +101,7 @@ void CordicCommands::command(const Command& command) {
     switch (command.kind) {
     case CommandKind::dwell:
         if (command.value > 0.0) {
-            hand_over(Opcode::g04, std::round(command.value * microseconds), {source, 'P'}, "a dwell in us");
+            hand_over(Opcode::g04, command.value * microseconds, {source, 'P'}, "a dwell in us");
         }
         return;
     case CommandKind::set_spindle_speed:

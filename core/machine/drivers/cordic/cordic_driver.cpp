@@ -78,7 +78,7 @@ std::string CordicDriver::remark() const {
         done.late.size(),
         done.published,
         1e-6 * options_.clock_hz,
-        to_mm_per_min(done.fastest));
+        to_mm_per_min(done.fastest.value_or(0.0))); // with late ones there are two at least
 }
 
 gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {

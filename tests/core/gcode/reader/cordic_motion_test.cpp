@@ -17,7 +17,7 @@ namespace {
 using kinematics::AxisPositions;
 
 Program motion_of(const std::string& text) {
-    const auto [image, lines, errors] = cordic::assemble(text, "records.asm", cordic::binary64);
+    const auto [image, lines, errors, warnings] = cordic::assemble(text, "records.asm", cordic::binary64);
     EXPECT_TRUE(errors.empty());
     cordic::Processor processor({}, image);
     processor.run(1'000'000);

@@ -1,6 +1,7 @@
 #include "core/gcode/reader/cordic_program.h"
 
 #include "core/cordic/assembler.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/interpreter.h"
@@ -147,6 +148,8 @@ TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
           Case{"G21\nG2 X401 I200.5 J0 F1\nM2\n", 9, "the centre's X 200.5 does not fit"},
           Case{"G21\n S100 M19 R90\nM2\n", 7, "no spindle orientation"},
           Case{"G21\nG4 P5000\nM2\n", 4, "a dwell in us of 5000000000 does not fit into register P"},
+          Case{"G21\nG4 P0.0000004\nM2\n", 4, "a dwell in us of 0.4 would be 0 in register P"},
+          Case{"G21\nM3 S0.4\nM2\n", 4, "a spindle speed in rpm of 0.4 would be 0 in register P"},
           Case{"G21\nG38.2 X5 F100\nM2\n", 1, "cannot probe"},
           Case{"G21\nG4 P1 M60\nM2\n", 7, "no pallets"},
           Case{"G21\nM64 P1\nM2\n", 1, "no output"}}) {
@@ -299,6 +302,32 @@ TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
     EXPECT_EQ(program.warnings[1].place.line, 3);
     EXPECT_THAT(program.warnings[1].message, HasSubstr("less than q16.8 can tell"));
     EXPECT_EQ(run(program).published().size(), 2U);
+}
+
+TEST(CordicCompiler, WarnsOfAnArcThatEndsAHairBehindItsStart) {
+    const CordicProgram hair = compiled("G21 F600 G0 X100\n G3 X100 Y0.00009 I-100 J0\nM2\n");
+    ASSERT_EQ(hair.warnings.size(), 1U);
+    EXPECT_EQ(hair.warnings[0].place.line, 2);
+    EXPECT_EQ(hair.warnings[0].place.column, 2);
+    EXPECT_THAT(hair.warnings[0].message, HasSubstr("the arc ends 9e-05 mm, 9e-07 rad, behind its start"));
+    const CordicProgram arc = compiled("G21 F600 G0 X100\nG3 X100 Y0.00011 I-100 J0\nM2\n");
+    EXPECT_TRUE(arc.warnings.empty());
+    EXPECT_EQ(arc.points.size(), 2U) << "an arc of one chord behind the way to its start";
+    for (const char* circle :
+         {"G3 X100 Y0 I-100 J0\nM2\n", "G2 I-33.3 J12.7\nM2\n", "G18 G3 I-7.1 K-3\nM2\n"}) {
+        EXPECT_TRUE(compiled(std::string("G21 F600 G0 X100\n") + circle).warnings.empty()) << circle;
+    }
+}
+
+TEST(CordicCompiler, SaysOnceWhatIsWrongInManyPlaces) {
+    CordicProgramSettings settings;
+    settings.format = cordic::fixed_format(8, 24); // Amax of 500 mm/s2 does not fit
+    const CordicProgram program = compiled("G21 F600\nG1 X1\nG1 X2\nG1 X300\nG1 X4\nM2\n", settings);
+    ASSERT_EQ(program.faults.size(), 2U);
+    EXPECT_EQ(program.faults[0].place.line, 2);
+    EXPECT_THAT(program.faults[0].message,
+                HasSubstr("the acceleration in mm/s2 500 does not fit into q8.24 (the first of 3 times)"));
+    EXPECT_EQ(program.faults[1].place.line, 4);
 }
 
 /// Lines that go somewhere.

@@ -1,7 +1,7 @@
 // What a model of the thesis's processor has to do, one test a promise, from the core of the arithmetic to
 // the programs that run on it. The folders' own tests go deeper.
-#include "core/cordic/assembler.h"
 #include "core/cordic/comparison.h"
+#include "core/cordic/disassembler.h"
 #include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
 #include "core/cordic/pipeline.h"
