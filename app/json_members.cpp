@@ -1,6 +1,7 @@
 #include "app/json_members.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 

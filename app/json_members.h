@@ -2,7 +2,7 @@
 // memory than one member, or one element of an array.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdio>
 #include <string_view>

@@ -242,7 +242,7 @@ std::vector<Finding> check_paths(const std::vector<TextFile>& files, const Exist
 
 std::vector<Finding> check_tests(const std::vector<TextFile>& files) {
     const std::regex of_source(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
-    const std::regex of_table(R"(`([A-Z]\w*\.(?:\w+|\*))`)");
+    const std::regex of_table(R"(`([A-Z]\w*\.(?:[A-Z]\w*|\*))`)");
     std::set<std::string> there;
     for (const TextFile& file : files) {
         for (std::sregex_iterator found(file.text.begin(), file.text.end(), of_source), end; found != end;

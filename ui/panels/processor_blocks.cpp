@@ -71,9 +71,8 @@ std::string label_of(const cordic::Microprogram& program, int address) {
 std::vector<std::string> sequencer_lines(const Processor& processor) {
     const ProcessorState& state = processor.state();
     return {fmt::format("executed {}", cordic::to_text(state.pipeline.op)),
-            fmt::format("next {:02x} {}",
-                        state.sequencer.address,
-                        label_of(processor.microprogram(), state.sequencer.address))};
+            fmt::format("next {:02x}", state.sequencer.address),
+            label_of(processor.microprogram(), state.sequencer.address)};
 }
 
 std::vector<std::string> port_lines(const Processor& processor) {

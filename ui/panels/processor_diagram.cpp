@@ -5,6 +5,8 @@
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/sketch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -72,7 +74,7 @@ constexpr std::array<Way, 10> ways{{
 
 Rect place_of(const BlockPlace& block, const Rect& place, float gap) {
     const float unit = place.w / columns;
-    const std::array<float, rows> heights{0.24F, 0.24F, 0.22F, 0.30F};
+    const std::array<float, rows> heights{0.235F, 0.235F, 0.215F, 0.315F};
     float top = place.y;
     for (int n = 0; n < static_cast<int>(block.row); ++n) {
         top += heights[static_cast<std::size_t>(n)] * place.h;
@@ -136,23 +138,23 @@ void draw_block(Ui& ui,
         lit ? widgets::mixed(colours.raised, colours.accent, 0.22) : colours.raised;
     sketch.box(box, ground, lit ? colours.accent : colours.line, widgets::gaps::rounding);
     const float pad = ui.px(7.0F);
-    const float line = ui.px(17.0F);
+    const float top = ui.px(3.0F);
+    const float title = ui.px(17.0F);
     const float inside = box.w - 2.0F * pad;
-    sketch.text({box.x + pad, box.y + ui.px(3.0F), inside, line},
+    sketch.text({box.x + pad, box.y + top, inside, title},
                 block.title,
                 lit ? colours.text : colours.muted,
                 widgets::TextAlign::left,
                 widgets::TextFont::small);
-    float y = box.y + ui.px(3.0F) + line;
-    for (const std::string& text : lines) {
-        if (y + line > box.bottom() + ui.px(2.0F)) {
-            break;
-        }
-        sketch.text({box.x + pad, y, inside, line},
-                    text,
-                    colours.text,
-                    widgets::TextAlign::left,
-                    widgets::TextFont::mono);
+    // As far apart as the box has room, in a small window closer.
+    const float room = box.h - title - 2.0F * top;
+    const auto count = static_cast<float>(std::max<std::size_t>(lines.size(), 1));
+    const float line = std::clamp(room / count, ui.px(14.0F), ui.px(17.0F));
+    float y = box.y + top + title;
+    for (std::size_t n = 0; n < lines.size() && y + line <= box.bottom() + ui.px(2.0F); ++n) {
+        const Rect place{box.x + pad, y, inside, line};
+        sketch.text(place, lines[n], colours.text, widgets::TextAlign::left, widgets::TextFont::mono);
+        ui.record(fmt::format("{}_line_{}", block.id, n), place);
         y += line;
     }
 }
@@ -165,7 +167,7 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const auto scope = ui.scope("blocks");
     Sketch sketch(ui, canvas.rect);
     const float margin = ui.px(8.0F);
-    const float gap = ui.px(22.0F);
+    const float gap = ui.px(14.0F);
     const Rect inside{place.x, place.y + margin, place.w, place.h - 2.0F * margin};
     Boxes boxes;
     for (std::size_t n = 0; n < blocks.size(); ++n) {

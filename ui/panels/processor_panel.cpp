@@ -87,7 +87,7 @@ constexpr std::array<std::string_view, 4> source_actions{
     "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
 
 constexpr widgets::FieldInfo bits_field{
-    "fraction", "Bits behind the point", {}, "10 before it, sign included", 4.0, 54.0};
+    "fraction", "Fraction bits", {}, "10 before it, sign included", 4.0, 54.0};
 constexpr widgets::FieldInfo steps_field{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
 constexpr widgets::FieldInfo tolerance_field{
     "tolerance", "Chord tolerance", "mm", "Farthest that a chord may be from its arc", 1e-5, 10.0, 0.01, 5};
@@ -295,16 +295,20 @@ void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
                 sketch.box(row, widgets::faded(ui.colours().accent, 0.28), ui.colours().accent, 3.0F);
             }
             const widgets::Colour tone = changed ? ui.colours().text : ui.colours().muted;
-            const float third = row.w / 3.0F;
+            const float name_width = 0.15F * row.w;
+            const float value_width = 0.37F * row.w; // the rest holds 16 digits in the smallest window
             using widgets::TextAlign;
             using widgets::TextFont;
-            sketch.text({row.x + ui.px(6.0F), row.y, 0.5F * third, row.h}, cordic::to_text(name), tone);
-            sketch.text({row.x + 0.5F * third, row.y, 1.25F * third, row.h},
+            sketch.text({row.x + ui.px(6.0F), row.y, name_width, row.h}, cordic::to_text(name), tone);
+            sketch.text({row.x + name_width, row.y, value_width, row.h},
                         register_text(debugger.processor(), name),
                         ui.colours().text,
                         TextAlign::right,
                         TextFont::mono);
-            sketch.text({row.x + 1.75F * third, row.y, 1.25F * third - ui.px(6.0F), row.h},
+            sketch.text({row.x + name_width + value_width,
+                         row.y,
+                         row.w - name_width - value_width - ui.px(6.0F),
+                         row.h},
                         bits_text(debugger.processor(), name),
                         ui.colours().muted,
                         TextAlign::right,

@@ -31,7 +31,7 @@ std::string pass_title(const cordic::IterationTrace& trace) {
     const auto steps = std::ranges::count_if(trace.points, [](const auto& p) { return !p.corrects; }) - 1;
     const auto corrections = std::ranges::count_if(trace.points, [](const auto& p) { return p.corrects; });
     return fmt::format("{}, step {}{}",
-                       trace.mode == cordic::Mode::rotation ? "Rotation: z to 0" : "Vectoring: y to 0",
+                       trace.mode == cordic::Mode::rotation ? "Rotation" : "Vectoring",
                        steps,
                        corrections > 0 ? fmt::format(", correction {}", corrections) : "");
 }

@@ -245,6 +245,9 @@ TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
         const auto texts = person.desktop().ui().cut_texts();
         cut.insert(texts.begin(), texts.end());
     };
+    for (const char* last : {"pipeline_line_1", "sequencer_line_2", "first_line_3", "registers_line_4"}) {
+        EXPECT_TRUE(person.sees(std::string("view/blocks/") + last)) << last;
+    }
     std::set<std::uint8_t> seen;
     for (int n = 0; n < 400 && bench.processor().debugger().line() < 6; ++n) {
         person.workshop().run("processor.micro");

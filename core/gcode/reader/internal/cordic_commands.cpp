@@ -63,8 +63,9 @@ void CordicCommands::hand_over(Opcode opcode,
     }
     const auto whole = static_cast<Word>(std::llround(parameter));
     if (whole == 0 && parameter > 0.0) {
-        return code_.fault(
-            word, fmt::format("{} of {} would be 0 in register P", what, parameter), "P holds whole numbers");
+        return code_.fault(word,
+                           fmt::format("{} of {:.6g} would be 0 in register P", what, parameter),
+                           "P holds whole numbers");
     }
     code_.mov(Register::P, whole);
     hand_over(opcode, word.source);

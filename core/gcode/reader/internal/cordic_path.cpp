@@ -126,15 +126,14 @@ bool CordicPath::chord(const Place3& to, const FeedOf& feed, double slack) {
     at_ = to;
     const double aside = distance(wanted->place, to);
     if (aside > slack) {
-        code_.fault(
-            {feed.source, 'G'},
-            fmt::format("{} holds the end of a chord {:.3g} mm aside, of the chord tolerance of {:.3g} "
-                        "mm {:.3g} mm are left for that",
-                        to_text(settings_.format),
-                        aside,
-                        settings_.chord_tolerance,
-                        slack),
-            finer);
+        code_.fault({feed.source, 'G'},
+                    fmt::format("{} holds the end of a chord {:.3g} mm aside, too much for a chord tolerance "
+                                "of {:.3g} mm, of which {:.3g} mm are left for rounding",
+                                to_text(settings_.format),
+                                aside,
+                                settings_.chord_tolerance,
+                                slack),
+                    finer);
         return false;
     }
     if (!is_held(*wanted)) {
@@ -211,15 +210,14 @@ void CordicPath::whole_arc(const DividedTurn& arc, const FeedOf& feed) {
                     "choose a number format with more bits");
         return;
     }
-    code_.fault(
-        {feed.source, 'G'},
-        fmt::format("rounding in {} leads this arc {:.3g} mm astray, of the chord tolerance of {:.3g} mm "
-                    "its chords leave {:.3g} mm for that",
-                    to_text(settings_.format),
-                    rotations.aside,
-                    settings_.chord_tolerance,
-                    slack_of(turn)),
-        finer);
+    code_.fault({feed.source, 'G'},
+                fmt::format("rounding in {} leads this arc {:.3g} mm astray, too much for a chord tolerance "
+                            "of {:.3g} mm, of which its chords leave {:.3g} mm for that",
+                            to_text(settings_.format),
+                            rotations.aside,
+                            settings_.chord_tolerance,
+                            slack_of(turn)),
+                finer);
 }
 
 /// Rotations as far as they stay near their places, then a line to where the next chord ends; and again.
