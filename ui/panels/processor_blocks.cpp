@@ -76,11 +76,12 @@ std::vector<std::string> sequencer_lines(const Processor& processor) {
 }
 
 std::vector<std::string> port_lines(const Processor& processor) {
-    std::vector<std::string> lines{fmt::format("{} set-points", processor.published().size()),
-                                   fmt::format("{} commands", processor.commanded().size())};
+    std::vector<std::string> lines{
+        fmt::format("{} points, {} cmd", processor.published().size(), processor.commanded().size())};
     if (!processor.published().empty()) {
         const auto last = processor.set_point(processor.published().back());
-        lines.push_back(fmt::format("X {:.4f} Y {:.4f}", last.x, last.y));
+        lines.push_back(fmt::format("X {:.7g}", last.x));
+        lines.push_back(fmt::format("Y {:.7g}", last.y));
     }
     return lines;
 }
@@ -194,12 +195,16 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
         return stack_lines(processor);
     case ProcessorBlock::pipeline:
         return pipeline_lines(processor);
-    case ProcessorBlock::registers:
-        return {"X0 " + number(reg(Register::X0)),
-                "Y0 " + number(reg(Register::Y0)),
-                "Z0 " + number(reg(Register::Z0)),
-                "Vx " + number(reg(Register::Vx)),
-                "Vy " + number(reg(Register::Vy))};
+    case ProcessorBlock::registers: {
+        const auto line = [&](std::string_view name, Register from) { // all digits are in the inspector
+            return fmt::format("{} {:.5g}", name, processor.number(reg(from)));
+        };
+        return {line("X0", Register::X0),
+                line("Y0", Register::Y0),
+                line("Z0", Register::Z0),
+                line("Vx", Register::Vx),
+                line("Vy", Register::Vy)};
+    }
     case ProcessorBlock::fold:
         return {flag("f1", state.path.f1), flag("f2", state.path.f2)};
     case ProcessorBlock::first:

@@ -37,20 +37,20 @@ constexpr float columns = 12.0F;
 constexpr int rows = 4;
 
 constexpr std::array<BlockPlace, 14> blocks{{
-    {"bus", "Interface", 0.0F, 0, 4.0F},
-    {"rom", "Program ROM", 4.0F, 0, 2.6F},
-    {"ram", "Dual-port RAM", 6.6F, 0, 2.4F},
-    {"port", "Motion port", 9.0F, 0, 3.0F},
+    {"bus", "Interface", 0.0F, 0, 3.6F},
+    {"rom", "Program ROM", 3.6F, 0, 2.3F},
+    {"ram", "Dual-port RAM", 5.9F, 0, 2.35F},
+    {"port", "Motion port", 8.25F, 0, 3.75F},
     {"ir", "IR", 0.0F, 1, 2.2F},
     {"map", "Mapping ROM", 2.2F, 1, 2.3F},
     {"sequencer", "Sequencer", 4.5F, 1, 3.2F},
     {"counter", "CTR", 7.7F, 1, 1.5F},
     {"stack", "Stack", 9.2F, 1, 2.8F},
     {"pipeline", "Microprogram ROM and pipeline register", 0.0F, 2, 12.0F},
-    {"registers", "Register file", 0.0F, 3, 2.6F},
-    {"fold", "Pre / Post", 2.6F, 3, 1.9F},
-    {"first", "Rotator x, y, z", 4.5F, 3, 4.1F},
-    {"second", "Rotator x2, y2", 8.6F, 3, 3.4F},
+    {"registers", "Register file", 0.0F, 3, 2.9F},
+    {"fold", "Pre / Post", 2.9F, 3, 1.75F},
+    {"first", "Rotator x, y, z", 4.65F, 3, 4.05F},
+    {"second", "Rotator x2, y2", 8.7F, 3, 3.3F},
 }};
 
 /// A way that is lit by any of its signals.
