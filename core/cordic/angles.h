@@ -71,7 +71,7 @@ inline constexpr WideAngles hyperbolic_angles = make_wide_angles(CoordinateSyste
 /// 2^exponent, exactly, within the normal numbers of T.
 template <class T> [[nodiscard]] constexpr T power_of_two(int exponent) {
     T power = 1;
-    const T factor = exponent < 0 ? T{0.5} : T{2};
+    const T factor = exponent < 0 ? T{1} / T{2} : T{2};
     for (int n = exponent < 0 ? -exponent : exponent; n > 0; --n) {
         power *= factor;
     }

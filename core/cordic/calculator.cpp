@@ -55,8 +55,8 @@ long double exactly(const Arithmetic& arithmetic, typename Arithmetic::Number nu
 
 template <class Number> struct Turn {
     std::int64_t quarter_turns = 0;
-    Number rest{};           ///< rad, within 45 degrees
-    long double exact = 0.0; ///< the same
+    Number rest{};            ///< rad, within 45 degrees
+    long double exact = 0.0L; ///< the same
 };
 
 /// Exact as far as the quarter turns go: degrees of a circle are whole numbers.

@@ -4,7 +4,6 @@
 #include "core/base/units.h"
 #include "core/plot/work_time.h"
 #include "core/project/level_settings.h"
-#include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/plot_fields.h"
 #include "ui/viewport/pen_colors.h"
@@ -108,6 +107,20 @@ std::string sources_of(const plot::CuttingValues& values) {
     return "Feed: " + values.feed.source + ". Plunge: " + values.plunge.source +
            ". Depth a pass: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source +
            ".";
+}
+
+/// In one line, for the levels below want to be seen, too.
+std::string axis_words(const Workbench& now) {
+    const auto machine = now.machine();
+    const auto moment = now.moment();
+    if (!machine || !moment || moment->axes.size() != machine->axis_count()) {
+        return "...";
+    }
+    std::string words;
+    for (Eigen::Index n = 0; n < std::min<Eigen::Index>(moment->axes.size(), 3); ++n) {
+        words += (n == 0 ? "" : "  ") + fixed(moment->axes[n], 2);
+    }
+    return words;
 }
 
 } // namespace
@@ -241,7 +254,7 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
     if (!section) {
         return;
     }
-    axis_positions(ui, now);
+    ui.value("axes", "X  Y  Z", axis_words(now), "mm");
     const double left = std::max(now.duration() - now.time(), 0.0);
     ui.value("left",
              "Remaining",
