@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Options of all commands that name a file to be written.
-constexpr std::array<std::string_view, 7> outputs{
-    "--out", "--path", "--preview", "--picture", "--pulses", "--servo", "--trace"};
+constexpr std::array<std::string_view, 8> outputs{
+    "--out", "--path", "--picture", "--preview", "--pulses", "--ram-out", "--servo", "--trace"};
 
 struct Named {
     std::string option; ///< as it is called on the command line

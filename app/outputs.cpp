@@ -22,15 +22,23 @@ void remove_drafts(const fs::path& folder, const std::vector<OutputFile>& files)
     }
 }
 
+void expect_replaceable(const fs::path& place, const fs::path& source) {
+    if (fs::is_directory(place)) {
+        throw Error("cannot write: Is a directory", place);
+    }
+    std::error_code failure;
+    if (!source.empty() && fs::equivalent(place, source, failure)) {
+        throw Error("would be written over, and is read", place, "choose another folder");
+    }
+}
+
 } // namespace
 
-void write_outputs(const fs::path& folder, const std::vector<OutputFile>& files) {
+void write_outputs(const fs::path& folder, const std::vector<OutputFile>& files, const fs::path& source) {
     make_folder(folder);
     try {
         for (const OutputFile& file : files) {
-            if (fs::is_directory(folder / file.name)) {
-                throw Error("cannot write: Is a directory", folder / file.name);
-            }
+            expect_replaceable(folder / file.name, source);
             write_file(beside(folder, file), file.bytes);
         }
     } catch (const Error&) {

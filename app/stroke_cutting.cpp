@@ -134,7 +134,7 @@ void cut_strokes(const Strokes& drawn,
     if (shaped.strokes.empty()) {
         throw Error("there is nothing to cut");
     }
-    if (const std::string left_alone = plot::left_alone(drawn, shaped); !left_alone.empty()) {
+    if (const std::string left_alone = plot::left_alone(drawn, shaped, plan); !left_alone.empty()) {
         fmt::print(stderr, "millwright: {}\n", left_alone);
     }
     Strokes strokes = std::move(shaped.strokes);

@@ -71,7 +71,8 @@ int plan(const Options& options) {
     write_outputs(options.out,
                   {{"program." + text.format.extension, text.text.listing.text},
                    {"report.json", project::report_text(opened.project, plan)},
-                   {"preview.png", render::to_png(preview)}});
+                   {"preview.png", render::to_png(preview)}},
+                  opened.file);
     print_notes(text);
     print_summary(plan, opened.project);
     return 0;

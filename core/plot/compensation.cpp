@@ -1,10 +1,10 @@
 #include "core/plot/compensation.h"
 
 #include "core/base/error.h"
+#include "core/plot/internal/clipper_paths.h"
 #include "core/plot/internal/point_grid.h"
 
 #include <fmt/format.h>
-#include <polyclipping/clipper.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,39 +16,9 @@
 namespace millwright::plot {
 namespace {
 
-// Clipper counts in whole numbers: a micrometre's thousandth, up to 1 km.
-constexpr double units_per_mm = 1e6;
-constexpr double largest_mm = 1e6;
-constexpr double miter_limit = 4.0;
-
-ClipperLib::Paths to_clipper(const Region& region) {
-    ClipperLib::Paths paths;
-    for (const Ring& ring : region) {
-        ClipperLib::Path& path = paths.emplace_back();
-        for (const Vec2& p : ring) {
-            if (!(p.cwiseAbs().maxCoeff() <= largest_mm)) {
-                throw Error("an outline has a point that is no number or farther away than 1 km");
-            }
-            path.emplace_back(std::llround(p.x() * units_per_mm), std::llround(p.y() * units_per_mm));
-        }
-    }
-    return paths;
-}
-
-Region from_clipper(const ClipperLib::Paths& paths) {
-    Region region;
-    for (const ClipperLib::Path& path : paths) {
-        Ring& ring = region.emplace_back();
-        for (const ClipperLib::IntPoint& p : path) {
-            ring.push_back(Vec2(static_cast<double>(p.X), static_cast<double>(p.Y)) / units_per_mm);
-        }
-    }
-    return region;
-}
-
 /// Rings that neither cross nor overlap, outer ones counter-clockwise, holes clockwise.
 ClipperLib::Paths simple(const Region& region) {
-    ClipperLib::Paths paths = to_clipper(region);
+    ClipperLib::Paths paths = internal::to_clipper(region);
     ClipperLib::SimplifyPolygons(paths, ClipperLib::pftEvenOdd);
     return paths;
 }
@@ -101,16 +71,7 @@ Region begun_as(const Region& drawn, Region found) {
 } // namespace
 
 Region offset(const Region& region, double distance, Corners corners, double arc_tolerance) {
-    if (!(std::abs(distance) <= largest_mm) || !(arc_tolerance > 0.0)) {
-        throw Error(fmt::format("an offset of {} mm with arcs to {} mm", distance, arc_tolerance));
-    }
-    ClipperLib::ClipperOffset clipper(miter_limit, arc_tolerance * units_per_mm);
-    clipper.AddPaths(simple(region),
-                     corners == Corners::sharp ? ClipperLib::jtMiter : ClipperLib::jtRound,
-                     ClipperLib::etClosedPolygon);
-    ClipperLib::Paths found;
-    clipper.Execute(found, distance * units_per_mm);
-    return from_clipper(found);
+    return internal::from_clipper(internal::offset_paths(simple(region), distance, corners, arc_tolerance));
 }
 
 Strokes compensated(const Region& region, const CompensationSettings& settings, int pen) {

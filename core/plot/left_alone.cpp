@@ -1,22 +1,56 @@
 #include "core/plot/left_alone.h"
 
 #include "core/plot/linking.h"
+#include "core/plot/narrow_parts.h"
 
 #include <fmt/format.h>
 
-namespace millwright::plot {
+#include <cstddef>
+#include <map>
 
-std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped) {
-    if (shaped.open == 0) {
+namespace millwright::plot {
+namespace {
+
+std::string on_open(const Strokes& drawn, std::size_t open) {
+    if (open == 0) {
         return {};
     }
     if (closed_outlines(drawn).empty()) {
         return "no stroke is closed: none is filled or compensated";
     }
-    return shaped.open == 1
+    return open == 1
                ? "1 stroke stays as it is, not closed: neither filled nor compensated"
-               : fmt::format("{} strokes stay as they are, not closed: neither filled nor compensated",
-                             shaped.open);
+               : fmt::format("{} strokes stay as they are, not closed: neither filled nor compensated", open);
+}
+
+std::size_t narrow_parts(const Strokes& drawn, const StrokePlan& plan) {
+    const CompensationSettings settings{.tool_diameter = plan.tool_diameter, .side = plan.side};
+    std::map<int, Strokes> pens;
+    for (const Stroke& stroke : drawn) {
+        pens[stroke.pen].push_back(stroke);
+    }
+    std::size_t count = 0;
+    for (const auto& [pen, strokes] : pens) {
+        count += count_narrow_parts(closed_outlines(strokes), settings);
+    }
+    return count;
+}
+
+std::string on_narrow(std::size_t parts) {
+    if (parts == 0) {
+        return {};
+    }
+    return parts == 1
+               ? "1 closed part is too narrow for the tool: nothing is cut there"
+               : fmt::format("{} closed parts are too narrow for the tool: nothing is cut there", parts);
+}
+
+} // namespace
+
+std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped, const StrokePlan& plan) {
+    const std::string open = on_open(drawn, shaped.open);
+    const std::string narrow = on_narrow(plan.side == CutterSide::on_line ? 0 : narrow_parts(drawn, plan));
+    return open.empty() || narrow.empty() ? open + narrow : open + "; " + narrow;
 }
 
 } // namespace millwright::plot

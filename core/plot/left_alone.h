@@ -7,8 +7,9 @@
 
 namespace millwright::plot {
 
-/// One sentence on those of the drawing that are not closed and stay as they are; empty: all were, or nothing
-/// was asked for.
-[[nodiscard]] std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped);
+/// One line on those of the drawing that are not closed and stay as they are, and on parts of it that the
+/// tool does not fit into; empty: there are none, or nothing was asked for.
+[[nodiscard]] std::string
+left_alone(const Strokes& drawn, const ShapedStrokes& shaped, const StrokePlan& plan);
 
 } // namespace millwright::plot

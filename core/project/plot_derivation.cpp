@@ -148,7 +148,8 @@ std::vector<plot::Level> PlotDerivation::levels_of(const plot::Strokes& strokes)
 
 plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& drawn, const Vec2& end) {
     plot::ShapedStrokes shaped = plot::shaped(drawn, settings_.strokes);
-    if (const std::string left_alone = plot::left_alone(drawn, shaped); !left_alone.empty()) {
+    if (const std::string left_alone = plot::left_alone(drawn, shaped, settings_.strokes);
+        !left_alone.empty()) {
         result_.notices.push_back({.place = {.file = result_.input.file}, .message = left_alone, .hint = {}});
     }
     if (settings_.strokes.order) {

@@ -146,6 +146,12 @@ TEST_F(CordicOptions, FillTheRamForTheProcessorAndReadItBack) {
     const std::string ram = content_of(path("out.ram"));
     EXPECT_EQ(ram.size(), 0x4000U);
     EXPECT_EQ(ram.substr(4, 4), ram.substr(0, 4));
+    for (const std::string& read : {in, file}) {
+        const Ended onto = run({"cordic", "run", file, "--ram", in, "--ram-out", read});
+        EXPECT_EQ(onto.exit_code, 1);
+        EXPECT_THAT(onto.err, HasSubstr("--ram-out would write over "));
+    }
+    EXPECT_EQ(content_of(in).size(), 4U);
     const Ended large = run({"cordic", "run", file, "--ram", written("large.ram", std::string(0x4001, 'x'))});
     EXPECT_EQ(large.exit_code, 1);
     EXPECT_THAT(large.err, HasSubstr("large.ram: 16385 bytes, the RAM holds 16384"));

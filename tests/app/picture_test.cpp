@@ -260,6 +260,28 @@ TEST(PictureCommand, PreviewAgainstTheLightIsBrightWhereThePictureIs) {
     EXPECT_THAT(traced("110,10,80,180").err, HasSubstr("nothing in it is dark enough"));
 }
 
+TEST(PictureCommand, ListsOfNumbersTakeNoFileForANumber) {
+    const ScratchFolder folder;
+    const std::string picture = "assets/samples/pictures/snail.png";
+    const auto relief = [&](const std::string& name, const std::vector<std::string>& words) {
+        const std::string out = (folder / name).string();
+        std::vector<std::string> command = {"picture", "relief"};
+        command.insert(command.end(), words.begin(), words.end());
+        command.insert(command.end(), {"--width", "10", "--depth", "1", "--tool", "ball:2", "--out", out});
+        const Ended ended = run(command);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return content_of(out);
+    };
+    const std::string before = relief("before.ngc", {"--region", "10,10,40,40", "--origin", "3,3", picture});
+    const std::string behind = relief("behind.ngc", {picture, "--origin", "3,3", "--region", "10,10,40,40"});
+    EXPECT_THAT(before, HasSubstr("X3.0000"));
+    EXPECT_EQ(before, behind);
+    const Ended few =
+        run({"picture", "relief", "--region", "10,10,40", picture, "--depth", "1", "--out", "o"});
+    EXPECT_EQ(few.exit_code, 2);
+    EXPECT_THAT(few.err, HasSubstr("--region"));
+}
+
 TEST(PictureCommand, SaysWhatIsWrong) {
     const ScratchFolder folder;
     const std::string out = (folder / "out.ngc").string();

@@ -30,6 +30,18 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     }
 }
 
+TEST(PlanCommand, WritesOverNoProjectInItsFolder) {
+    const ScratchFolder scratch;
+    const fs::path project = scratch / "report.json";
+    fs::rename(small_project(scratch.path(), "dome"), project);
+    const std::string bytes = content_of(project);
+    const Ended ended = run({"plan", project, "--out", scratch.path()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("report.json: would be written over, and is read"));
+    EXPECT_EQ(content_of(project), bytes);
+    EXPECT_FALSE(fs::exists(scratch / "program.ngc"));
+}
+
 TEST(PlanCommand, BetterGridsAreNotWorse) {
     const ScratchFolder scratch;
     for (const char* name : {"dome", "two-bell", "sine"}) {

@@ -172,6 +172,21 @@ TEST(PlotCommand, SaysThatNothingIsClosedWhereItIsToBeFilled) {
     EXPECT_THAT(ended.err, HasSubstr("no stroke is closed: none is filled or compensated"));
 }
 
+TEST(PlotCommand, SaysWhatIsTooNarrowForTheTool) {
+    const ScratchFolder folder;
+    write_content(folder / "two.plt",
+                  "IN;SP1;PU0,0;PD800,0,800,800,0,800,0,0;PU1200,0;PD1240,0,1240,800,1200,800,1200,0;PU;SP;");
+    const Ended ended = run({"plot",
+                             "toolpath",
+                             (folder / "two.plt").string(),
+                             "--side",
+                             "inside",
+                             "--out",
+                             (folder / "out.ngc").string()});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("1 closed part is too narrow for the tool: nothing is cut there"));
+}
+
 TEST(PlotCommand, InfoOfNoPlotFails) {
     const ScratchFolder folder;
     const auto info_of = [&](const std::string& bytes, std::vector<std::string> more) {

@@ -103,7 +103,9 @@ TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
     write_content(folder / "good.path", title + "1,2,5,0,rapid,1\n1,2,-1,2,plunge,1\n480,2,-1,10,cut,1\n");
     write_content(folder / "far.path", title + "1,2,5,0,rapid,1\n480.5,2,5,0,rapid,1\n");
     Emulator table(port, {"--answer", "ok"}, "table");
-    const Ended far = run(send_words((folder / "far.path").string(), port, folder));
+    auto words = send_words((folder / "far.path").string(), port, folder);
+    words.insert(words.begin() + 1, {"--at", "0,0,5"}); // before the file, which is no number
+    const Ended far = run(words);
     EXPECT_EQ(far.exit_code, 1);
     EXPECT_THAT(far.err, HasSubstr("axis X would go to 480.500, outside 0.000 ... 480.000 mm"));
     const Ended good = run(send_words((folder / "good.path").string(), port, folder));

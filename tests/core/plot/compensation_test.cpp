@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot/narrow_parts.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
@@ -73,6 +74,24 @@ TEST(Compensation, HolesAreKeptAndThoseTooSmallHaveNoPath) {
     const Strokes paths = compensated(plate, {.tool_diameter = 3.0});
     ASSERT_EQ(paths.size(), 2U);
     EXPECT_NEAR(draw_length(paths), 412.0 + 4.0 * 37.0, 1e-5);
+}
+
+// A frame of 2 mm with a square of 10 mm in it, and a square of 20 mm with a hole of 2 mm.
+TEST(Compensation, PartsThatTheToolDoesNotFitIntoAreCounted) {
+    const Region drawing = {
+        square(0.0, 40.0), square(2.0, 38.0), square(10.0, 20.0), square(50.0, 70.0), square(55.0, 57.0)};
+    const auto too_narrow = [&](CutterSide side, double diameter) {
+        return count_narrow_parts(drawing, {.tool_diameter = diameter, .side = side});
+    };
+    EXPECT_EQ(too_narrow(CutterSide::inside, 1.0), 0U);
+    EXPECT_EQ(too_narrow(CutterSide::inside, 3.0), 1U); // the frame
+    EXPECT_EQ(too_narrow(CutterSide::inside, 12.0),
+              2U); // and the square of 10 mm; 13 mm are left of the other
+    EXPECT_EQ(too_narrow(CutterSide::inside, 30.0), 3U);
+    EXPECT_EQ(too_narrow(CutterSide::outside, 1.0), 0U);
+    EXPECT_EQ(too_narrow(CutterSide::outside, 3.0), 1U);  // the hole of 2 mm
+    EXPECT_EQ(too_narrow(CutterSide::outside, 30.0), 2U); // and the inside of the frame, around its square
+    EXPECT_EQ(too_narrow(CutterSide::on_line, 30.0), 0U);
 }
 
 // No point of the path is nearer to the outline than the tool's radius, however the outline crosses itself.

@@ -89,9 +89,9 @@ protected:
         return drawing_in(read_file(folder_ / "out"), bytes.find("CI") != std::string::npos);
     }
 
-    void expect_same_drawing(const std::string& bytes) {
+    void expect_same_drawing(const std::string& bytes, FillMode fill = FillMode::outline) {
         ReaderSettings settings;
-        settings.fill = FillMode::outline;
+        settings.fill = fill;
         settings.p2 = Vec2(33600.0, 47520.0); // the sheet that hp2xx assumes
         const Plot ours = read_hpgl(bytes, "plot.plt", settings);
         EXPECT_TRUE(ours.diagnostics.empty()) << to_text(ours.diagnostics.front());
@@ -134,7 +134,8 @@ std::string as_hp2xx_reads_it(const std::string& name, std::string bytes) {
         without("[\r\n]");
     }
     if (name == "hatched-sign" || name == "hatching") {
-        // Its hatch lines begin elsewhere than HP says (at the middle of the first gap): edges only.
+        // It draws the edges of a polygon that is to be filled, solid fills 0.1 units apart, and counts the
+        // spacing of slanting lines along an axis: edges only. Upright and level ones are compared below.
         without("FP;");
         without("R[AR][-0-9,]*;");
         without("WG", "EW");
@@ -165,6 +166,19 @@ TEST_F(Hp2xx, DrawsEverySampleLikeUs) {
         ++compared;
     }
     EXPECT_GE(compared, 12);
+}
+
+// Its lines lie half a plotter unit below ours, 0.0125 mm, so none is where a region begins or ends.
+TEST_F(Hp2xx, HatchesRectanglesAndWedgesLikeUs) {
+    for (const char* filled : {"FT3,100,0;PU20,30;RA1020,530;",
+                               "FT3,63.5,90;PU20,30;RR1000,500;",
+                               "FT4,100,0;PU20,30;RA1020,530;",
+                               "FT3,100,0;PU2020,1030;WG900,20,230;",
+                               "IP120,35,2000,2000;FT3,100,0;PU130,40;RA1020,530;"}) {
+        const std::string plot = std::string("IN;SP1;") + filled + "PU;SP0;";
+        SCOPED_TRACE(plot);
+        expect_same_drawing(plot, FillMode::hatched);
+    }
 }
 
 // Our letters are our own, so labels of blanks show that the pen ends where hp2xx has it.
