@@ -241,8 +241,10 @@ void add_series_options(CLI::App& command, SeriesChoice& choice, const std::stri
 
 void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
     command
-        .add_option(
-            "--clearance", clearance, "Z of the work in which the tool can go anywhere, for --from-line")
+        .add_option("--clearance",
+                    clearance,
+                    "Z of the work in which the tool can go anywhere, for --from-line; in the unit of the "
+                    "line where a controller executes the text (inch after G20), else mm")
         ->type_name("Z")
         ->check(finite_number());
 }

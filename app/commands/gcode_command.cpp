@@ -198,6 +198,10 @@ MachineRun machine_run(const Options& options) {
 /// For another control.
 int convert(const Options& options) {
     const MachineRun run = machine_run(options);
+    throw_first(run.found.lost);
+    for (const Diagnostic& simplified : run.found.simplified) {
+        fmt::print(stderr, "warning: {}\n", to_text(simplified));
+    }
     const std::string name = std::filesystem::path(options.file).stem().string();
     const PostedText result = posted(run.found.program, run.machine, options.post, name);
     print_notes(result);

@@ -261,7 +261,7 @@ private:
         for (std::size_t n = 0; n < from.count; ++n) {
             std::array<float, 3> value{};
             std::memcpy(value.data(), from.begin + n * from.stride, sizeof(value));
-            const Vec3 point(value[0], value[1], value[2]);
+            const Vec3 point = Eigen::Map<const Eigen::Vector3f>(value.data()).cast<double>();
             if (!(point.cwiseAbs().maxCoeff() <= farthest_m)) {
                 fail("a number is not finite, or farther than 10 km");
             }

@@ -156,7 +156,7 @@ Job planned_job(std::string_view text,
     gcode::Interpreter reader(text, file, std::move(settings), builder);
     reader.run();
     gcode::MachineProgram made = builder.take();
-    for (const auto* faults : {&reader.errors(), &std::as_const(made.faults)}) {
+    for (const auto* faults : {&reader.errors(), &std::as_const(made.faults), &std::as_const(made.lost)}) {
         if (!faults->empty()) {
             throw Error(faults->front());
         }

@@ -129,7 +129,7 @@ public:
             by_the_minute_ = command.index != 1; // that of G93 is told as a feed a minute, too
             break;
         case CommandKind::use_length_units:
-            plunge_.reset();
+            use(static_cast<gcode::LengthUnit>(command.index));
             break;
         default:
             break;
@@ -142,8 +142,16 @@ public:
     [[nodiscard]] bool changed_tool() const { return changed_; }
 
 private:
+    void use(gcode::LengthUnit unit) {
+        if (plunge_ && unit != unit_) {
+            *plunge_ *= unit == gcode::LengthUnit::mm ? gcode::mm_per_inch : 1.0 / gcode::mm_per_inch;
+        }
+        unit_ = unit;
+    }
+
     std::optional<double> highest_; ///< Z of a rapid, as programmed
-    std::optional<double> plunge_;
+    std::optional<double> plunge_;  ///< in the unit in force
+    gcode::LengthUnit unit_ = gcode::LengthUnit::mm;
     AxisValues here_{};
     double feed_ = 0.0;
     bool by_the_minute_ = true;

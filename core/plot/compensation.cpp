@@ -57,7 +57,7 @@ Region begun_as(const Region& drawn, Region found) {
                 first = n;
             }
         }
-        std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
+        std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
         rings.emplace_back(like, std::move(ring));
     }
     std::ranges::stable_sort(rings, {}, &std::pair<int, Ring>::first);

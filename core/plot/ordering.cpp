@@ -76,8 +76,9 @@ public:
             std::vector<Vec2>& points = order.back().points;
             if (is_closed(order.back())) { // the way around stays: it says on which side the tool cuts
                 points.pop_back();
-                std::ranges::rotate(points,
-                                    points.begin() + static_cast<std::ptrdiff_t>(begins_[visit.stroke]));
+                std::rotate(points.begin(),
+                            points.begin() + static_cast<std::ptrdiff_t>(begins_[visit.stroke]),
+                            points.end());
                 points.push_back(points.front());
             } else if (visit.reversed) {
                 std::ranges::reverse(points);

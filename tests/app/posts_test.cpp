@@ -62,6 +62,23 @@ TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
     EXPECT_THAT(ended.err, HasSubstr("1 arcs\n"));
 }
 
+TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise) {
+    write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG38.2 Z-20 F50\nG10 L20 P1 Z0\nG0 Z5\nM2\n");
+    Ended ended = convert("router-xyz", "grbl");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, HasSubstr(":3:1: nothing is probed"));
+    write_content(part, "G21 G90 S500 M3\nG0 X0 Y0 Z5\nG33.1 Z-10 K1.5\nM2\n");
+    ended = convert("router-xyz", "linuxcnc");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(":3:1: a feed cannot be kept in step with the spindle"));
+    write_content(part, "G21 G90\nM7\nG0 X0 Y0 Z5\nG1 X9 F300\nG53 G0 Z0\nM2\n");
+    ended = convert("router-xyz", "grbl");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist (M7)"));
+    EXPECT_THAT(ended.err, HasSubstr(":5:1: G53 goes to a machine position"));
+}
+
 TEST_F(Posts, ConvertSaysWhatCannotBe) {
     write_content(part, "G21 G90\nG0 X10 A5\nM2\n");
     Ended ended = convert("ac-table", "grbl");

@@ -73,11 +73,12 @@ function(millwright_fuzz name)
     endif()
     add_dependencies(fuzzers ${name}_fuzz)
     set_target_properties(${name}_fuzz PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
-    # New inputs go to the first folder; those of the repository are only read.
+    # New inputs go to the first folder; those of the repository are only read. The seed makes a run from the same
+    # inputs the same one, so that what the continuous integration finds is found here, too.
     set(found ${PROJECT_BINARY_DIR}/fuzz/${name}_corpus)
     file(MAKE_DIRECTORY ${found})
     add_test(NAME ${name}_fuzz
-        COMMAND ${name}_fuzz -max_total_time=20 -timeout=10 -print_final_stats=1
+        COMMAND ${name}_fuzz -seed=1 -max_total_time=20 -timeout=10 -print_final_stats=1
             -artifact_prefix=${PROJECT_BINARY_DIR}/fuzz/${name}_ ${found} ${ARG_CORPUS}
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${name}_fuzz PROPERTIES LABELS fuzz TIMEOUT 120)

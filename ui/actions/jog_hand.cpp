@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 
+#include <utility>
+
 namespace millwright::actions {
 
 namespace {
@@ -20,8 +22,12 @@ void JogHand::renew(const JogWish& wish) {
 }
 
 void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double>(now - std::exchange(followed_, now)).count();
     if (!wish) {
         must_let_go_ = false;
+    } else if (moving_ && since > longest_frame) {
+        must_let_go_ = true;
     }
     if (!allowed) {
         must_let_go_ = must_let_go_ || wish.has_value();

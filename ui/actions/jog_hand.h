@@ -5,6 +5,7 @@
 #include "core/machine/driver.h"
 #include "ui/actions/controller.h"
 
+#include <chrono>
 #include <optional>
 
 namespace millwright::actions {
@@ -24,11 +25,14 @@ class JogHand {
 public:
     /// After this time without a sign of life the driver stops a jog, s.
     static constexpr double dead_man = 0.1;
+    /// A window that has hung for so long begins nothing anew by itself, s.
+    static constexpr double longest_frame = 2.0;
 
     explicit JogHand(Controller& controller) : controller_(controller) {}
 
     /// What a person wants in this frame; nothing stops. Not `allowed` (the window has lost the focus, a
-    /// question is asked) stops whatever jog there is, and it takes letting go before another one begins.
+    /// question is asked) stops whatever jog there is, and it takes letting go before another one begins. So
+    /// it does after the window has hung.
     void follow(const std::optional<JogWish>& wish, bool allowed);
     /// The same as a frame in which nothing is wanted, at once.
     void let_go();
@@ -40,6 +44,7 @@ private:
     Controller& controller_;
     bool moving_ = false;
     bool must_let_go_ = false;
+    std::chrono::steady_clock::time_point followed_; ///< when follow() was called last
 };
 
 } // namespace millwright::actions

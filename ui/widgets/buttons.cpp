@@ -1,4 +1,5 @@
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/ui.h"
@@ -76,6 +77,14 @@ bool Ui::button(std::string_view id,
     return now.clicked;
 }
 
+namespace {
+
+// What a button that is held remembers. One that was left goes on only after another press.
+constexpr double is_held = 1.0;
+constexpr double was_left = 2.0;
+
+} // namespace
+
 HeldButton Ui::hold_button(std::string_view id,
                            std::string_view label,
                            const Permission& permission,
@@ -87,9 +96,12 @@ HeldButton Ui::hold_button(std::string_view id,
     fill(slot.rect(), with.ground, px(gaps::rounding));
     draw_caption(*this, slot.rect(), with.text, look.icon, label, look.rank);
     double& before = state().memory[path(id) + "@held"];
-    const bool held = now.enabled && now.held && (now.hovered || now.focused);
-    const bool was = before > 0.5;
-    before = held ? 1.0 : 0.0;
+    const bool was = exactly_equal(before, is_held);
+    const bool on_it = now.hovered || now.focused;
+    const bool left = exactly_equal(before, was_left) || (was && !on_it);
+    const bool pressed = now.enabled && now.held;
+    before = !pressed ? 0.0 : left ? was_left : on_it ? is_held : 0.0;
+    const bool held = exactly_equal(before, is_held);
     return {held, held && !was};
 }
 

@@ -75,6 +75,13 @@ public:
     void move(const Move& move, const SourceLine& now) {
         text_ = now.place == move.source ? now.text : std::string_view();
         worded_ = axes_with_words(text_, machine_);
+        look_for_machine_positions(move.source);
+        if (move.kind == MoveKind::probe) {
+            note(result_.lost,
+                 move.source,
+                 'G',
+                 "nothing is probed by a motion that is planned beforehand (G38)");
+        }
         const AxisValues start = frame_.from_machine(at_);
         switch (move.kind) {
         case MoveKind::traverse:
@@ -111,6 +118,7 @@ public:
     void command(const Command& command) {
         frame_.command(command);
         feed_.command(command, frame_.unit());
+        look_for_losses(command);
         switch (command.kind) {
         case CommandKind::set_motion_control_mode:
             path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
@@ -279,6 +287,49 @@ private:
     void fault(SourcePlace source, char letter, std::string message) {
         if (result_.faults.size() < settings_.most_faults) {
             result_.faults.push_back(diagnostic(source, letter, std::move(message)));
+        }
+    }
+
+    /// Each message once, at the word `letter` of the line at hand.
+    void note(std::vector<Diagnostic>& of, SourcePlace source, char letter, const std::string& message) {
+        if (std::ranges::find(of, message, &Diagnostic::message) == of.end()) {
+            of.push_back(diagnostic(source, letter, message));
+        }
+    }
+
+    void look_for_machine_positions(SourcePlace source) {
+        for (const int code : {53, 28, 30}) {
+            if (column_of_word(text_, 'G', code) > 0) {
+                note(result_.simplified,
+                     source,
+                     'G',
+                     fmt::format("G{} goes to a machine position: it is taken for one of the work, as if no "
+                                 "offset were set",
+                                 code));
+            }
+        }
+    }
+
+    void look_for_losses(const Command& command) {
+        const SourcePlace at = command.source;
+        switch (command.kind) {
+        case CommandKind::start_speed_feed_synch:
+            return note(result_.lost,
+                        at,
+                        'G',
+                        "a feed cannot be kept in step with the spindle here (G33, G33.1, G76)");
+        case CommandKind::mist_on:
+            return note(result_.simplified, at, 'M', "mist (M7) is not told from flood (M8)");
+        case CommandKind::set_g5x_offset:
+            if (command.index > 1) {
+                note(result_.simplified,
+                     at,
+                     'G',
+                     "a work system other than G54 is taken for G54: no offset is known");
+            }
+            return;
+        default:
+            return;
         }
     }
 

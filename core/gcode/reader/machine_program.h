@@ -34,6 +34,13 @@ struct MachineProgram {
     std::vector<Diagnostic> faults; ///< what this machine cannot do; such moves are left out
     /// Ways beyond the machine's travel, the first of each axis; these are in the program.
     std::vector<Diagnostic> beyond_travel;
+    /// What blocks cannot say and what would be another thing without it, the first of each kind: probing, a
+    /// feed in step with the spindle. Its moves are in the program; who makes motion of them refuses.
+    std::vector<Diagnostic> lost;
+    /// What blocks say in another way or not at all, the first of each kind: mist (flood), other work systems
+    /// (their offsets are zero), machine positions of G53, G28 and G30 (of a machine whose offsets are zero),
+    /// outputs, override switches.
+    std::vector<Diagnostic> simplified;
     double length = 0.0; ///< of the ways of X Y Z, rapids too, mm
 };
 

@@ -163,6 +163,13 @@ TEST_F(MachineByHand, StopsWhenTheMouseLeavesTheButton) {
     connect();
     start_jog();
     expect_prompt(time_to_stop([this] { person.hover({640.0F, 300.0F}); }));
+    person.hover(person.place("hand/jog/plus_X").centre()); // it is still down, and over the button again
+    live(0.5);
+    EXPECT_FALSE(grbl.moving());
+    person.hold_button(false);
+    live(0.1);
+    start_jog();
+    person.hold_button(false);
 }
 
 TEST_F(MachineByHand, StopsWithoutTheFocusAndWaitsForAnotherPress) {

@@ -157,6 +157,10 @@ private:
             {{16, "its amplifier is never disabled"},
              {17, "its limit switches are not looked at"},
              {20, "a fault of its amplifier is not looked at"}}};
+        constexpr double beyond_words = 1 << 24; // of the card
+        if (!(std::abs(last.value) < beyond_words)) {
+            return warn(last.line, fmt::format("I{}: the value has more than 24 bits", variable), {});
+        }
         const auto bits = static_cast<std::int64_t>(last.value);
         for (const auto& [bit, what] : parts) {
             if ((bits >> bit & 1) != 0) {

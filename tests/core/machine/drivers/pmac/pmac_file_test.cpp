@@ -49,6 +49,12 @@ TEST(PmacFileF1, WarnsOfEachProtectionThatIsOff) {
     EXPECT_TRUE(read_pmac_file("I125=$C000\nI111=0\nI111=32000\n", "safe.ini").warnings.empty());
 }
 
+TEST(PmacFileF1, TakesNoFlagsFromANumberThatIsNoWord) {
+    const PmacFile file = read_pmac_file("I225=" + std::string(80, '4'), "a.ini");
+    ASSERT_FALSE(file.warnings.empty());
+    EXPECT_THAT(to_text(file.warnings.back()), HasSubstr("a.ini:1:1: I225: the value has more than 24 bits"));
+}
+
 TEST(PmacFileP4, TellsWhatTheCardWouldRollOver) {
     const PmacFile file = read_pmac_file("I169=40000\nI100=2\nI8=0", "a.ini");
     ASSERT_EQ(file.warnings.size(), 2u);
