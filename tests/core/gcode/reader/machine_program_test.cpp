@@ -212,17 +212,17 @@ std::vector<std::string> messages(const std::vector<Diagnostic>& of) {
 TEST(MachineProgram, NamesWhatItsBlocksCannotSay) {
     using ::testing::ElementsAre;
     const std::string program = "G21 G90 S500 M3\nG0 X0 Y0 Z5\nF50\n";
-    EXPECT_THAT(messages(read(program + "G38.2 Z-20\nG38.3 Z-21\n").lost),
+    EXPECT_THAT(messages(read(program + "G38.2 Z-20\nG38.3 Z-21\nM2\n").lost),
                 ElementsAre(HasSubstr("part.ngc:4:1: nothing is probed")));
-    EXPECT_THAT(messages(read(program + "G33 Z-10 K1.5\n").lost), ElementsAre(HasSubstr("part.ngc:4")));
-    EXPECT_THAT(messages(read(program + "G33.1 Z-10 K1.5\n").lost), ElementsAre(HasSubstr("in step")));
-    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\n").lost), ElementsAre());
-    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\n").simplified), ElementsAre());
+    EXPECT_THAT(messages(read(program + "G33 Z-10 K1.5\nM2\n").lost), ElementsAre(HasSubstr("part.ngc:4")));
+    EXPECT_THAT(messages(read(program + "G33.1 Z-10 K1.5\nM2\n").lost), ElementsAre(HasSubstr("in step")));
+    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\nM2\n").lost), ElementsAre());
+    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\nM2\n").simplified), ElementsAre());
 }
 
 TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
     using ::testing::ElementsAre;
-    EXPECT_THAT(messages(read("G21 G90\nM7\nG55\nG53 G0 Z0\nG53 G0 Z1\nG54\nG28\n").simplified),
+    EXPECT_THAT(messages(read("G21 G90\nM7\nG55\nG53 G0 Z0\nG53 G0 Z1\nG54\nG28\nM2\n").simplified),
                 ElementsAre(HasSubstr("mist (M7)"),
                             HasSubstr("part.ngc:3:1: a work system other than G54"),
                             HasSubstr("part.ngc:4:1: G53"),
