@@ -122,6 +122,10 @@ std::vector<std::string> post_ids(const fs::path& assets) {
     return ids_in(assets / "posts");
 }
 
+std::vector<std::string> arm_ids(const fs::path& assets) {
+    return ids_in(assets / "arms");
+}
+
 std::vector<fs::path> sample_projects(const fs::path& assets) {
     return json_files(assets / "projects");
 }

@@ -43,6 +43,9 @@ post_path(const std::string& name, const std::filesystem::path& folder, const st
 [[nodiscard]] std::filesystem::path
 arm_path(const std::string& name, const std::filesystem::path& folder, const std::filesystem::path& assets);
 
+/// Ids of the shipped arms, in order.
+[[nodiscard]] std::vector<std::string> arm_ids(const std::filesystem::path& assets);
+
 /// Ids of the shipped posts, in order.
 [[nodiscard]] std::vector<std::string> post_ids(const std::filesystem::path& assets);
 

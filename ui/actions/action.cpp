@@ -59,6 +59,10 @@ void ActionQueue::plot(std::function<void(PlotBench&)> what) {
     requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.plot()); });
 }
 
+void ActionQueue::arm(std::function<void(ArmBench&)> what) {
+    requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.arm()); });
+}
+
 void ActionQueue::processor(std::function<void(ProcessorBench&)> what) {
     requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.processor()); });
 }

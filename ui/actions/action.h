@@ -87,6 +87,8 @@ public:
 
     /// What is to be done with the processor.
     void processor(std::function<void(ProcessorBench&)> what);
+    /// ... with the arm.
+    void arm(std::function<void(ArmBench&)> what);
     /// ... and with the plot.
     void plot(std::function<void(PlotBench&)> what);
     /// What the connected machine is to do, at once.

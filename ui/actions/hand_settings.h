@@ -4,15 +4,19 @@
 #include "ui/actions/controller.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace millwright::actions {
 
+/// Along what an arm is jogged.
+enum class ArmFrame : std::uint8_t { joints, base, tool };
+
 struct HandSettings {
     machine::DriverChoice choice;
     /// Of the other kinds, by DriverKind: each keeps its own.
-    std::array<std::string, 6> addresses{"", "", "tcp:127.0.0.1:5007", "", "", ""};
+    std::array<std::string, 7> addresses{"", "", "tcp:127.0.0.1:5007", "", "", "", "tcp:127.0.0.1:1025"};
     double step = 0.0; ///< mm or deg of one press; 0: as long as it is held
     double speed_mm_per_min = 1000.0;
     double turn_deg_per_min = 720.0;
@@ -21,6 +25,10 @@ struct HandSettings {
     double spindle_rpm = 6000.0;
     double probe_way_mm = 20.0; ///< downwards at most
     double probe_mm_per_min = 100.0;
+    ArmFrame arm_frame = ArmFrame::joints;
+    int arm_joint = 0;     ///< that the keys move
+    int arm_percent = 20;  ///< of the fastest jog of an arm
+    bool arm_keys = false; ///< the keys of the thesis move the arm
     bool single_block = false;
     bool show_reports = false;         ///< in the console
     std::vector<std::string> commands; ///< typed before, oldest first

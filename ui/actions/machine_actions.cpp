@@ -31,6 +31,9 @@ Permission machine_ready(const Workbench& now) {
     case LinkState::connected:
         break;
     }
+    if (now.arm_connected()) {
+        return Permission::refused("A PMAC runs motion programs in its own language, and no G-code.");
+    }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm) {
         return Permission::refused("There is an alarm: home or unlock first.");

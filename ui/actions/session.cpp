@@ -11,7 +11,8 @@ Session new_session() {
                       viewport::layers_of(ViewKind::toolpath),
                       viewport::layers_of(ViewKind::machine),
                       viewport::layers_of(ViewKind::toolpath),
-                      viewport::layers_of(ViewKind::toolpath)};
+                      viewport::layers_of(ViewKind::toolpath),
+                      viewport::layers_of_arm()};
     return session;
 }
 

@@ -19,11 +19,11 @@
 namespace millwright::actions {
 
 /// A choice of panes and layers, not a mode that hides data.
-enum class Workspace { design, grid, toolpath, program, machine, processor, plot };
-inline constexpr int workspace_count = 7;
+enum class Workspace { design, grid, toolpath, program, machine, processor, plot, arm };
+inline constexpr int workspace_count = 8;
 
 /// What the lower pane shows.
-enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, queue, jobs, log };
+enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, queue, jobs, log, motors };
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
 struct PaneSizes {
@@ -34,6 +34,7 @@ struct PaneSizes {
     float code = 330.0F;      ///< the left one there
     float layers = 330.0F;    ///< the left one in the Plot & Picture workspace
     float bench = 210.0F;     ///< and the lower one
+    float arm_jog = 300.0F;   ///< the left one in the Arm workspace
     float listing = 350.0F;   ///< the left pane in the Program and Machine workspaces
     bool outline_shown = true;
     bool inspector_shown = true;
@@ -76,7 +77,8 @@ struct Session {
                                                      LowerTab::motion,
                                                      LowerTab::console,
                                                      LowerTab::log,
-                                                     LowerTab::log};
+                                                     LowerTab::log,
+                                                     LowerTab::motors};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time

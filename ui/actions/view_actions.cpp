@@ -84,6 +84,11 @@ void add_view_actions(Actions& actions) {
         always,
         go<Workspace::processor>,
         is_in<Workspace::processor>);
+    add(actions,
+        {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogs.", "Shift+F6", icons::arm},
+        always,
+        go<Workspace::arm>,
+        is_in<Workspace::arm>);
     add_show<GridMethod::uniform>(
         actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");
     add_show<GridMethod::elliptic>(

@@ -21,6 +21,7 @@
 
 namespace millwright::actions {
 
+class ArmBench;
 class ProcessorBench;
 
 struct Workbench {
@@ -45,11 +46,16 @@ struct Workbench {
     std::shared_ptr<const JobRecovery::Stories> broken_jobs; ///< the same, of jobs; never null
     std::optional<render::Gamepad> gamepad;                  ///< in this frame; nothing without one
     const ProcessorBench& processor;
+    const ArmBench& arm;
     const PlotBench& plot;
     std::vector<machine::QueuedJob> queue; ///< in their order
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
 
+    /// The connected controller moves an arm.
+    [[nodiscard]] bool arm_connected() const {
+        return controller.connected() && controller.choice.kind == machine::DriverKind::pmac;
+    }
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;
     /// Of the motion that is shown, s; 0 without one.

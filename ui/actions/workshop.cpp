@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "ui/actions/arm_bench.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/processor_bench.h"
 
@@ -42,6 +43,7 @@ Workshop::Workshop(WorkshopOptions options)
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
     processor_ = std::make_unique<ProcessorBench>();
+    arm_ = std::make_unique<ArmBench>(options_.assets);
     approach_ = std::make_unique<ApproachFinder>(wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     follow_project();
@@ -72,6 +74,7 @@ Workbench Workshop::look() const {
             job_recovery_->broken(),
             gamepad_,
             *processor_,
+            *arm_,
             *plot_,
             queue_.jobs(),
             queue_.problem()};
@@ -141,7 +144,8 @@ void Workshop::connect() {
     } else if (now.plan && now.plan->plan.workpiece) {
         model = std::make_shared<const kinematics::MachineModel>(now.plan->plan.workpiece->machine);
     }
-    session_.hand.keys_armed = session_.hand.pad_armed = session_.hand.single_block = false;
+    HandSettings& hand = session_.hand;
+    hand.keys_armed = hand.pad_armed = hand.arm_keys = hand.single_block = false;
     controller_->connect(session_.hand.choice, std::move(model));
 }
 
@@ -156,7 +160,8 @@ bool Workshop::advance(double seconds) {
     follow_file();
     follow_begin();
     follow_queue();
-    const bool processed = follow_processor(seconds);
+    const bool armed = follow_arm(seconds);
+    const bool processed = follow_processor(seconds) || armed;
     Playback& playback = session_.playback;
     const double duration = look().duration();
     if (!(duration > 0.0)) {
@@ -172,6 +177,23 @@ bool Workshop::advance(double seconds) {
         playback.playing = playback.time < duration;
     }
     return processed || playback.time < before || playback.time > before;
+}
+
+/// It has an arm once it is looked at; a connected one is drawn where it stands.
+bool Workshop::follow_arm(double seconds) {
+    if (session_.workspace == Workspace::arm && !arm_->loaded() && !arm_failed_) {
+        arm_failed_ = true; // said once
+        guarded([this] { arm_->load("motoman-l3"); });
+        arm_failed_ = !arm_->loaded();
+    }
+    if (!arm_->loaded()) {
+        return false;
+    }
+    const ControllerView controller = controller_->view();
+    if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
+        arm_->follow(controller.status.position);
+    }
+    return arm_->advance(seconds);
 }
 
 /// It has something to show once it is looked at.

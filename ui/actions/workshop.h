@@ -106,6 +106,7 @@ public:
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
 
+    [[nodiscard]] ArmBench& arm() { return *arm_; }
     [[nodiscard]] PlotBench& plot() { return *plot_; }
     /// Writes the program of the plot beside it as soon as there is one; `to_machine`: and opens it there.
     void write_plot(bool to_machine);
@@ -146,6 +147,7 @@ private:
     void follow_begin();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
+    [[nodiscard]] bool follow_arm(double seconds);
     void guarded(const std::function<void()>& action);
 
     WorkshopOptions options_;
@@ -164,6 +166,7 @@ private:
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;
     std::unique_ptr<ProcessorBench> processor_; ///< never null
+    std::unique_ptr<ArmBench> arm_;             ///< never null
     std::unique_ptr<PlotBench> plot_;
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
@@ -172,6 +175,7 @@ private:
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
     std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
     std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
+    bool arm_failed_ = false;                     ///< the arm that ships could not be read
     bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;                    ///< a job was running when it was last looked at
 };

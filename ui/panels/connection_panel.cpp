@@ -19,7 +19,7 @@ using machine::DriverKind;
 using machine::DriverState;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 6> kinds{
+constexpr std::array<widgets::Option, 7> kinds{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
      {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
      {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
@@ -28,7 +28,8 @@ constexpr std::array<widgets::Option, 6> kinds{
       "CORDIC processor",
       {},
       "The G-code processor's model with a machine inside this program; X, Y and Z only"},
-     {"records", "Table by records", {}, "A table that takes one record a move, as t x y z a s"}}};
+     {"records", "Table by records", {}, "A table that takes one record a move, as t x y z a s"},
+     {"pmac", "PMAC", {}, "The motor card of a robot arm, at a serial port or TCP address"}}};
 
 std::string kind_text(DriverKind kind) {
     return kind == DriverKind::virtual_machine ? "virtual machine"
@@ -142,6 +143,8 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
         }
     } else if (choice.kind == DriverKind::records) {
         draw_records(ui, now, ask);
+    } else if (choice.kind == DriverKind::pmac) {
+        ui.note("It moves the four driven joints of a Motoman L-3. Nothing moves by connecting.");
     } else {
         const widgets::FieldInfo info{
             "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
@@ -183,7 +186,7 @@ void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& as
     const DriverChoice& choice = now.session.hand.choice;
     const bool shell = choice.kind == DriverKind::linuxcnc;
     const std::string_view tip = shell ? "tcp:HOST:PORT of its linuxcncrsh, most often port 5007"
-                                 : choice.kind == DriverKind::grbl
+                                 : choice.kind == DriverKind::grbl || choice.kind == DriverKind::pmac
                                      ? "A serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
                                      : "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
     if (const auto address = ui.text_field("address", shell ? "Address" : "Port", choice.address, tip)) {

@@ -9,7 +9,12 @@
 namespace millwright::panels {
 
 void layer_rows(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+    using Of = viewport::LayerSwitch::Of;
+    const Of shown = now.session.workspace == actions::Workspace::arm ? Of::arm : Of::part;
     for (const viewport::LayerSwitch& which : viewport::layer_switches) {
+        if (which.of != shown && which.of != Of::both) {
+            continue;
+        }
         const actions::Action& action = catalogue.find(actions::layer_action(which));
         const actions::ActionInfo& info = action.info();
         if (widgets::menu_eye(

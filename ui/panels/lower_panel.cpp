@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/project/settings.h"
+#include "ui/panels/arm_motors.h"
 #include "ui/panels/error_table.h"
 #include "ui/panels/path_series.h"
 #include "ui/widgets/icons.h"
@@ -43,9 +44,14 @@ constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console",
                                       {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                       {LowerTab::log, {"log", "Log", icons::info}}}};
 
+constexpr std::array<Tab, 3> moving_arm{{{LowerTab::motors, {"motors", "Joints", icons::table}},
+                                         {LowerTab::console, {"console", "Terminal", icons::keyboard}},
+                                         {LowerTab::log, {"log", "Log", icons::info}}}};
+
 /// What a person needs while making a part, or at the machine.
 std::span<const Tab> tabs_of(actions::Workspace workspace) {
     return workspace == actions::Workspace::machine ? std::span<const Tab>(driving)
+           : workspace == actions::Workspace::arm   ? std::span<const Tab>(moving_arm)
                                                     : std::span<const Tab>(making);
 }
 
@@ -108,6 +114,8 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return queue_.draw(ui, now, ask);
     case LowerTab::jobs:
         return draw_jobs(ui, now);
+    case LowerTab::motors:
+        return arm_motors(ui, now);
     case LowerTab::log:
         return draw_log(ui, now);
     }

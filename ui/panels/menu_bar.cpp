@@ -16,8 +16,8 @@ namespace {
 namespace icons = widgets::icons;
 using actions::Workspace;
 
-constexpr std::array<std::string_view, 7> menus{
-    "File", "Edit", "View", "Grid", "Machine", "Processor", "Plot"};
+constexpr std::array<std::string_view, 8> menus{
+    "File", "Edit", "View", "Grid", "Machine", "Processor", "Plot", "Arm"};
 
 constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
     {{"design", "Design", icons::design},
@@ -26,7 +26,8 @@ constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
      {"program", "Program", icons::program},
      {"machine", "Machine", icons::machine},
      {"processor", "Processor", icons::processor},
-     {"plot", "Plot", icons::plot}}};
+     {"plot", "Plot", icons::plot},
+     {"arm", "Arm", icons::arm}}};
 
 std::string widget_id(std::string_view action_id) {
     std::string id(action_id);
@@ -47,6 +48,18 @@ constexpr float tools_width = 300.0F;
 constexpr float narrow_tools = 250.0F;
 constexpr float smallest_tabs = 490.0F;
 constexpr float roomy = 940.0F; // tabs with icons, and the tools
+
+/// There is room for those that are wanted in a workspace; everything is in the palette.
+bool has_room(std::string_view menu, Workspace workspace) {
+    const bool processor = workspace == Workspace::processor, plot = workspace == Workspace::plot,
+               arm = workspace == Workspace::arm;
+    return menu == "Processor" ? processor
+           : menu == "Plot"    ? plot
+           : menu == "Arm"     ? arm
+           : menu == "Grid"    ? !processor && !plot && !arm
+           : menu == "Machine" ? !processor
+                               : true;
+}
 
 /// A line stands above these in their menu.
 bool begins_group(std::string_view id) {
@@ -123,11 +136,7 @@ void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
 
 void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     for (const std::string_view title : menus) {
-        if (title == "Processor" && now.session.workspace != Workspace::processor) {
-            continue; // there is room for it where it is wanted
-        }
-        const bool plots = now.session.workspace == Workspace::plot;
-        if ((title == "Plot" && !plots) || (title == "Grid" && plots)) {
+        if (!has_room(title, now.session.workspace)) {
             continue;
         }
         if (title != menus.front()) {

@@ -1,6 +1,7 @@
 #include "ui/panels/view_panel.h"
 
 #include "core/project/plan.h"
+#include "ui/actions/arm_bench.h"
 #include "ui/panels/layer_list.h"
 
 #include <algorithm>
@@ -61,6 +62,19 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
     }
 }
 
+/// A connected arm is where its controller says, whatever is dragged.
+template <class Event, class Move>
+void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&& move) {
+    if (now.arm_connected()) {
+        return;
+    }
+    if (event.stage == viewport::DragStage::going_on) {
+        ask.arm(std::forward<Move>(move));
+    } else if (event.stage == viewport::DragStage::cancelled) {
+        ask.arm([before = event.before](actions::ArmBench& arm) { arm.set_joints(before); });
+    }
+}
+
 /// The results are of the surface that the project has now: after another project was opened, not at once.
 bool shows_the_project(const Workbench& now) {
     return now.plan && now.plan->plan.surface &&
@@ -72,6 +86,12 @@ bool shows_the_project(const Workbench& now) {
 viewport::Scene scene_of(const Workbench& now) {
     viewport::Scene scene;
     scene.layers = now.session.layers_now();
+    if (now.session.workspace == Workspace::arm) {
+        if (now.arm.loaded()) {
+            scene.arm = now.arm.scene();
+        }
+        return scene;
+    }
     scene.selected = now.session.selected;
     scene.error = now.session.error;
     scene.against_light = now.session.against_light;
@@ -116,6 +136,12 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
         ask.show([points = select->points](actions::Session& session) { session.selected = points; });
     } else if (const auto* go = std::get_if<viewport::GoToMove>(&event)) {
         go_to_move(*go, now, ask);
+    } else if (const auto* tip = std::get_if<viewport::MoveArmTip>(&event)) {
+        drag_arm(now, ask, *tip, [to = tip->tip](actions::ArmBench& arm) { arm.move_tip(to); });
+    } else if (const auto* turn = std::get_if<viewport::TurnArmJoint>(&event)) {
+        drag_arm(now, ask, *turn, [n = turn->joint, to = turn->position](actions::ArmBench& arm) {
+            arm.set_joint(n, to);
+        });
     } else if (const auto* place = std::get_if<viewport::GoToPathPlace>(&event)) {
         go_to_path_place(place->place, now, ask);
     }
@@ -164,7 +190,12 @@ void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
 }
 
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
-    if (now.session.workspace == Workspace::plot) {
+    if (now.session.workspace == Workspace::arm) {
+        if (now.session.fit_wanted && now.arm.loaded()) {
+            view_.fit();
+            ask.show([](actions::Session& session) { session.fit_wanted = false; });
+        }
+    } else if (now.session.workspace == Workspace::plot) {
         fit_plot(now, ask);
     } else if (now.in_file()) {
         fit_file(now, ask);

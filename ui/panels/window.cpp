@@ -1,5 +1,6 @@
 #include "ui/panels/window.h"
 
+#include "ui/actions/arm_bench.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/actions/shortcut.h"
 #include "ui/panels/internal/fields.h"
@@ -44,22 +45,37 @@ float actions::PaneSizes::*left_size(const actions::Session& session) {
         return &actions::PaneSizes::code;
     case Workspace::plot:
         return &actions::PaneSizes::layers;
+    case Workspace::arm:
+        return &actions::PaneSizes::arm_jog;
     default:
         return &actions::PaneSizes::outline;
     }
 }
 
 float actions::PaneSizes::*lower_size(const actions::Session& session) {
-    return session.workspace == Workspace::processor ? &actions::PaneSizes::processor
-           : session.workspace == Workspace::plot    ? &actions::PaneSizes::bench
-                                                     : &actions::PaneSizes::lower;
+    switch (session.workspace) {
+    case Workspace::processor:
+        return &actions::PaneSizes::processor;
+    case Workspace::plot:
+    case Workspace::arm: // a table with as many rows as an arm has joints
+        return &actions::PaneSizes::bench;
+    default:
+        return &actions::PaneSizes::lower;
+    }
 }
 
 /// Something that could hold a jog is down.
 bool jog_may_be_held(const std::optional<render::Gamepad>& pad) {
     using render::Key;
-    constexpr std::array keys{
-        Key::left, Key::right, Key::up, Key::down, Key::page_up, Key::page_down, Key::space};
+    constexpr std::array keys{Key::left,
+                              Key::right,
+                              Key::up,
+                              Key::down,
+                              Key::page_up,
+                              Key::page_down,
+                              Key::space,
+                              Key::equal,
+                              Key::minus};
     const bool bumper = pad && (pad->left_bumper || pad->right_bumper);
     return bumper || ImGui::GetIO().MouseDown[0] || std::ranges::any_of(keys, render::key_down);
 }
@@ -77,8 +93,9 @@ bool pressed(const actions::Shortcut& keys, bool typing) {
 Window::Window(actions::Workshop& workshop)
     : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
       grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()), processor_(workshop.catalogue()), plot_(workshop.catalogue()),
-      lower_(workshop.catalogue()), dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
+      machine_(workshop.catalogue()), arm_(workshop.catalogue()), arm_jog_(workshop.catalogue()),
+      processor_(workshop.catalogue()), plot_(workshop.catalogue()), lower_(workshop.catalogue()),
+      dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
 
 Window::Layout
 Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
@@ -165,6 +182,8 @@ void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
     const auto pane = ui.pane("timeline", place.timeline);
     if (processor) {
         processor_.draw_steps(ui, now, ask_);
+    } else if (now.session.workspace == Workspace::arm) {
+        arm_.draw_motion(ui, now, ask_);
     } else {
         timeline_.draw(ui, now, ask_);
     }
@@ -204,6 +223,9 @@ void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
     } else if (now.session.workspace == Workspace::processor) {
         const auto pane = ui.pane("code", place, "Code");
         processor_.draw_code(ui, now, ask_);
+    } else if (now.session.workspace == Workspace::arm) {
+        const auto pane = ui.pane("hand", place, "By hand");
+        arm_jog_.draw(ui, now, ask_);
     } else if (now.session.workspace == Workspace::plot) {
         const auto pane = ui.pane("layers", place, "Plot & Picture");
         plot_.draw_layers(ui, now, ask_);
@@ -229,6 +251,8 @@ void Window::draw_inspector(Ui& ui, const Workbench& now) {
         return processor_.draw(ui, now, ask_);
     case Workspace::plot:
         return plot_.draw(ui, now, ask_);
+    case Workspace::arm:
+        return arm_.draw(ui, now, ask_);
     }
 }
 
@@ -315,7 +339,7 @@ void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
 
 std::optional<double> Window::next_change() const {
     const auto& session = workshop_.look().session;
-    const bool runs = session.playback.playing || workshop_.processor().running();
+    const bool runs = session.playback.playing || workshop_.processor().running() || workshop_.arm().moving();
     if (runs || workshop_.jogging()) {
         return 0.0;
     }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "ui/actions/workshop.h"
+#include "ui/panels/arm_jog_panel.h"
+#include "ui/panels/arm_panel.h"
 #include "ui/panels/design_panel.h"
 #include "ui/panels/dialogs.h"
 #include "ui/panels/grid_panel.h"
@@ -59,6 +61,8 @@ private:
     ToolpathPanel toolpath_;
     ProgramPanel program_;
     MachinePanel machine_;
+    ArmPanel arm_;
+    ArmJogPanel arm_jog_;
     ProcessorPanel processor_;
     PlotPanel plot_;
     LowerPanel lower_;

@@ -38,7 +38,25 @@ struct GoToPathPlace {
     gcode::PathPlace place;
 };
 
-using ViewEvent = std::variant<MoveControlPoints, SelectControlPoints, GoToMove, GoToPathPlace>;
+enum class DragStage { going_on, finished, cancelled };
+
+/// The tip of an arm is being dragged: one event a frame. `before`: the joints when it was taken hold of.
+struct MoveArmTip {
+    Vec3 tip = Vec3::Zero(); ///< where it is to be
+    kinematics::JointPositions before;
+    DragStage stage = DragStage::going_on;
+};
+
+/// A link of an arm is being dragged.
+struct TurnArmJoint {
+    int joint = 0;
+    double position = 0.0; ///< where the joint is to be, rad or mm
+    kinematics::JointPositions before;
+    DragStage stage = DragStage::going_on;
+};
+
+using ViewEvent =
+    std::variant<MoveControlPoints, SelectControlPoints, GoToMove, GoToPathPlace, MoveArmTip, TurnArmJoint>;
 
 /// What the mouse points at, in workpiece coordinates.
 struct UnderMouse {

@@ -75,7 +75,20 @@ void Hand::leave() {
     under_mouse_ = {};
 }
 
+std::vector<ViewEvent> Hand::follow_arm(const HandInput& input) {
+    std::vector<ViewEvent> events =
+        arm_.follow({*input.scene.arm, input.view, input.pointer, input.keys, input.take_back});
+    highlight_ = {};
+    highlight_.arm = arm_.grip();
+    under_mouse_ = {};
+    wants_fit_ = arm_.wants_fit();
+    return events;
+}
+
 std::vector<ViewEvent> Hand::follow(const HandInput& input) {
+    if (input.scene.arm) {
+        return follow_arm(input);
+    }
     std::vector<ViewEvent> events;
     wants_fit_ = false;
     if (navigates(input.pointer)) {

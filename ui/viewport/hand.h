@@ -1,6 +1,7 @@
 // What the left button does in one picture of the view: pointing, selecting, dragging, going to a move.
 #pragma once
 
+#include "ui/viewport/arm_hand.h"
 #include "ui/viewport/picking.h"
 #include "ui/viewport/point_drag.h"
 #include "ui/viewport/scene_view.h"
@@ -49,6 +50,7 @@ private:
         std::optional<ControlPointId> point;
     };
 
+    [[nodiscard]] std::vector<ViewEvent> follow_arm(const HandInput& input);
     void point_at(const HandInput& input);
     void press(const HandInput& input);
     void hold(const HandInput& input, std::vector<ViewEvent>& events);
@@ -58,6 +60,7 @@ private:
     void take_back(std::vector<ViewEvent>& events);
 
     Highlight highlight_;
+    ArmHand arm_;
     UnderMouse under_mouse_;
     std::optional<double> move_fraction_;
     std::optional<Pressed> pressed_;

@@ -13,6 +13,7 @@ struct LayerSwitch {
     std::string_view title; ///< "Control net"
     std::string_view tip;   ///< a sentence
     bool Layers::*shown;
+    enum class Of { part, arm, both } of = Of::part; ///< where there is something to switch
 };
 
 inline constexpr std::array layer_switches{
@@ -25,7 +26,11 @@ inline constexpr std::array layer_switches{
     LayerSwitch{"grid", "Grid", "The grid that is used, or is being adapted.", &Layers::grid},
     LayerSwitch{
         "start_grid", "Start grid", "The uniform grid that the adaptation begins with.", &Layers::start_grid},
-    LayerSwitch{"toolpath", "Toolpath", "The path of the tool tip as intended.", &Layers::toolpath},
+    LayerSwitch{"toolpath",
+                "Toolpath",
+                "The path of the tool tip as intended.",
+                &Layers::toolpath,
+                LayerSwitch::Of::both},
     LayerSwitch{
         "tool_axes", "Tool axes", "The direction of the tool at each point of the path.", &Layers::tool_axes},
     LayerSwitch{"error_path",
@@ -47,8 +52,28 @@ inline constexpr std::array layer_switches{
                 &Layers::singular_points},
     LayerSwitch{"machine", "Machine", "The bodies of the machine, where its axes are.", &Layers::machine},
     LayerSwitch{"tool", "Tool", "The tool where the motion stands.", &Layers::tool},
-    LayerSwitch{"trace", "Simulated cut", "The true path up to where the motion stands.", &Layers::trace},
-    LayerSwitch{"floor", "Floor", "A ground grid below everything.", &Layers::floor},
+    LayerSwitch{"trace",
+                "Simulated cut",
+                "The true path up to where the motion stands.",
+                &Layers::trace,
+                LayerSwitch::Of::both},
+    LayerSwitch{"arm", "Arm", "The bodies of the robot arm.", &Layers::arm, LayerSwitch::Of::arm},
+    LayerSwitch{"arm_reach",
+                "Reach",
+                "The border of where the wrist can be.",
+                &Layers::arm_reach,
+                LayerSwitch::Of::arm},
+    LayerSwitch{"joint_limits",
+                "Joint limits",
+                "The range of each joint, and where it stands.",
+                &Layers::joint_limits,
+                LayerSwitch::Of::arm},
+    LayerSwitch{"tool_frame",
+                "Tool frame",
+                "The axes at the tip of the arm's tool.",
+                &Layers::tool_frame,
+                LayerSwitch::Of::arm},
+    LayerSwitch{"floor", "Floor", "A ground grid below everything.", &Layers::floor, LayerSwitch::Of::both},
     LayerSwitch{"origin", "Origin", "Axes at the origin of the workpiece.", &Layers::origin},
 };
 

@@ -87,6 +87,16 @@ Layers layers_of(ViewKind kind) {
     return {.toolpath = true, .machine = true, .tool = true, .trace = true, .floor = false, .origin = false};
 }
 
+Layers layers_of_arm() {
+    return {.surface = false,
+            .toolpath = true,
+            .trace = true,
+            .origin = false,
+            .arm_reach = true,
+            .joint_limits = true,
+            .tool_frame = true};
+}
+
 bool operator==(const Scene& a, const Scene& b) {
     return a.layers == b.layers && a.surface == b.surface && a.workpiece == b.workpiece &&
            std::ranges::equal(a.singular_points,
@@ -94,8 +104,8 @@ bool operator==(const Scene& a, const Scene& b) {
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
            a.shown == b.shown && a.start == b.start && a.watched == b.watched && a.weight == b.weight &&
            a.opened == b.opened && a.opened_now == b.opened_now && a.plot == b.plot &&
-           a.against_light == b.against_light && same(a.now, b.now) && a.selected == b.selected &&
-           a.error == b.error;
+           a.against_light == b.against_light && a.arm == b.arm && same(a.now, b.now) &&
+           a.selected == b.selected && a.error == b.error;
 }
 
 std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {

@@ -14,6 +14,7 @@
 #include "ui/render/bounds.h"
 #include "ui/render/color_map.h"
 #include "ui/render/view.h"
+#include "ui/viewport/arm_scene.h"
 
 #include <memory>
 #include <optional>
@@ -50,12 +51,18 @@ struct Layers {
     bool trace = false;           ///< the actual path up to `now`
     bool floor = true;            ///< a ground grid below everything
     bool origin = true;           ///< axes at the workpiece's origin
+    bool arm = true;              ///< a robot arm, where the scene has one
+    bool arm_reach = false;       ///< the border of where its wrist can be
+    bool joint_limits = false;    ///< the range of each of its joints
+    bool tool_frame = false;      ///< the axes at its tool's tip
 
     friend bool operator==(const Layers&, const Layers&) = default;
 };
 
 /// What people expect to see in each view.
 [[nodiscard]] Layers layers_of(ViewKind kind);
+/// ... and around a robot arm.
+[[nodiscard]] Layers layers_of_arm();
 
 /// A control point of the surface, by patch, row and column.
 struct ControlPointId {
@@ -108,6 +115,7 @@ struct Scene {
     std::optional<ProgramMoment> opened_now = std::nullopt;
     std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
     bool against_light = false;                                ///< the finished plot as light goes through
+    std::optional<ArmScene> arm = std::nullopt;                ///< in place of everything else
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     ErrorScale error;

@@ -4,6 +4,7 @@
 
 #include "ui/render/framebuffer.h"
 #include "ui/render/painter.h"
+#include "ui/viewport/arm_grip.h"
 #include "ui/viewport/scene.h"
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,7 @@ struct Highlight {
     std::optional<int> move;
     std::optional<std::int64_t> path_point =
         std::nullopt; ///< of an opened program: the piece that ends there
+    std::optional<ArmGrip> arm = std::nullopt;
 
     friend bool operator==(const Highlight&, const Highlight&) = default;
 };

@@ -1,9 +1,12 @@
 #include "ui/widgets/slider.h"
 
+#include "core/base/numbers.h"
+#include "core/base/text.h"
 #include "ui/widgets/internal/draw.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace millwright::widgets {
@@ -11,12 +14,13 @@ namespace millwright::widgets {
 namespace {
 
 constexpr float value_width = 46.0F;
+constexpr float long_value_width = 74.0F; // with decimals
 constexpr float knob_radius = 7.0F;
 
-std::optional<int> stepped(const Press& now, int value) {
+std::optional<double> stepped(const Press& now, double value, double step) {
     if (now.focused && now.enabled) {
         const int by = (key_pressed(ImGuiKey_RightArrow) ? 1 : 0) - (key_pressed(ImGuiKey_LeftArrow) ? 1 : 0);
-        return by != 0 ? std::optional(value + by) : std::nullopt;
+        return by != 0 ? std::optional(value + by * step) : std::nullopt;
     }
     return std::nullopt;
 }
@@ -24,6 +28,15 @@ std::optional<int> stepped(const Press& now, int value) {
 } // namespace
 
 std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permission& permission) {
+    FieldInfo whole = info;
+    whole.decimals = 0;
+    whole.step = 1.0;
+    const auto wanted = number_slider(ui, value, whole, permission);
+    return wanted ? std::optional(static_cast<int>(std::lround(*wanted))) : std::nullopt;
+}
+
+std::optional<double>
+number_slider(Ui& ui, double value, const FieldInfo& info, const Permission& permission) {
     const Slot slot(ui, 0.0F, ui.px(gaps::row));
     const std::string own = ui.path(info.id);
     const Permission& allowed = effective(ui, permission);
@@ -31,11 +44,12 @@ std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permis
     const Press now = press(ui, own, field, permission, info.tip);
     const Palette& colours = ui.colours();
     const float radius = ui.px(knob_radius);
+    const float value_part = ui.px(info.decimals > 0 ? long_value_width : value_width);
     const Rect track{field.x + radius,
                      std::round(field.y + 0.5F * field.h - ui.px(2.0F)),
-                     field.w - ui.px(value_width) - 2.0F * radius,
+                     field.w - value_part - 2.0F * radius,
                      ui.px(4.0F)};
-    const double span = std::max(info.max - info.min, 1.0);
+    const double span = std::max(info.max - info.min, std::numeric_limits<double>::min());
     const auto share = static_cast<float>(std::clamp((value - info.min) / span, 0.0, 1.0));
     const Colour accent = now.enabled ? colours.accent : colours.muted;
     fill(track, colours.field, ui.px(2.0F));
@@ -46,20 +60,21 @@ std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permis
         knob, now.hovered || now.held ? radius : 0.85F * radius, accent);
     draw_text(ui,
               ui.look().fonts.text,
-              {field.right() - ui.px(value_width), field.y, ui.px(value_width - 6.0F), field.h},
+              {field.right() - value_part, field.y, value_part - ui.px(6.0F), field.h},
               colours.text,
-              std::to_string(value),
+              fixed(value, info.decimals) + std::string(info.unit),
               Align::right);
-    std::optional<int> wanted = stepped(now, value);
+    std::optional<double> wanted = stepped(now, value, info.step > 0.0 ? info.step : 1.0);
     if (now.held && now.enabled && track.w > 0.0F && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         const auto along = static_cast<double>((ImGui::GetIO().MousePos.x - track.x) / track.w);
-        wanted = static_cast<int>(std::lround(info.min + std::clamp(along, 0.0, 1.0) * span));
+        const double unit = std::pow(10.0, info.decimals);
+        wanted = std::round((info.min + std::clamp(along, 0.0, 1.0) * span) * unit) / unit;
     }
     if (!wanted) {
         return std::nullopt;
     }
-    const int inside = std::clamp(*wanted, static_cast<int>(info.min), static_cast<int>(info.max));
-    return inside == value ? std::nullopt : std::optional(inside);
+    const double inside = std::clamp(*wanted, info.min, info.max);
+    return exactly_equal(inside, value) ? std::nullopt : std::optional(inside);
 }
 
 } // namespace millwright::widgets

@@ -4,6 +4,7 @@
 #include "core/machine/drivers/cordic/cordic_driver.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/drivers/pmac/pmac_driver.h"
 #include "core/machine/drivers/records/records_driver.h"
 #include "core/machine/drivers/stream/stream_driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
@@ -16,7 +17,8 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> names{"virtual", "grbl", "linuxcnc", "stream", "cordic", "records"};
+constexpr std::array<std::string_view, 7> names{
+    "virtual", "grbl", "linuxcnc", "stream", "cordic", "records", "pmac"};
 
 void require_model(const MovedAxes& axes) {
     if (!axes.model) {
@@ -45,7 +47,7 @@ DriverKind driver_kind(std::string_view name) {
     if (found == names.end()) {
         throw Error("there is no driver '" + std::string(name) + "'",
                     {},
-                    "virtual, grbl, linuxcnc, stream, cordic or records");
+                    "virtual, grbl, linuxcnc, stream, cordic, records or pmac");
     }
     return static_cast<DriverKind>(found - names.begin());
 }
@@ -60,6 +62,8 @@ std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const MovedAxes&
         wanted.axes = choice.axes;
         return std::make_unique<LinuxCncDriver>(make_link(choice.address), clock, wanted);
     }
+    case DriverKind::pmac:
+        return std::make_unique<PmacDriver>(make_link(choice.address), clock);
     case DriverKind::stream:
         require_model(axes);
         return make_stream(choice, axes, clock);

@@ -13,9 +13,9 @@
 
 namespace millwright::machine {
 
-enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic, records };
+enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic, records, pmac };
 
-/// "virtual", "grbl", "linuxcnc", "stream", "cordic", "records": as on the command line, and as
+/// "virtual", "grbl", "linuxcnc", "stream", "cordic", "records", "pmac": as on the command line, and as
 /// Driver::name().
 [[nodiscard]] std::string_view to_text(DriverKind kind);
 /// Throws Error for any other name.

@@ -23,6 +23,7 @@ Project on_machine(std::string file) {
 TEST(Assets, TheSourceTreesAreFoundFromATest) {
     EXPECT_TRUE(fs::is_regular_file(assets_folder() / "machines" / "ac-table.json"));
     EXPECT_THAT(machine_ids(assets_folder()), Contains("rotary-tilt-listing"));
+    EXPECT_THAT(arm_ids(assets_folder()), Contains("motoman-l3"));
 }
 
 TEST(Assets, AreFoundAboveTheExecutable) {

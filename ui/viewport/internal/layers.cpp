@@ -5,6 +5,7 @@ namespace millwright::viewport {
 std::vector<std::unique_ptr<Layer>> make_layers() {
     std::vector<std::unique_ptr<Layer>> layers;
     for (const auto make : {make_machine_layer,
+                            make_arm_layer,
                             make_fixture_layer,
                             make_surface_layer,
                             make_plot_layer,
@@ -17,7 +18,8 @@ std::vector<std::unique_ptr<Layer>> make_layers() {
                             make_control_net_layer,
                             make_simulation_layer,
                             make_program_layer,
-                            make_floor_layer}) {
+                            make_floor_layer,
+                            make_arm_marks_layer}) {
         layers.push_back(make());
     }
     return layers;

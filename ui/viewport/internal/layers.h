@@ -22,6 +22,8 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_simulation_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_program_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_plot_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_arm_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_arm_marks_layer();
 
 /// All of them in the order in which they are drawn: solid things first.
 [[nodiscard]] std::vector<std::unique_ptr<Layer>> make_layers();

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
 #include "ui/render/convert.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/widgets/canvas.h"
@@ -96,6 +97,18 @@ std::string move_text(const Scene& scene, int move) {
     const toolpath::MoveDeviation& deviation = scene.shown->field.moves[static_cast<std::size_t>(move)];
     return "move " + std::to_string(move + 1) + "   error " + fixed(deviation.closest, 4) + " mm   axis " +
            fixed(to_degrees(deviation.axis), 2) + "\u00B0";
+}
+
+std::string arm_text(const ArmScene& scene, const ArmGrip& grip) {
+    if (grip.is_tip()) {
+        const Frame tool = kinematics::base_T_tool(scene.look->arm(), scene.joints);
+        return coordinates(tool.translation()) + " mm";
+    }
+    const kinematics::ArmJoint& joint = scene.look->arm().joint(grip.joint);
+    const bool turns = joint.kind == kinematics::JointKind::revolute;
+    const double position = scene.joints[grip.joint];
+    return "Joint " + joint.name + "   " + fixed(turns ? to_degrees(position) : position, 2) +
+           (turns ? "\u00B0" : " mm");
 }
 
 struct Legend {
@@ -235,7 +248,13 @@ void draw_box(const Pane& pane, const Hand::Box& box) {
 }
 
 void draw_hint(widgets::Ui& ui, const Pane& pane, const Scene& scene, const Hand& hand) {
-    if (hand.drag()) {
+    if (scene.arm && hand.highlight().arm) {
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        widgets::label_at(ui,
+                          {mouse.x, mouse.y - ui.px(label_above + 6.0F)},
+                          arm_text(*scene.arm, *hand.highlight().arm),
+                          text_colour(pane));
+    } else if (hand.drag()) {
         const PointDrag& drag = *hand.drag();
         const Vec3 place = scene_from_workpiece(scene) * Vec3(drag.grabbed().position + drag.moved());
         const Label label = {render::to_glm(place), drag_text(drag), pane.colors.selected};

@@ -1,5 +1,6 @@
 #include "ui/viewport/internal/view_pane.h"
 
+#include "core/kinematics/arm_forward.h"
 #include "ui/render/convert.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/viewport/internal/axis_gizmo.h"
@@ -72,7 +73,7 @@ void ViewPane::set_camera(const render::Camera& camera) {
 
 std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect& place) {
     const render::PixelSize size = size_of(place);
-    at_ = frame.scene.layers.machine ? 1 : 0;
+    at_ = frame.scene.arm ? 2 : frame.scene.layers.machine ? 1 : 0;
     if (target_.size() != size) {
         target_.begin(size);
         target_.end();
@@ -127,7 +128,7 @@ void ViewPane::take_keys(const widgets::Pointer& pointer) {
         fit();
     }
     for (const auto& [key, side] : side_keys) {
-        if (render::key_pressed(key)) {
+        if (at_ != 2 && render::key_pressed(key)) { // an arm's joints have these keys
             cameras_[at_].camera = camera().seen_from(side);
             fit();
         }
@@ -196,7 +197,33 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     }
 }
 
+/// The tip, and a place of each link by which it can be taken hold of.
+void ViewPane::record_arm(const Frame3D& frame, const Pane& pane) const {
+    const ArmScene& scene = *frame.scene.arm;
+    const auto record = [&](const std::string& id, const Vec3& point) {
+        if (const auto seen = render::project(pane.view, render::to_glm(point))) {
+            const float size = frame.ui.px(handle_size);
+            frame.ui.record(id,
+                            {pane.rect.x + static_cast<float>(seen->pixel.x) - 0.5F * size,
+                             pane.rect.y + static_cast<float>(seen->pixel.y) - 0.5F * size,
+                             size,
+                             size});
+        }
+    };
+    const std::vector<Frame> joints = kinematics::base_T_joints(scene.look->arm(), scene.joints);
+    const Vec3 tip = kinematics::base_T_tool(scene.look->arm(), scene.joints).translation();
+    record("tip", tip);
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+        const Vec3 end = n + 1 < joints.size() ? Vec3(joints[n + 1].translation()) : tip;
+        record("link_" + scene.look->arm().joint(static_cast<int>(n)).name,
+               Vec3(0.5 * (joints[n].translation() + end)));
+    }
+}
+
 void ViewPane::record_handles(const Frame3D& frame, const Pane& pane) const {
+    if (frame.scene.arm) {
+        return record_arm(frame, pane);
+    }
     if (!frame.scene.layers.control_net || !frame.scene.surface) {
         return;
     }

@@ -23,7 +23,7 @@ struct Frame3D {
     bool details = true; ///< with legend, axes and scale bar
 };
 
-/// Of the scene's two frames, workpiece and machine, each picture keeps a camera of its own.
+/// Of the scene's frames - workpiece, machine, arm - each picture keeps a camera of its own.
 class ViewPane {
 public:
     ViewPane(std::string id, std::string caption, render::StandardView side, render::Projection projection);
@@ -64,11 +64,12 @@ private:
     void paint(const Frame3D& frame, const render::View& view, render::Edges edges);
     void draw_over(const Frame3D& frame, const Pane& pane);
     void record_handles(const Frame3D& frame, const Pane& pane) const;
+    void record_arm(const Frame3D& frame, const Pane& pane) const;
 
     std::string id_;
     std::string caption_;
-    std::array<Sight, 2> cameras_;
-    std::size_t at_ = 0; ///< 0 workpiece, 1 machine
+    std::array<Sight, 3> cameras_;
+    std::size_t at_ = 0; ///< 0 workpiece, 1 machine, 2 arm
     render::ViewTarget target_;
     std::optional<Drawn> drawn_;
     render::Edges edges_ = render::Edges::smooth; ///< of what was drawn

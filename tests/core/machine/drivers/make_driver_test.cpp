@@ -43,7 +43,8 @@ constexpr std::array kinds{DriverKind::virtual_machine,
                            DriverKind::grbl,
                            DriverKind::linuxcnc,
                            DriverKind::stream,
-                           DriverKind::cordic};
+                           DriverKind::cordic,
+                           DriverKind::pmac};
 
 TEST(MakeDriver, MakesEachKindUnderItsName) {
     SteadyClock clock;

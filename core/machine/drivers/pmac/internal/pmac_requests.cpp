@@ -154,10 +154,19 @@ void PmacSession::enable(double /*now*/) {
     ask(every_motor("J/"));
 }
 
-void PmacSession::jog_axis(std::size_t n, double way_deg, double speed_deg_per_s) {
+/// While others are jogged on, an axis whose key is up brakes.
+void PmacSession::let_go_of(std::size_t n) {
+    MotorState& motor = motors_[n];
+    if (std::abs(motor.target - motor.counts) > 1.0) {
+        ask(fmt::format("#{}J/", settings_.axes[n].motor));
+        motor.target = motor.counts;
+    }
+}
+
+void PmacSession::jog_axis(std::size_t n, double way_deg, double speed_deg_per_s, bool held) {
     const PmacAxis& axis = settings_.axes[n];
     MotorState& motor = motors_[n];
-    const double from = stage_ == Stage::jogging ? motor.target : motor.counts;
+    const double from = stage_ == Stage::jogging && !held ? motor.target : motor.counts;
     double target = from + way_deg * axis.counts_per_degree;
     if (position_known()) {
         const double most = axis.max_deg ? *axis.max_deg * axis.counts_per_degree : target;
@@ -201,7 +210,10 @@ void PmacSession::jog(const Jog& jog, double now) {
             if (std::abs(jog.way[n]) > 0.0) {
                 jog_axis(static_cast<std::size_t>(n),
                          to_degrees(jog.way[n]),
-                         to_degrees(jog.speed) * std::abs(jog.way[n]) / longest);
+                         to_degrees(jog.speed) * std::abs(jog.way[n]) / longest,
+                         jog.dead_man > 0.0);
+            } else if (stage_ == Stage::jogging && jog.dead_man > 0.0) {
+                let_go_of(static_cast<std::size_t>(n));
             } else if (stage_ != Stage::jogging) {
                 motors_[static_cast<std::size_t>(n)].target = motors_[static_cast<std::size_t>(n)].counts;
             }

@@ -117,7 +117,9 @@ private:
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
     [[nodiscard]] std::string every_motor(std::string_view command) const;
-    void jog_axis(std::size_t axis, double way_deg, double speed_deg_per_s);
+    /// `held`: counts from where the motor is, since such a jog is renewed again and again.
+    void jog_axis(std::size_t axis, double way_deg, double speed_deg_per_s, bool held);
+    void let_go_of(std::size_t axis);
 
     PmacSettings settings_;
     GuardedLine talk_;

@@ -163,7 +163,7 @@ TEST(PmacJogF2, EndsWhenNobodyHoldsTheKey) {
     PmacWire wire;
     wire.session.jog(jog_of(0, 60.0, 5.0, 0.3), wire.now);
     wire.pass(0.25);
-    wire.session.jog(jog_of(0, 1.0, 5.0, 0.3), wire.now); // held
+    wire.session.jog(jog_of(0, 5.0, 5.0, 0.3), wire.now); // held
     wire.pass(0.25);
     EXPECT_EQ(wire.state(), DriverState::running) << wire.session.status().message;
     EXPECT_FALSE(wire.standing());
@@ -171,6 +171,36 @@ TEST(PmacJogF2, EndsWhenNobodyHoldsTheKey) {
     EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
     EXPECT_LT(wire.degrees(0), 5.0);
     EXPECT_TRUE(wire.powered());
+}
+
+TEST(PmacJog, ThatIsRenewedCountsFromWhereTheMotorIs) {
+    PmacWire wire; // with limits of 90 degrees
+    for (int n = 0; n < 120; ++n) {
+        wire.session.jog(jog_of(0, 30.0, 5.0, 0.1), wire.now);
+        wire.pass(0.016);
+    }
+    EXPECT_GT(wire.degrees(0), 5.0);
+    EXPECT_LT(wire.degrees(0), 12.0);
+    ASSERT_TRUE(wire.run_to_end(2.0));
+    EXPECT_LT(wire.degrees(0), 13.0);
+}
+
+TEST(PmacJogF2, OfSeveralAxesTheOneThatIsLetGoOfBrakes) {
+    PmacWire wire;
+    Jog both = jog_of(0, 5.0, 5.0, 0.1);
+    both.way[1] = both.way[0];
+    for (int n = 0; n < 60; ++n) {
+        wire.session.jog(both, wire.now);
+        wire.pass(0.016);
+    }
+    for (int n = 0; n < 60; ++n) {
+        wire.session.jog(jog_of(0, 5.0, 5.0, 0.1), wire.now);
+        wire.pass(0.016);
+    }
+    EXPECT_LT(std::abs(wire.card.speed(2)), 1.0);
+    EXPECT_LT(wire.degrees(1), 6.5);
+    EXPECT_GT(wire.degrees(0), 8.0);
+    ASSERT_TRUE(wire.run_to_end(2.0));
 }
 
 TEST(PmacJog, LeavesNoLimits) {

@@ -1,0 +1,123 @@
+#include "ui/actions/arm_bench.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::actions {
+namespace {
+
+class ArmBenchTest : public ::testing::Test {
+protected:
+    ArmBenchTest() : bench_("assets") { bench_.load("motoman-l3"); }
+
+    [[nodiscard]] Vec3 tip() const { return bench_.tool().translation(); }
+    /// The farthest that the tip was from the straight way to where it ended.
+    double farthest_off_the_line() {
+        const Vec3 from = tip();
+        std::vector<Vec3> points;
+        while (bench_.advance(0.02)) {
+            points.push_back(tip());
+        }
+        const Vec3 way = (tip() - from).normalized();
+        double farthest = 0.0;
+        for (const Vec3& point : points) {
+            farthest = std::max(farthest, (point - from - way.dot(point - from) * way).norm());
+        }
+        return farthest;
+    }
+
+    ArmBench bench_;
+};
+
+TEST_F(ArmBenchTest, FindsEverySolutionOfAGoalAndNamesItsBranch) {
+    bench_.set_goal(Vec3(800.0, 0.0, 650.0), Vec3::UnitZ());
+    ASSERT_EQ(bench_.solutions().size(), 2U); // as `millwright arm ik`
+    EXPECT_EQ(bench_.solutions()[0].branch, "front, elbow up");
+    EXPECT_EQ(bench_.solutions()[1].branch, "front, elbow down");
+    EXPECT_NEAR(bench_.solutions()[0].farthest_turn, 0.0, 1e-9); // where it stands
+    for (const ArmSolution& solution : bench_.solutions()) {
+        const Frame there = kinematics::base_T_tool(bench_.arm(), solution.joints);
+        EXPECT_LT((there.translation() - Vec3(800.0, 0.0, 650.0)).norm(), 1e-9);
+    }
+}
+
+TEST_F(ArmBenchTest, SaysWhyThereIsNoSolution) {
+    bench_.set_goal(Vec3(1500.0, 0.0, 0.0), Vec3::UnitZ());
+    EXPECT_TRUE(bench_.solutions().empty());
+    EXPECT_NE(bench_.reason().find("1450"), std::string::npos);
+    bench_.set_goal(Vec3(800.0, 0.0, 0.0), Vec3::Zero());
+    EXPECT_NE(bench_.reason().find("no direction"), std::string::npos);
+    EXPECT_EQ(bench_.chosen(), -1);
+    EXPECT_THROW(bench_.go(ArmMove::joints), Error);
+}
+
+TEST_F(ArmBenchTest, TurnsAnAxisIntoItsPlaneOnlyIfItMay) {
+    const Vec3 across(0.0, 0.6, 0.8);
+    bench_.set_goal(Vec3(800.0, 100.0, 0.0), across);
+    EXPECT_FALSE(bench_.solutions().empty());
+    bench_.set_projects(false);
+    EXPECT_TRUE(bench_.solutions().empty());
+    EXPECT_NE(bench_.reason().find("out of the plane"), std::string::npos);
+}
+
+TEST_F(ArmBenchTest, GoesInALineWhereItIsToldTo) {
+    bench_.set_goal(Vec3(700.0, -300.0, 300.0), Vec3::UnitZ());
+    bench_.go(ArmMove::straight);
+    EXPECT_LT(farthest_off_the_line(), 0.05);
+    EXPECT_LT((tip() - Vec3(700.0, -300.0, 300.0)).norm(), 1e-6);
+    bench_.set_goal(Vec3(800.0, 300.0, 500.0), Vec3::UnitZ());
+    bench_.go(ArmMove::joints);
+    EXPECT_GT(farthest_off_the_line(), 1.0);
+    EXPECT_FALSE(bench_.moving());
+}
+
+TEST_F(ArmBenchTest, AJogThatIsNotWantedAnyMoreStops) {
+    kinematics::JointPositions rates = kinematics::JointPositions::Zero(5);
+    rates[0] = 0.5;
+    bench_.hold_jog(rates);
+    EXPECT_TRUE(bench_.advance(0.1));
+    EXPECT_NEAR(bench_.joints()[0], 0.05, 1e-12);
+    EXPECT_FALSE(bench_.advance(0.1));
+    EXPECT_NEAR(bench_.joints()[0], 0.05, 1e-12);
+}
+
+TEST_F(ArmBenchTest, StaysInsideTheLimitsAndSaysSo) {
+    bench_.set_joint(0, 10.0);
+    EXPECT_DOUBLE_EQ(bench_.joints()[0], bench_.arm().joint(0).max);
+    EXPECT_EQ(bench_.refusal(), "Joint 1 stands at its limit.");
+    bench_.set_joint(0, 0.0);
+    EXPECT_TRUE(bench_.refusal().empty());
+}
+
+TEST_F(ArmBenchTest, MovesItsTipAndKeepsTheLean) {
+    bench_.move_tip(Vec3(500.0, 500.0, 400.0));
+    EXPECT_LT((tip() - Vec3(500.0, 500.0, 400.0)).norm(), 1e-9);
+    EXPECT_NEAR(bench_.tool().linear().col(2).z(), 1.0, 1e-9);
+    const Vec3 before = tip();
+    bench_.move_tip(Vec3(3000.0, 0.0, 0.0));
+    EXPECT_FALSE(bench_.refusal().empty());
+    EXPECT_LT((tip() - before).norm(), 1e-12);
+}
+
+TEST_F(ArmBenchTest, FollowsWhatAControllerTellsOfSomeJoints) {
+    bench_.set_joint(4, 1.0);
+    kinematics::JointPositions told(4);
+    told << 0.1, -1.0, 1.2, 0.3;
+    bench_.follow(told);
+    EXPECT_LT((bench_.joints().head(4) - told).norm(), 1e-15);
+    EXPECT_DOUBLE_EQ(bench_.joints()[4], 1.0);
+}
+
+TEST_F(ArmBenchTest, AnArmThatCannotBeReadLeavesTheOldOne) {
+    EXPECT_THROW(bench_.load("no-such-arm"), Error);
+    EXPECT_EQ(bench_.name(), "motoman-l3");
+}
+
+} // namespace
+} // namespace millwright::actions

@@ -1,0 +1,74 @@
+// An emulated PMAC with the motors of an arm in real time at a TCP port, for a person to connect to.
+#pragma once
+
+#include "core/base/units.h"
+#include "core/machine/drivers/pmac/pmac_settings.h"
+#include "core/machine/emulators/emulator_server.h"
+#include "core/machine/emulators/pmac/pmac_emulator.h"
+#include "core/machine/links/tcp_server.h"
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace millwright::test {
+
+class PmacBench {
+public:
+    /// Motors 1 to 4 are active, with the factory's protections; they have no power.
+    PmacBench() {
+        auto server = std::make_unique<machine::TcpServer>(0);
+        server->open();
+        address_ = "tcp:127.0.0.1:" + std::to_string(server->port());
+        auto card = std::make_unique<machine::PmacEmulator>();
+        card_ = card.get();
+        const std::string setup = "I100=1\rI200=1\rI300=1\rI400=1\r#1->120X\r#2->222Y\r#3->150Z\r#4->150A\r";
+        card->receive(setup);
+        (void)card->take_output();
+        std::vector<std::unique_ptr<machine::Link>> links;
+        links.push_back(std::move(server));
+        server_ = std::make_unique<machine::EmulatorServer>(std::move(links), clock_, std::move(card));
+    }
+
+    [[nodiscard]] const std::string& address() const { return address_; }
+    /// Of a motor from 1, as its encoder tells.
+    [[nodiscard]] double degrees(int motor) {
+        const double scale =
+            machine::arm_settings().axes[static_cast<std::size_t>(motor) - 1].counts_per_degree;
+        return ask([&] { return card_->position(motor) / scale; });
+    }
+    [[nodiscard]] bool powered() {
+        return ask(
+            [&] { return card_->enabled(1) && card_->enabled(2) && card_->enabled(3) && card_->enabled(4); });
+    }
+    [[nodiscard]] bool any_power() {
+        return ask(
+            [&] { return card_->enabled(1) || card_->enabled(2) || card_->enabled(3) || card_->enabled(4); });
+    }
+    [[nodiscard]] bool moving() {
+        return ask([&] { return card_->moving(); });
+    }
+    /// The card's own time, s: now, and when anything moved last.
+    [[nodiscard]] double time() {
+        return ask([&] { return card_->time(); });
+    }
+    [[nodiscard]] double last_motion() {
+        return ask([&] { return card_->last_motion(); });
+    }
+    /// The cable is pulled.
+    void vanish() { server_.reset(); }
+
+private:
+    template <class Question> std::invoke_result_t<Question> ask(Question&& question) {
+        return server_->with_emulator([&](machine::Emulator&) { return question(); });
+    }
+
+    machine::SteadyClock clock_;
+    std::string address_;
+    machine::PmacEmulator* card_ = nullptr; ///< lives in the server
+    std::unique_ptr<machine::EmulatorServer> server_;
+};
+
+} // namespace millwright::test

@@ -1,0 +1,258 @@
+#include "ui/actions/arm_bench.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_hold.h"
+#include "core/kinematics/arm_path.h"
+#include "core/kinematics/arm_rates.h"
+#include "core/kinematics/arm_simulation.h"
+#include "core/motion/arm_motion.h"
+#include "core/motion/planner.h"
+#include "core/project/assets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+using kinematics::ArmModel;
+using kinematics::JointPositions;
+
+constexpr std::size_t longest_trace = 10'000;
+constexpr double least_way_mm = 0.5;           // between two points of the trace
+constexpr double rounding = 0.01 * pi / 180.0; // a tool axis so little out of the plane was meant to be in it
+
+JointPositions inside(const ArmModel& arm, JointPositions joints) {
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        joints[n] = std::clamp(joints[n], arm.joint(n).min, arm.joint(n).max);
+    }
+    return joints;
+}
+
+JointPositions home_of(const ArmModel& arm) {
+    return inside(arm,
+                  arm.planar_elbow() ? kinematics::arm_home()
+                                     : JointPositions(JointPositions::Zero(arm.joint_count())));
+}
+
+kinematics::ArmAim aim_of(const ArmModel& arm, double most_tilt) {
+    const bool free_roll = arm.joint_count() <= 5;
+    return {free_roll ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame, most_tilt};
+}
+
+Frame frame_at(const Vec3& tip, const Mat3& directions) {
+    Frame frame = Frame::Identity();
+    frame.translation() = tip;
+    frame.linear() = directions;
+    return frame;
+}
+
+kinematics::ArmWay line(const Frame& from, const Frame& to) {
+    const Eigen::Quaterniond first(from.linear()), last(to.linear());
+    const Vec3 begin = from.translation(), end = to.translation();
+    return {[=](double share) {
+                return frame_at(begin + share * (end - begin), first.slerp(share, last).toRotationMatrix());
+            },
+            (end - begin).norm(),
+            0.0,
+            0};
+}
+
+} // namespace
+
+void ArmBench::load(const std::string& name) {
+    auto look = viewport::read_arm_look(project::arm_path(name, ".", assets_));
+    name_ = name;
+    look_ = std::move(look);
+    trajectory_.reset();
+    trace_.reset();
+    drop_goal();
+    refusal_.clear();
+    joints_ = home_of(arm());
+}
+
+Frame ArmBench::tool() const {
+    return kinematics::base_T_tool(arm(), joints_);
+}
+
+double ArmBench::manipulability() const {
+    return kinematics::manipulability(kinematics::arm_jacobian(arm(), joints_), look_->reach);
+}
+
+void ArmBench::set_joint(int joint, double position) {
+    JointPositions wanted = joints_;
+    wanted[joint] = position;
+    set_joints(wanted);
+}
+
+void ArmBench::set_joints(const JointPositions& joints) {
+    stop();
+    refusal_.clear();
+    if (const int outside = arm().joint_outside(joints); outside >= 0) {
+        refusal_ = "Joint " + arm().joint(outside).name + " stands at its limit.";
+    }
+    place(inside(arm(), joints));
+}
+
+void ArmBench::go_home() {
+    set_joints(home_of(arm()));
+}
+
+void ArmBench::move_tip(const Vec3& tip) {
+    stop();
+    const Frame goal = kinematics::carried_tool(arm(), joints_, tip);
+    const kinematics::ArmHold hold = kinematics::hold_tool(arm(), goal, aim_of(arm(), 0.5 * pi), joints_);
+    refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
+    if (refusal_.empty()) {
+        place(hold.joints);
+    }
+}
+
+void ArmBench::set_goal(const Vec3& tip, const Vec3& axis) {
+    const double length = axis.norm();
+    wanted_axis_ = length > 0.0 ? Vec3(axis / length) : Vec3(Vec3::Zero());
+    goal_ = kinematics::PointedGoal{tip, wanted_axis_};
+    solve();
+}
+
+void ArmBench::set_projects(bool on) {
+    projects_ = on;
+    if (goal_) {
+        goal_->axis = wanted_axis_;
+        solve();
+    }
+}
+
+void ArmBench::solve() {
+    solutions_.clear();
+    reason_.clear();
+    chosen_ = -1;
+    if (!(wanted_axis_.norm() > 0.0)) {
+        reason_ = "the tool axis has no direction";
+        return;
+    }
+    const Frame goal = frame_at(goal_->tip, frame_along(goal_->axis));
+    const kinematics::ArmAim aim{kinematics::ArmDemand::tip_and_axis, projects_ ? 0.5 * pi : rounding};
+    for (JointPositions& joints : kinematics::all_holds(arm(), goal, aim, joints_)) {
+        std::string branch = branch_of(joints);
+        const double turn = (joints - joints_).cwiseAbs().maxCoeff();
+        solutions_.push_back({std::move(joints), std::move(branch), turn});
+    }
+    if (solutions_.empty()) {
+        reason_ = kinematics::hold_tool(arm(), goal, aim, joints_).why;
+    } else {
+        goal_->axis = kinematics::base_T_tool(arm(), solutions_.front().joints).linear().col(2);
+        chosen_ = 0;
+    }
+}
+
+std::string ArmBench::branch_of(const JointPositions& joints) const {
+    if (!arm().planar_elbow()) {
+        return {};
+    }
+    const std::vector<Frame> frames = kinematics::base_T_joints(arm(), joints);
+    const Vec3 elbow = frames[2].translation(), wrist = frames[3].translation();
+    const Vec3 forward = frames[0].linear().col(0);
+    const double height = forward.dot(wrist) * elbow.z() - wrist.z() * forward.dot(elbow);
+    return std::string(forward.dot(wrist) >= 0.0 ? "front" : "back") +
+           (height * (forward.dot(wrist) >= 0.0 ? 1.0 : -1.0) >= 0.0 ? ", elbow up" : ", elbow down");
+}
+
+void ArmBench::choose(int solution) {
+    chosen_ = solution >= 0 && solution < std::ssize(solutions_) ? solution : -1;
+}
+
+void ArmBench::drop_goal() {
+    goal_.reset();
+    solutions_.clear();
+    reason_.clear();
+    chosen_ = -1;
+}
+
+void ArmBench::go(ArmMove how) {
+    if (chosen_ < 0) {
+        throw Error("there is no solution to go to", {}, "set a goal that the arm reaches");
+    }
+    const JointPositions& target = solutions_[static_cast<std::size_t>(chosen_)].joints;
+    motion::ArmMotion motion(arm(), joints_);
+    if (how == ArmMove::joints) {
+        motion.go_to(target);
+    } else {
+        const std::vector<kinematics::ArmWay> ways{line(tool(), kinematics::base_T_tool(arm(), target))};
+        kinematics::ArmPathSettings settings;
+        settings.aim = aim_of(arm(), 0.5 * pi);
+        motion.follow(ways, kinematics::follow_path(arm(), ways, joints_, settings, {}), {});
+    }
+    trajectory_.emplace(motion::plan(motion.program(), arm(), {}, {}));
+    time_ = 0.0;
+    refusal_.clear();
+}
+
+void ArmBench::stop() {
+    trajectory_.reset();
+    held_.reset();
+}
+
+void ArmBench::hold_jog(const JointPositions& rates) {
+    trajectory_.reset();
+    held_ = rates;
+}
+
+bool ArmBench::advance(double seconds) {
+    if (held_) {
+        const JointPositions rates = *std::exchange(held_, std::nullopt);
+        set_joints(joints_ + seconds * rates);
+        return true;
+    }
+    if (!trajectory_) {
+        return false;
+    }
+    time_ = std::min(time_ + seconds, trajectory_->duration());
+    place(trajectory_->at(time_).position);
+    if (!(time_ < trajectory_->duration())) {
+        trajectory_.reset();
+    }
+    return true;
+}
+
+void ArmBench::follow(const JointPositions& told) {
+    JointPositions joints = joints_;
+    for (Eigen::Index n = 0; n < std::min(told.size(), joints.size()); ++n) {
+        joints[n] = told[n];
+    }
+    if ((joints - joints_).cwiseAbs().maxCoeff() > 0.0) {
+        stop();
+        place(joints);
+    }
+}
+
+void ArmBench::place(const JointPositions& joints) {
+    joints_ = joints;
+    const Vec3 tip = tool().translation();
+    if (trace_ && !trace_->empty() && (trace_->back() - tip).norm() < least_way_mm) {
+        return;
+    }
+    std::vector<Vec3> points = trace_ ? *trace_ : std::vector<Vec3>();
+    if (points.size() >= longest_trace) {
+        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(longest_trace / 10));
+    }
+    points.push_back(tip);
+    trace_ = std::make_shared<const std::vector<Vec3>>(std::move(points));
+}
+
+viewport::ArmScene ArmBench::scene() const {
+    viewport::ArmScene scene;
+    scene.look = look_;
+    scene.joints = joints_;
+    if (chosen_ >= 0) {
+        scene.ghost = solutions_[static_cast<std::size_t>(chosen_)].joints;
+    }
+    scene.trace = trace_;
+    return scene;
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,114 @@
+// The robot arm on the bench: which one, how its joints stand, where it shall go and how it could, and what
+// it does on the way there. Moved by hand here it is a drawing; a connected controller is moved by jogs.
+// Lengths mm, angles rad, in the arm's base.
+#pragma once
+
+#include "core/kinematics/arm_inverse.h"
+#include "core/motion/trajectory.h"
+#include "ui/viewport/arm_scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::actions {
+
+/// One way to hold the tool at the goal.
+struct ArmSolution {
+    kinematics::JointPositions joints;
+    std::string branch;         ///< "front, elbow up"; of other arms than the L-3's kind empty
+    double farthest_turn = 0.0; ///< of a joint from where it stands, rad or mm of a sliding one
+};
+
+enum class ArmMove : std::uint8_t {
+    joints,  ///< every joint straight to its end
+    straight ///< the tip along a line
+};
+
+class ArmBench {
+public:
+    /// `assets`: what ships with the program.
+    explicit ArmBench(std::filesystem::path assets) : assets_(std::move(assets)) {}
+
+    /// By its name or file, with the joints at home. Throws Error; the arm from before then stays.
+    void load(const std::string& name);
+    [[nodiscard]] bool loaded() const { return look_ != nullptr; }
+    /// What follows needs an arm.
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::shared_ptr<const viewport::ArmLook>& look() const { return look_; }
+    [[nodiscard]] const kinematics::ArmModel& arm() const { return look_->arm(); }
+
+    [[nodiscard]] const kinematics::JointPositions& joints() const { return joints_; }
+    [[nodiscard]] Frame tool() const;
+    /// 0 where the arm is singular (core/kinematics/arm_forward.h).
+    [[nodiscard]] double manipulability() const;
+
+    /// Stops what moves. A joint stays inside its limits.
+    void set_joint(int joint, double position);
+    void set_joints(const kinematics::JointPositions& joints);
+    /// The upper arm upright, the forearm level; of other arms every joint at 0, or near it.
+    void go_home();
+    /// The tip there and the tool leaning as it does; where the arm cannot it stays, and refusal() says why.
+    void move_tip(const Vec3& tip);
+    /// Why the last of these was not done, or only in part; empty if it was.
+    [[nodiscard]] const std::string& refusal() const { return refusal_; }
+
+    /// Looks for every way to hold the tool there. `axis` need not be a unit vector; one of no length is
+    /// refused by reason().
+    void set_goal(const Vec3& tip, const Vec3& axis);
+    /// Turns the goal's axis by the smallest angle into the plane of an arm with five joints.
+    void set_projects(bool on);
+    [[nodiscard]] bool projects() const { return projects_; }
+    [[nodiscard]] const std::optional<kinematics::PointedGoal>& goal() const { return goal_; }
+    [[nodiscard]] const std::vector<ArmSolution>& solutions() const { return solutions_; }
+    [[nodiscard]] const std::string& reason() const { return reason_; } ///< why there is none
+    /// Which one is drawn as a ghost and gone to; -1: none.
+    void choose(int solution);
+    [[nodiscard]] int chosen() const { return chosen_; }
+    void drop_goal();
+
+    /// Begins to move to the chosen solution. Throws Error with the reason where the arm cannot.
+    void go(ArmMove how);
+    void stop();
+    /// Until the next advance() the joints move at these rates, as far as their limits: to be wanted in every
+    /// frame, rad/s or mm/s.
+    void hold_jog(const kinematics::JointPositions& rates);
+    [[nodiscard]] bool moving() const { return trajectory_.has_value() || held_.has_value(); }
+    /// Of the motion, s; 0 without one.
+    [[nodiscard]] double duration() const { return trajectory_ ? trajectory_->duration() : 0.0; }
+    [[nodiscard]] double time() const { return time_; }
+    /// Lets `seconds` pass. True if anything changed.
+    bool advance(double seconds);
+
+    void clear_trace() { trace_.reset(); }
+    /// Where a connected arm stands; joints that it does not tell stay. Draws the trace.
+    void follow(const kinematics::JointPositions& told);
+
+    [[nodiscard]] viewport::ArmScene scene() const;
+
+private:
+    void solve();
+    void place(const kinematics::JointPositions& joints); ///< and the trace
+    [[nodiscard]] std::string branch_of(const kinematics::JointPositions& joints) const;
+
+    std::filesystem::path assets_;
+    std::string name_;
+    std::shared_ptr<const viewport::ArmLook> look_;
+    kinematics::JointPositions joints_;
+    std::string refusal_;
+    std::optional<kinematics::PointedGoal> goal_;
+    Vec3 wanted_axis_ = Vec3::UnitZ(); ///< of the goal, before it was projected
+    bool projects_ = true;
+    std::vector<ArmSolution> solutions_;
+    std::string reason_;
+    int chosen_ = -1;
+    std::optional<motion::Trajectory> trajectory_;
+    double time_ = 0.0;
+    std::optional<kinematics::JointPositions> held_; ///< rates of a jog
+    std::shared_ptr<const std::vector<Vec3>> trace_;
+};
+
+} // namespace millwright::actions

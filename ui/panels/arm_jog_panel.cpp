@@ -1,0 +1,289 @@
+#include "ui/panels/arm_jog_panel.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_rates.h"
+#include "ui/actions/arm_bench.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/internal/hand_fields.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/widgets/slider.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ArmFrame;
+using actions::JogWish;
+using kinematics::JointPositions;
+using widgets::Permission;
+using widgets::Rank;
+
+/// The hard cap of a jog by hand: what a person can still follow. The controller has one of its own below.
+constexpr double fastest_deg_per_s = 30.0;
+constexpr double fastest_mm_per_s = 150.0;
+constexpr double whole_percent = 100.0;
+
+constexpr std::array<widgets::Option, 3> frames{
+    {{"joints", "Joints", {}, "Each joint by itself"},
+     {"base", "Base", {}, "The tip along X, Y and Z of the arm's base"},
+     {"tool", "Tool", {}, "The tip along x, y and z of the tool"}}};
+constexpr std::array<double, 4> steps{0.0, 0.1, 1.0, 10.0};
+constexpr std::array<widgets::Option, 4> step_options{
+    {{"hold", "Held", {}, "Moves as long as it is held"}, {"0_1", "0.1"}, {"1", "1"}, {"10", "10"}}};
+
+bool drives(const Workbench& now, int joint) {
+    return joint < std::ssize(now.controller.axes);
+}
+
+Permission can_jog(const Workbench& now, int joint) {
+    if (!now.arm_connected()) {
+        return now.controller.connected()
+                   ? Permission::refused("What is connected is no arm: see the Machine workspace.")
+                   : Permission{};
+    }
+    if (joint >= 0 && !drives(now, joint)) {
+        return Permission::refused("The controller does not drive this joint.");
+    }
+    return now.controller.status.activity == machine::Activity::jog ? Permission{} : at_rest(now.controller);
+}
+
+} // namespace
+
+/// What is held down in this frame.
+class ArmJogPanel::Wish {
+public:
+    Wish(const Workbench& now, ActionQueue& ask, std::string& refusal)
+        : now_(now), ask_(ask), refusal_(refusal) {}
+
+    void joint(int joint, double sign, bool held, bool pressed) {
+        const double step = now_.session.hand.step;
+        if (step > 0.0) {
+            if (pressed) {
+                JointPositions way = JointPositions::Zero(now_.arm.joints().size());
+                way[joint] = sign * (turns(joint) ? from_degrees(step) : step);
+                begin_step(way);
+            }
+        } else if (held) {
+            rates_ = JointPositions::Zero(now_.arm.joints().size());
+            (*rates_)[joint] =
+                sign * share() * (turns(joint) ? from_degrees(fastest_deg_per_s) : fastest_mm_per_s);
+        }
+    }
+
+    void line(int axis, double sign, bool held, bool pressed) {
+        const double step = now_.session.hand.step;
+        if (!(held || (pressed && step > 0.0))) {
+            return;
+        }
+        const Mat3 directions = now_.session.hand.arm_frame == ArmFrame::tool ? Mat3(now_.arm.tool().linear())
+                                                                              : Mat3(Mat3::Identity());
+        const Vec3 way = sign * directions.col(axis);
+        const Vec3 velocity = way * share() * fastest_mm_per_s;
+        const kinematics::ArmRates found = kinematics::tip_rates(now_.arm.arm(), now_.arm.joints(), velocity);
+        if (!found.rates) {
+            refusal_ = found.why;
+            return;
+        }
+        if (step > 0.0) {
+            if (pressed) {
+                begin_step(*found.rates * (step / velocity.norm()));
+            }
+        } else {
+            rates_ = slowed(*found.rates);
+        }
+    }
+
+    void tell() {
+        if (!rates_) {
+            return;
+        }
+        refusal_.clear();
+        if (!now_.arm_connected()) {
+            ask_.arm([rates = *rates_](actions::ArmBench& bench) { bench.hold_jog(rates); });
+            return;
+        }
+        const JointPositions driven = rates_->head(std::ssize(now_.controller.axes));
+        const double most = driven.cwiseAbs().maxCoeff();
+        if (most > 0.0) {
+            ask_.jog(JogWish{driven / most, most});
+        }
+    }
+
+private:
+    [[nodiscard]] bool turns(int joint) const {
+        return now_.arm.arm().joint(joint).kind == kinematics::JointKind::revolute;
+    }
+    [[nodiscard]] double share() const { return now_.session.hand.arm_percent / whole_percent; }
+
+    /// No joint faster than a person can follow.
+    [[nodiscard]] static JointPositions slowed(const JointPositions& rates) {
+        const double most = rates.cwiseAbs().maxCoeff(), cap = from_degrees(fastest_deg_per_s);
+        return most > cap ? JointPositions(rates * (cap / most)) : rates;
+    }
+
+    void begin_step(const JointPositions& way) {
+        refusal_.clear();
+        if (!now_.arm_connected()) {
+            ask_.arm([way](actions::ArmBench& bench) { bench.set_joints(bench.joints() + way); });
+            return;
+        }
+        machine::Jog jog;
+        jog.way = way.head(std::ssize(now_.controller.axes));
+        jog.speed = share() * from_degrees(fastest_deg_per_s);
+        ask_.tell([jog](machine::Driver& driver) { driver.jog(jog); });
+    }
+
+    const Workbench& now_;
+    ActionQueue& ask_;
+    std::string& refusal_;
+    std::optional<JointPositions> rates_;
+};
+
+void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    connection_.draw(ui, now, ask);
+    if (!now.arm.loaded()) {
+        return;
+    }
+    draw_power(ui, now, ask);
+    if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog the drawn arm")) {
+        const int frame = static_cast<int>(now.session.hand.arm_frame);
+        if (const auto chosen = ui.segmented("frame", "Along", frame, frames)) {
+            ask.show([f = static_cast<ArmFrame>(*chosen)](actions::Session& session) {
+                session.hand.arm_frame = f;
+            });
+        }
+        Wish wish(now, ask, refusal_);
+        draw_buttons(ui, now, wish);
+        obey_keys(ui, now, ask, wish);
+        wish.tell();
+        draw_speed(ui, now, ask);
+        if (!refusal_.empty()) {
+            ui.note("Not done: " + refusal_ + ".");
+        }
+    }
+}
+
+void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
+    const auto button = [&](const std::string& name, double sign, int joint) {
+        const std::string id = (sign > 0.0 ? "plus_" : "minus_") + name;
+        return ui.hold_button(
+            id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog(now, joint), {{}, Rank::normal, -1.0F, {}});
+    };
+    if (now.session.hand.arm_frame == ArmFrame::joints) {
+        for (int n = 0; n < now.arm.arm().joint_count(); ++n) {
+            const auto row = ui.row(2);
+            for (const double sign : {-1.0, 1.0}) {
+                const auto held = button(now.arm.arm().joint(n).name, sign, n);
+                wish.joint(n, sign, held.held, held.pressed);
+            }
+        }
+        return;
+    }
+    constexpr std::array base{"X", "Y", "Z"}, tool{"x", "y", "z"};
+    const auto& names = now.session.hand.arm_frame == ArmFrame::base ? base : tool;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto row = ui.row(2);
+        for (const double sign : {-1.0, 1.0}) {
+            const auto held = button(names[static_cast<std::size_t>(axis)], sign, -1);
+            wish.line(axis, sign, held.held, held.pressed);
+        }
+    }
+}
+
+void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const actions::HandSettings& hand = now.session.hand;
+    const auto labels = ui.label_share(0.3F);
+    const auto at = std::ranges::find(steps, hand.step);
+    const int chosen = at == steps.end() ? 0 : static_cast<int>(at - steps.begin());
+    if (const auto step = ui.segmented("step", "Step", chosen, step_options, "Degrees or mm of one press")) {
+        ask.show([step = steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
+            session.hand.step = step;
+        });
+    }
+    const widgets::FieldInfo percent{
+        "speed", "Speed %", {}, "Of 30 \u00b0/s and 150 mm/s, which no jog by hand exceeds", 1.0, 100.0};
+    if (const auto value = widgets::slider(ui, hand.arm_percent, percent)) {
+        ask.show([value = *value](actions::Session& session) { session.hand.arm_percent = value; });
+    }
+    if (const auto on =
+            ui.toggle("keys",
+                      "By keys",
+                      hand.arm_keys,
+                      "1 to 5 choose a joint, + and - jog it while held, / stops, H homes, K takes the "
+                      "power, Q ends a program, : goes to the terminal, X gives the keys back")) {
+        ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
+    }
+    if (hand.arm_keys) {
+        ui.note("Joint " +
+                now.arm.arm().joint(std::min(hand.arm_joint, now.arm.arm().joint_count() - 1)).name +
+                " by + and \u2212, held.");
+    }
+}
+
+void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    if (!now.arm_connected()) {
+        return;
+    }
+    const auto section = ui.section("power", "Motors");
+    if (!section) {
+        return;
+    }
+    action_button(ui, now, ask, catalogue_, "arm.enable");
+    const auto row = ui.row(2);
+    action_button(ui, now, ask, catalogue_, "machine.home");
+    action_button(ui, now, ask, catalogue_, "machine.emergency_stop", Rank::danger, "Kill");
+}
+
+void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) const {
+    if (!now.session.hand.arm_keys || ui.was_typing() || now.asks()) {
+        return;
+    }
+    using render::Key;
+    const int joints = now.arm.arm().joint_count();
+    const int joint = std::min(now.session.hand.arm_joint, joints - 1);
+    for (int n = 0; n < std::min(joints, 5); ++n) {
+        if (render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
+            ask.show([n](actions::Session& session) { session.hand.arm_joint = n; });
+        }
+    }
+    if (can_jog(now, joint).allowed) {
+        for (const auto& [key, sign] : {std::pair(Key::equal, 1.0), std::pair(Key::minus, -1.0)}) {
+            wish.joint(joint, sign, render::key_down(key), render::key_pressed(key));
+        }
+    }
+    struct Order {
+        Key key;
+        std::string_view action;
+    };
+    constexpr std::array<Order, 3> orders{
+        {{Key::h, "machine.home"}, {Key::k, "machine.emergency_stop"}, {Key::q, "machine.stop"}}};
+    for (const Order& order : orders) {
+        if (render::key_pressed(order.key) && catalogue_.find(order.action).permission(now).allowed) {
+            ask.run(std::string(order.action));
+        }
+    }
+    if (render::key_pressed(Key::slash)) {
+        ask.arm([](actions::ArmBench& bench) { bench.stop(); });
+        if (now.arm_connected()) {
+            ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
+        }
+    }
+    if (render::key_pressed(Key::x)) {
+        ask.show([](actions::Session& session) { session.hand.arm_keys = false; });
+    }
+    if (render::key_pressed(Key::semicolon)) {
+        ask.show([](actions::Session& session) {
+            session.panes.lower_shown = true;
+            session.lower_tab_now() = actions::LowerTab::console;
+        });
+        ui.focus_pane("lower");
+    }
+}
+
+} // namespace millwright::panels

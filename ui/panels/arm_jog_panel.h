@@ -1,0 +1,34 @@
+// Moving the arm by hand, held to run: by joints, or the tip along axes of the base or of the tool. What is
+// connected moves; without a machine the drawn arm does. Keys as in Saengsasri, Nittayachin 1996: 1 to 5
+// choose a joint, + and - jog it as long as they are held, / stops, H homes, K takes the power away, Q ends a
+// program, X gives the keys back, : goes to the terminal.
+#pragma once
+
+#include "ui/panels/connection_panel.h"
+#include "ui/panels/panel.h"
+
+#include <string>
+
+namespace millwright::panels {
+
+class ArmJogPanel final : public Panel {
+public:
+    /// `catalogue` must outlive it.
+    explicit ArmJogPanel(const actions::Catalogue& catalogue)
+        : catalogue_(catalogue), connection_(catalogue) {}
+
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    class Wish;
+    void draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const;
+    void draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) const;
+
+    const actions::Catalogue& catalogue_;
+    ConnectionPanel connection_;
+    std::string refusal_; ///< why the last jog was not done
+};
+
+} // namespace millwright::panels

@@ -1,0 +1,228 @@
+#include "ui/panels/arm_panel.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/project/assets.h"
+#include "ui/actions/arm_bench.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/notices.h"
+#include "ui/widgets/slider.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ArmBench;
+using kinematics::ArmJoint;
+using kinematics::JointKind;
+
+constexpr double least_manipulability = 1e-3; // below: next to singular
+
+bool turns(const ArmJoint& joint) {
+    return joint.kind == JointKind::revolute;
+}
+
+double shown(const ArmJoint& joint, double position) {
+    return turns(joint) ? to_degrees(position) : position;
+}
+
+double from_shown(const ArmJoint& joint, double value) {
+    return turns(joint) ? from_degrees(value) : value;
+}
+
+std::string capitalised(std::string text) {
+    if (!text.empty()) {
+        text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    }
+    return text;
+}
+
+std::string as_sentence(const std::string& text) {
+    return capitalised(text) + (text.ends_with('.') ? "" : ".");
+}
+
+widgets::Permission by_hand(const Workbench& now) {
+    return now.arm_connected()
+               ? widgets::Permission::refused("The picture follows the connected controller: jog it.")
+               : widgets::Permission{};
+}
+
+} // namespace
+
+void ArmPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_arm(ui, now, ask);
+    if (!now.arm.loaded()) {
+        return;
+    }
+    draw_joints(ui, now, ask);
+    draw_goal(ui, now, ask);
+    draw_tool(ui, now);
+}
+
+void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (arms_.empty()) {
+        arms_ = project::arm_ids(now.assets);
+    }
+    std::vector<widgets::Option> options;
+    int at = 0;
+    for (const std::string& id : arms_) {
+        at = id == now.arm.name() ? static_cast<int>(options.size()) : at;
+        options.push_back({id, id});
+    }
+    const auto permitted = ui.permitted(by_hand(now));
+    if (const auto chosen = ui.choice("arm", "Arm", at, options, "An arm that ships with the program")) {
+        ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
+    }
+}
+
+void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("joints", "Joints");
+    if (!section) {
+        return;
+    }
+    const auto labels = ui.label_share(0.24F);
+    for (int n = 0; n < now.arm.arm().joint_count(); ++n) {
+        const ArmJoint& joint = now.arm.arm().joint(n);
+        const double position = now.arm.joints()[n];
+        const bool bounded = std::isfinite(joint.min) && std::isfinite(joint.max);
+        const std::string id = "joint_" + joint.name;
+        const std::string label = "Joint " + joint.name + (viewport::near_limit(joint, position) ? " !" : "");
+        const std::string tip = fmt::format("From {} to {} {}; ! within 10 \u00b0 of a limit",
+                                            shortest(std::round(shown(joint, joint.min))),
+                                            shortest(std::round(shown(joint, joint.max))),
+                                            turns(joint) ? "\u00b0" : "mm");
+        const widgets::FieldInfo info{id,
+                                      label,
+                                      turns(joint) ? "\u00b0" : " mm",
+                                      tip,
+                                      bounded ? shown(joint, joint.min) : -360.0,
+                                      bounded ? shown(joint, joint.max) : 360.0,
+                                      std::numeric_limits<double>::quiet_NaN(),
+                                      2};
+        if (const auto value = widgets::number_slider(ui, shown(joint, position), info, by_hand(now))) {
+            ask.arm([n, wanted = from_shown(joint, *value)](ArmBench& bench) { bench.set_joint(n, wanted); });
+        }
+    }
+    action_button(ui, now, ask, catalogue_, "arm.home");
+    if (!now.arm.refusal().empty()) {
+        ui.note(as_sentence(now.arm.refusal()));
+    }
+}
+
+void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
+    const auto section = ui.section("tool", "Tool");
+    if (!section) {
+        return;
+    }
+    const Frame tool = now.arm.tool();
+    const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
+    const auto labels = ui.label_share(0.34F);
+    ui.value("tip",
+             "Tip",
+             fmt::format("{}  {}  {}", fixed(tip.x(), 2), fixed(tip.y(), 2), fixed(tip.z(), 2)),
+             "mm");
+    ui.value("axis",
+             "Axis",
+             fmt::format("{}  {}  {}", fixed(axis.x(), 3), fixed(axis.y(), 3), fixed(axis.z(), 3)));
+    const double measure = now.arm.manipulability();
+    ui.value("manipulability",
+             "Manipulability",
+             fixed(measure, 4),
+             measure < least_manipulability ? "singular" : "");
+}
+
+void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("goal", "Goal");
+    if (!section) {
+        return;
+    }
+    const ArmBench& bench = now.arm;
+    const Frame tool = bench.tool();
+    const Vec3 tip = bench.goal() ? bench.goal()->tip : Vec3(tool.translation());
+    const Vec3 axis = bench.goal() ? bench.goal()->axis : Vec3(tool.linear().col(2));
+    const widgets::FieldInfo place{
+        "tip", "Tip", "mm", "Where the tip shall be, in the arm's base", -1e5, 1e5, {}, 2};
+    if (const auto wanted = ui.vec3("tip", "Tip", {tip.x(), tip.y(), tip.z()}, place)) {
+        ask.arm([axis, p = *wanted](ArmBench& b) { b.set_goal(Vec3(p[0], p[1], p[2]), axis); });
+    }
+    const widgets::FieldInfo direction{
+        "axis", "Axis", {}, "Where the tool axis shall point; of any length", -1e3, 1e3, {}, 3};
+    if (const auto wanted = ui.vec3("axis", "Axis", {axis.x(), axis.y(), axis.z()}, direction)) {
+        ask.arm([tip, d = *wanted](ArmBench& b) { b.set_goal(tip, Vec3(d[0], d[1], d[2])); });
+    }
+    if (const auto on = ui.toggle("project",
+                                  "Into its plane",
+                                  bench.projects(),
+                                  "Turns the axis by the smallest angle to where five joints can hold it")) {
+        ask.arm([on = *on](ArmBench& b) { b.set_projects(on); });
+    }
+    {
+        const auto row = ui.row(2);
+        if (ui.button("from_tool",
+                      "From the tool",
+                      {},
+                      {{}, widgets::Rank::normal, -1.0F, "Takes what the arm does now"})) {
+            ask.arm([](ArmBench& b) { b.set_goal(b.tool().translation(), b.tool().linear().col(2)); });
+        }
+        const auto allowed =
+            bench.goal() ? widgets::Permission{} : widgets::Permission::refused("There is no goal.");
+        if (ui.button("drop", "Clear", allowed, {{}, widgets::Rank::normal, -1.0F, {}})) {
+            ask.arm([](ArmBench& b) { b.drop_goal(); });
+        }
+    }
+    if (bench.goal()) {
+        draw_solutions(ui, now, ask);
+    }
+}
+
+void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const ArmBench& bench = now.arm;
+    if (bench.solutions().empty()) {
+        (void)widgets::banner(ui, "reason", {widgets::Severity::warning, as_sentence(bench.reason()), {}});
+        return;
+    }
+    constexpr std::array<widgets::Column, 2> columns{
+        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}}};
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(bench.solutions());
+    view.chosen = bench.chosen();
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        const actions::ArmSolution& solution = bench.solutions()[static_cast<std::size_t>(row)];
+        if (column == 1) {
+            return fixed(to_degrees(solution.farthest_turn), 1);
+        }
+        return solution.branch.empty() ? fmt::format("{}", row + 1) : capitalised(solution.branch);
+    };
+    view.row_id = [](std::ptrdiff_t row) { return fmt::format("solution_{}", row + 1); };
+    if (const auto row = widgets::table(ui, "solutions", view)) {
+        ask.arm([n = static_cast<int>(*row)](ArmBench& b) { b.choose(n); });
+    }
+}
+
+void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    {
+        const auto row = ui.row(4);
+        action_button(ui, now, ask, catalogue_, "arm.go_joints", widgets::Rank::primary, "By joints");
+        action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "In a line");
+        action_button(ui, now, ask, catalogue_, "arm.stop", widgets::Rank::normal, "Stop");
+        action_button(ui, now, ask, catalogue_, "arm.clear_trace", widgets::Rank::normal, "Clear trace");
+    }
+    if (now.arm_connected()) {
+        ui.note("The picture follows the connected PMAC.");
+    } else if (now.arm.duration() > 0.0) {
+        ui.note(
+            fmt::format("On its way: {} of {}.", short_time(now.arm.time()), short_time(now.arm.duration())));
+    } else {
+        ui.note("Drag the tool's tip or a link in the view, or set a goal and go there.");
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,100 @@
+#include "ui/viewport/arm_hand.h"
+
+#include "core/kinematics/arm_forward.h"
+#include "ui/viewport/navigation.h"
+
+#include <glm/geometric.hpp>
+
+namespace millwright::viewport {
+
+namespace {
+
+using widgets::MouseButton;
+
+// Pixels at scale 1.
+constexpr double tip_reach_px = 12.0;
+constexpr double still_px = 3.0; // a click may move this far
+
+glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
+    return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
+}
+
+} // namespace
+
+void ArmHand::leave() {
+    if (!held_) {
+        grip_.reset();
+    }
+}
+
+std::vector<ViewEvent> ArmHand::follow(const ArmHandInput& input) {
+    std::vector<ViewEvent> events;
+    wants_fit_ = false;
+    const widgets::Pointer& pointer = input.pointer;
+    if (!held_) {
+        const bool looks = pointer.hovered && !navigates(pointer);
+        grip_ = looks
+                    ? pick_arm(
+                          input.scene, input.view, pixel_of(pointer), tip_reach_px * input.view.content_scale)
+                    : std::nullopt;
+        if (looks && pointer.pressed == MouseButton::left) {
+            press(input);
+        }
+        return events;
+    }
+    if (input.take_back) {
+        finish(DragStage::cancelled, events);
+    } else if (pointer.held == MouseButton::left) {
+        hold(input, events);
+    } else {
+        finish(DragStage::finished, events);
+    }
+    return events;
+}
+
+void ArmHand::press(const ArmHandInput& input) {
+    wants_fit_ = input.pointer.double_clicked && !grip_;
+    if (!grip_) {
+        return;
+    }
+    held_ = true;
+    moved_ = false;
+    pressed_ = pixel_of(input.pointer);
+    before_ = input.scene.joints;
+    if (grip_->is_tip()) {
+        drag_.emplace(std::vector<MovedControlPoint>{{.id = {}, .position = grip_->at}},
+                      0,
+                      Frame::Identity(),
+                      pressed_);
+    } else {
+        const auto joints = kinematics::base_T_joints(input.scene.look->arm(), before_);
+        local_ = joints[static_cast<std::size_t>(grip_->joint)].inverse() * grip_->at;
+    }
+}
+
+void ArmHand::hold(const ArmHandInput& input, std::vector<ViewEvent>& events) {
+    const glm::dvec2 pixel = pixel_of(input.pointer);
+    if (!moved_ && glm::length(pixel - pressed_) <= still_px * input.view.content_scale) {
+        return;
+    }
+    moved_ = true;
+    if (drag_) {
+        drag_->move_to(input.view, pixel, input.keys);
+        events.emplace_back(MoveArmTip{drag_->points().front().position, before_, DragStage::going_on});
+    } else {
+        const double position = joint_towards(input.scene, grip_->joint, local_, input.view, pixel);
+        events.emplace_back(TurnArmJoint{grip_->joint, position, before_, DragStage::going_on});
+    }
+}
+
+void ArmHand::finish(DragStage stage, std::vector<ViewEvent>& events) {
+    if (moved_ && drag_) {
+        events.emplace_back(MoveArmTip{drag_->points().front().position, before_, stage});
+    } else if (moved_) {
+        events.emplace_back(TurnArmJoint{grip_->joint, before_[grip_->joint], before_, stage});
+    }
+    drag_.reset();
+    held_ = false;
+}
+
+} // namespace millwright::viewport

@@ -1,0 +1,79 @@
+#include "ui/viewport/internal/arm_buffers.h"
+
+#include "ui/viewport/internal/curves.h"
+
+#include <glm/common.hpp>
+
+namespace millwright::viewport {
+
+namespace {
+
+constexpr float brighter = 0.35F; // of the way to white
+
+render::MeshBuffer buffer_of(const geometry::SolidMesh& mesh) {
+    std::vector<render::MeshVertex> vertices;
+    vertices.reserve(mesh.positions.size());
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        vertices.push_back(
+            {.position = render::to_float(mesh.positions[n]), .normal = render::to_float(mesh.normals[n])});
+    }
+    std::vector<std::uint32_t> indices;
+    indices.reserve(3 * mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) {
+        for (const int corner : triangle) {
+            indices.push_back(static_cast<std::uint32_t>(corner));
+        }
+    }
+    return {vertices, indices};
+}
+
+} // namespace
+
+void ArmBuffers::follow(const std::shared_ptr<const ArmLook>& look) {
+    if (look == look_) {
+        return;
+    }
+    look_ = look;
+    parts_.clear();
+    for (std::size_t n = 0; look_ && n < look_->bodies.size(); ++n) {
+        Part part;
+        const kinematics::ArmPart& carried = look_->file.bodies->parts[n];
+        part.moves = carried.carrier != kinematics::ArmCarrier::base;
+        part.joint = carried.carrier == kinematics::ArmCarrier::joint ? carried.number : -1;
+        for (const geometry::SolidMesh& mesh : look_->bodies[n].meshes) {
+            part.meshes.push_back(buffer_of(mesh));
+            part.colors.push_back(render::to_float(mesh.color));
+        }
+        parts_.push_back(std::move(part));
+    }
+}
+
+void ArmBuffers::draw(const Canvas& canvas,
+                      const kinematics::JointPositions& joints,
+                      const ArmTint& tint) const {
+    if (parts_.empty()) {
+        return;
+    }
+    const std::vector<Frame> places =
+        kinematics::base_T_parts(look_->arm(), look_->file.actuators, look_->file.bodies->parts, joints);
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+        if (tint.moving_only && !parts_[n].moves) {
+            continue;
+        }
+        const bool bright = tint.bright_joint >= 0 && parts_[n].joint == tint.bright_joint;
+        for (std::size_t m = 0; m < parts_[n].meshes.size(); ++m) {
+            glm::vec3 color = tint.color.value_or(parts_[n].colors[m]);
+            if (bright) {
+                color = glm::mix(color, canvas.colors.accent, brighter);
+            }
+            canvas.painter.mesh(parts_[n].meshes[m],
+                                {.coloring = {.color = with_opacity(color, tint.opacity)},
+                                 .model = glm::mat4(render::to_glm(places[n])),
+                                 .back_color = {},
+                                 .depth = tint.depth},
+                                canvas.view);
+        }
+    }
+}
+
+} // namespace millwright::viewport
