@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/reader/cordic_motion.h"
-#include "core/motion/planner.h"
+#include "core/motion/plan_within.h"
 #include "core/motion/step_pulses.h"
 
 #include <CLI/Config.hpp>
@@ -61,10 +61,35 @@ private:
     }
 };
 
-std::vector<AxisPulses>
-pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& options, int axis_count) {
+/// Pulses that come later and later lead the axes beside their path.
+void refuse_overrun(const std::vector<motion::StepJitter>& axes,
+                    const gcode::Program& program,
+                    const CordicMotionOptions& options,
+                    const std::string& file) {
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const motion::StepJitter& axis = axes[n];
+        if (axis.overrun_block < 0) {
+            continue;
+        }
+        const int line = program.blocks[static_cast<std::size_t>(axis.overrun_block)].source_line;
+        throw Error(
+            Diagnostic{{file, line, 0, -1},
+                       fmt::format("the timer cannot give the pulses of {}: {:.6g} a second are due, it "
+                                   "gives {:.6g}, and the last ones would be {:.3g} s late",
+                                   gcode::axis_letters[n],
+                                   axis.max_frequency,
+                                   options.timer_hz / static_cast<double>(options.min_interval),
+                                   axis.max_jitter),
+                       "a faster --timer, a shorter --min-interval, fewer --steps or a lower feed"});
+    }
+}
+
+std::vector<AxisPulses> pulses_of(const motion::Trajectory& trajectory,
+                                  const gcode::Program& program,
+                                  const CordicMotionOptions& options,
+                                  const std::string& file) {
     motion::StepSettings settings;
-    settings.steps_per_unit.assign(static_cast<std::size_t>(axis_count), options.steps_per_mm);
+    settings.steps_per_unit.assign(program.axes.size(), options.steps_per_mm);
     settings.timer_frequency = options.timer_hz;
     settings.min_interval = options.min_interval;
     std::optional<Rows> rows;
@@ -83,6 +108,7 @@ pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& optio
     const auto pass_over = [](std::span<const motion::StepPulse>) {};
     const auto found =
         motion::step_pulses(trajectory, settings, rows ? motion::StepSink(write) : pass_over, Progress());
+    refuse_overrun(found, program, options, file);
     if (rows) {
         rows->close();
     }
@@ -94,6 +120,7 @@ pulses_of(const motion::Trajectory& trajectory, const CordicMotionOptions& optio
                         axis.reversals,
                         axis.late,
                         axis.max_frequency,
+                        axis.given_frequency,
                         axis.max_jitter,
                         axis.rms_jitter,
                         axis.end_error_steps});
@@ -154,7 +181,7 @@ void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) 
 std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
                                              const gcode::CordicProgram& made,
                                              const CordicMotionOptions& options,
-                                             double acceleration,
+                                             double most_acceleration,
                                              const std::string& file) {
     if (options.profile.empty()) {
         if (!options.pulses.empty() || !options.servo.empty()) {
@@ -164,14 +191,22 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
         return std::nullopt;
     }
     const double jerk = options.profile == "s-curve" ? options.jerk : 0.0;
-    const kinematics::MachineModel machine = gcode::cordic_machine(acceleration, jerk);
+    constexpr double of_no_motion = 1.0;
+    const double greatest = std::min(gcode::greatest_acceleration(processor), most_acceleration);
+    const auto machine = gcode::cordic_machine(greatest > 0.0 ? greatest : of_no_motion, jerk);
     const kinematics::AxisPositions start = kinematics::AxisPositions::Zero(machine.axis_count());
-    const gcode::Program program = gcode::cordic_motion(processor, made, machine, start, file);
-    const motion::Trajectory trajectory = motion::plan(program, machine, {}, Progress());
+    const auto [program, accelerations] =
+        gcode::cordic_motion(processor, made, machine, start, file, most_acceleration);
+    const motion::Trajectory trajectory =
+        motion::plan_within(program, accelerations, machine, {}, Progress());
     CordicMotionReport report;
+    if (std::isfinite(most_acceleration) && most_acceleration > greatest) {
+        report.remarks.push_back(fmt::format(
+            "--acceleration allows more than the program's own Amax, which holds: {:.6g} mm/s2", greatest));
+    }
     report.seconds = trajectory.duration();
     sample(trajectory, report);
-    report.axes = pulses_of(trajectory, options, machine.axis_count());
+    report.axes = pulses_of(trajectory, program, options, file);
     if (!options.servo.empty()) {
         write_servo(trajectory, options, machine.axis_count());
     }
@@ -184,15 +219,16 @@ void print(const CordicMotionReport& report) {
                report.max_speed,
                report.max_acceleration);
     for (const AxisPulses& axis : report.axes) {
-        fmt::print(
-            "{}: {} pulses up to {:.6g} Hz, {} reversals, jitter {:.3g} us at most, {:.3g} us RMS, {} late\n",
-            axis.letter,
-            axis.pulses,
-            axis.max_frequency,
-            axis.reversals,
-            1e6 * axis.max_jitter,
-            1e6 * axis.rms_jitter,
-            axis.late);
+        fmt::print("{}: {} pulses up to {:.6g} Hz, given with up to {:.6g} Hz, {} reversals, jitter {:.3g} "
+                   "us at most, {:.3g} us RMS, {} late\n",
+                   axis.letter,
+                   axis.pulses,
+                   axis.max_frequency,
+                   axis.given_frequency,
+                   axis.reversals,
+                   1e6 * axis.max_jitter,
+                   1e6 * axis.rms_jitter,
+                   axis.late);
     }
 }
 
@@ -206,6 +242,7 @@ nlohmann::ordered_json json_of(const CordicMotionReport& report) {
                                   {"pulses", axis.pulses},
                                   {"reversals", axis.reversals},
                                   {"max_frequency_hz", axis.max_frequency},
+                                  {"given_frequency_hz", axis.given_frequency},
                                   {"max_jitter_s", axis.max_jitter},
                                   {"rms_jitter_s", axis.rms_jitter},
                                   {"late", axis.late},

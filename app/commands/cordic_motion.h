@@ -35,7 +35,8 @@ void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options);
 struct AxisPulses {
     char letter = 'X';
     std::int64_t pulses = 0, reversals = 0, late = 0;
-    double max_frequency = 0.0;                ///< Hz
+    double max_frequency = 0.0;                ///< planned, Hz
+    double given_frequency = 0.0;              ///< by the timer, Hz
     double max_jitter = 0.0, rms_jitter = 0.0; ///< s
     double end_error_steps = 0.0;
 };
@@ -44,15 +45,16 @@ struct CordicMotionReport {
     double seconds = 0.0;                           ///< of the planned motion
     double max_speed = 0.0, max_acceleration = 0.0; ///< along the path, sampled, mm/s and mm/s2
     std::vector<AxisPulses> axes;
+    std::vector<std::string> remarks; ///< sentences
 };
 
 /// Plans the motion of the records, writes its pulses and servo set-points to the files that were asked
-/// for. Nothing if no motion was asked for. `acceleration` is what
-/// the axes get together, mm/s2. Throws Error.
+/// for. Nothing if no motion was asked for. It accelerates as the records say, and by `most_acceleration`
+/// mm/s2 at most. Throws Error.
 [[nodiscard]] std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
                                                            const gcode::CordicProgram& made,
                                                            const CordicMotionOptions& options,
-                                                           double acceleration,
+                                                           double most_acceleration,
                                                            const std::string& file);
 
 void print(const CordicMotionReport& report);

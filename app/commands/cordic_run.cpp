@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,10 +41,13 @@ struct Options {
     bool json = false;
 };
 
-/// That the axes get.
-double path_acceleration(const Options& options) {
+/// What the axes get of an Amax that was asked for beside the program's own; G-code is compiled with it.
+double most_acceleration(const Options& options, const gcode::CordicProgram& program) {
     constexpr double half = 0.5; // eq. 4.2
-    return (options.choice.whole_acceleration ? 1.0 : half) * options.source.acceleration;
+    if (!options.source.acceleration || !program.points.empty()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return (options.choice.whole_acceleration ? 1.0 : half) * *options.source.acceleration;
 }
 
 void run_traced(cordic::Processor& processor, const Options& options) {
@@ -184,7 +188,9 @@ bool is_at_an_end(const cordic::Processor& processor,
 }
 
 int run(const Options& options) {
-    const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
+    CordicSource source = options.source;
+    source.plans_motion = !options.motion.profile.empty();
+    const gcode::CordicProgram program = cordic_program(source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     fill_ram(processor, options);
     const auto supervised = execute(processor, program, options);
@@ -194,11 +200,14 @@ int run(const Options& options) {
     }
     const bool has_exact = !program.points.empty();
     const cordic::RunReport report = cordic::report_of(processor, program.points, options.clock_hz);
-    const auto motion =
-        report.stop == cordic::Stop::halted
-            ? move_along(processor, program, options.motion, path_acceleration(options), options.source.file)
-            : std::nullopt;
-    const auto remarks = remarks_on(processor, report, program, options.choice);
+    const double most = most_acceleration(options, program);
+    const auto motion = report.stop == cordic::Stop::halted
+                            ? move_along(processor, program, options.motion, most, options.source.file)
+                            : std::nullopt;
+    auto remarks = remarks_on(processor, report, program, options.choice);
+    if (motion) {
+        remarks.insert(remarks.end(), motion->remarks.begin(), motion->remarks.end());
+    }
     for (const std::string& remark : remarks) {
         fmt::print(stderr, "warning: {}: {}\n", options.source.file, remark);
     }

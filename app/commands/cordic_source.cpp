@@ -75,7 +75,7 @@ gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic
     settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
     settings.lets_arcs_drift = source.whole_arcs;
     settings.rapid_speed = from_mm_per_min(source.rapid_mm_per_min);
-    settings.acceleration = source.acceleration;
+    settings.acceleration = source.acceleration.value_or(usual_acceleration);
     settings.leaves_out_other_axes = source.other_axes;
     gcode::CordicProgramBuilder builder(source.file, settings);
     gcode::ReaderSettings reading;
@@ -97,6 +97,11 @@ void refuse_options_of_gcode(const CordicSource& source) {
         if (option->count() > 0) {
             throw Error(fmt::format("{} is for G-code", option->get_name()), source.file);
         }
+    }
+    if (source.acceleration && !source.plans_motion) {
+        throw Error("--acceleration is for G-code and for a motion behind the processor",
+                    source.file,
+                    "the program has its own Amax");
     }
 }
 
@@ -181,9 +186,9 @@ void add_cordic_source(CLI::App& command, CordicSource& source) {
                          source.whole_arcs,
                          "Do not divide arcs, however far rounding leads them from the tolerance"),
         command.add_flag("--other-axes", source.other_axes, "Leave out what other axes than X, Y and Z do")};
-    command.add_option("--acceleration", source.acceleration, "Amax, mm/s2")
+    command.add_option("--acceleration", source.acceleration, "Amax of G-code, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
-        ->capture_default_str();
+        ->default_str(fmt::format("{}", usual_acceleration));
 }
 
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {

@@ -13,15 +13,18 @@
 
 namespace millwright::app {
 
+inline constexpr double usual_acceleration = 500.0; // mm/s2
+
 struct CordicSource {
     std::string file;                  ///< G-code, assembler text (.asm) or image (.bin)
     std::optional<std::string> format; ///< of an image: its own; else f32
     double tolerance = 0.001;
     double rapid_mm_per_min = 3000.0;
-    double acceleration = 500.0;
+    std::optional<double> acceleration; ///< Amax; of G-code without it usual_acceleration
     bool thesis_arcs = false;
     bool whole_arcs = false;
     bool other_axes = false;
+    bool plans_motion = false;                ///< what Amax limits then, whatever the program is
     std::vector<const CLI::Option*> of_gcode; ///< that mean nothing to other programs
 };
 

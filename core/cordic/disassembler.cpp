@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace millwright::cordic {
 namespace {
@@ -70,23 +72,18 @@ std::string page_text(std::span<const std::uint8_t> page, std::size_t offset, co
     return end < page.size() ? text + "        .page\n" : text;
 }
 
-/// What differs from what the assembler takes for granted, and the format always.
+/// All of them: what is left out would be taken from the options that the text is assembled with.
 std::string settings_text(const Image& image) {
     const MadeFor& made_for = image.made_for;
-    const MadeFor usual;
-    std::string text = fmt::format("        .format {}\n", to_text(image.format));
-    if (made_for.iterations != usual.iterations) {
-        text += fmt::format("        .iterations {}\n", made_for.iterations);
-    }
-    if (made_for.rounding != usual.rounding) {
-        text += fmt::format("        .rounding {}\n", to_text(made_for.rounding));
-    }
-    if (made_for.sense != usual.sense) {
-        text += fmt::format("        .direction {}\n", to_text(made_for.sense));
-    }
-    if (made_for.zero != usual.zero) {
-        text += fmt::format("        .zero {}\n", to_text(made_for.zero));
-    }
+    std::string text;
+    const auto add = [&](std::string_view name, std::string_view value) {
+        text += fmt::format("        {} {}\n", name, value);
+    };
+    add(".format", to_text(image.format));
+    add(".iterations", made_for.iterations == 0 ? "thesis" : std::to_string(made_for.iterations));
+    add(".rounding", to_text(made_for.rounding));
+    add(".direction", to_text(made_for.sense));
+    add(".zero", to_text(made_for.zero));
     return text;
 }
 

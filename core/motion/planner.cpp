@@ -1,9 +1,12 @@
 #include "core/motion/planner.h"
 
+#include "core/base/error.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/road.h"
 #include "core/motion/internal/timeline.h"
+#include "core/motion/plan_within.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -15,10 +18,11 @@ Trajectory plan_for(const internal::Mechanism& mechanism,
                     const gcode::Program& program,
                     const PlannerSettings& settings,
                     const Progress& progress,
-                    const kinematics::AxisPositions& start) {
+                    const kinematics::AxisPositions& start,
+                    std::span<const double> accelerations = {}) {
     constexpr double laid_out = 0.5; // of the work
     auto path = std::make_shared<const Path>(
-        internal::lay_out(program, mechanism, settings, start, progress.part(0.0, laid_out)));
+        internal::lay_out(program, mechanism, settings, start, accelerations, progress.part(0.0, laid_out)));
     progress.report(laid_out);
     const int last = path->block_count() - 1;
     Trajectory trajectory = internal::go_to_the_end_of(
@@ -36,6 +40,19 @@ Trajectory plan(const gcode::Program& program,
                 const std::optional<kinematics::AxisPositions>& start) {
     const internal::MachineMechanism mechanism(machine);
     return plan_for(mechanism, program, settings, progress, start.value_or(program.start));
+}
+
+Trajectory plan_within(const gcode::Program& program,
+                       std::span<const double> accelerations,
+                       const kinematics::MachineModel& machine,
+                       const PlannerSettings& settings,
+                       const Progress& progress,
+                       const std::optional<kinematics::AxisPositions>& start) {
+    expects(accelerations.size() == program.blocks.size(), "there is an acceleration for each block");
+    expects(std::ranges::all_of(accelerations, [](double value) { return value > 0.0; }),
+            "what a block may be accelerated by is positive");
+    const internal::MachineMechanism mechanism(machine);
+    return plan_for(mechanism, program, settings, progress, start.value_or(program.start), accelerations);
 }
 
 Trajectory plan(const gcode::Program& program,

@@ -136,14 +136,20 @@ private:
             const std::int64_t earliest = last_tick_ + settings_.min_interval;
             report_.late += tick < earliest ? 1 : 0;
             tick = std::max(tick, earliest);
-            if (due > last_due_) {
+            if (direction_ == last_direction_ && due > last_due_) {
                 report_.max_frequency = std::max(report_.max_frequency, 1.0 / (due - last_due_));
+                report_.given_frequency =
+                    std::max(report_.given_frequency,
+                             settings_.timer_frequency / static_cast<double>(tick - last_tick_));
             }
             report_.reversals += direction_ != last_direction_ ? 1 : 0;
         }
         const double jitter = std::abs(static_cast<double>(tick) / settings_.timer_frequency - due);
         report_.max_jitter = std::max(report_.max_jitter, jitter);
         report_.over_limit += settings_.jitter_limit > 0.0 && jitter > settings_.jitter_limit ? 1 : 0;
+        const bool overruns =
+            jitter * settings_.timer_frequency > static_cast<double>(settings_.min_interval + 1);
+        report_.overrun_block = overruns && report_.overrun_block < 0 ? block_ : report_.overrun_block;
         squares_ += square(jitter);
         ++report_.pulses;
         position_ += direction_;

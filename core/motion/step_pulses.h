@@ -37,11 +37,15 @@ struct StepPulse {
 struct StepJitter {
     std::int64_t pulses = 0;
     std::int64_t reversals = 0;
-    double max_frequency = 0.0; ///< by the exact times
-    double max_jitter = 0.0;    ///< largest |tick - due|
+    double max_frequency = 0.0;   ///< one way, by the exact times
+    double given_frequency = 0.0; ///< one way, by the ticks
+    double max_jitter = 0.0;      ///< largest |tick - due|
     double rms_jitter = 0.0;
-    std::int64_t late = 0;        ///< put off because they were due within min_interval of another
-    std::int64_t over_limit = 0;  ///< off by more than jitter_limit
+    std::int64_t late = 0;       ///< put off because they were due within min_interval of another
+    std::int64_t over_limit = 0; ///< off by more than jitter_limit
+    /// Of the first pulse that waits for more than the one before it, so that others wait for it in turn: the
+    /// timer does not keep up. -1: it does.
+    int overrun_block = -1;
     double end_error_steps = 0.0; ///< motor against plan at the end, never more than half a step
 };
 

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace millwright::gcode {
 namespace {
@@ -26,8 +29,9 @@ public:
                const CordicProgram& made,
                const MachineModel& machine,
                const AxisPositions& start,
-               const std::filesystem::path& file)
-        : processor_(processor), made_(made), file_(file) {
+               const std::filesystem::path& file,
+               double most_acceleration)
+        : processor_(processor), made_(made), file_(file), most_acceleration_(most_acceleration) {
         program_.machine = machine.name();
         for (const kinematics::MachineAxis& axis : machine.axes()) {
             program_.axes.push_back({axis.letter, axis.kind});
@@ -43,7 +47,7 @@ public:
         at_ = start;
     }
 
-    Program program() {
+    CordicMotion motion() {
         const auto& set_points = processor_.published();
         const auto& commands = processor_.commanded();
         std::size_t next = 0;
@@ -59,20 +63,28 @@ public:
         if (program_.blocks.empty() || program_.blocks.back().kind != BlockKind::end) {
             add(BlockKind::end, 0);
         }
-        return std::move(program_);
+        return {std::move(program_), std::move(accelerations_)};
     }
 
 private:
     const cordic::Processor& processor_;
     const CordicProgram& made_;
     const std::filesystem::path& file_;
+    double most_acceleration_;
     Program program_;
+    std::vector<double> accelerations_;
     std::array<int, linear_axes> axes_{};
     AxisSet named_;
     AxisPositions at_;
 
+    /// Of assembler text; 0 of an image.
+    [[nodiscard]] int line_of(cordic::CodeAddress address) const {
+        return cordic::line_at(made_.code_lines, address).line;
+    }
+
     Block& add(BlockKind kind, int line) {
         Block& block = program_.blocks.emplace_back();
+        accelerations_.push_back(std::numeric_limits<double>::infinity());
         block.kind = kind;
         block.target = at_;
         block.source_line = line;
@@ -88,7 +100,7 @@ private:
     void move(const cordic::Published& record, std::size_t n) {
         const auto set = processor_.set_point(record);
         const auto height = processor_.height_point(record);
-        const int line = n < made_.points.size() ? made_.points[n].line : 0;
+        const int line = n < made_.points.size() ? made_.points[n].line : line_of(record.instruction_at);
         const std::array<double, linear_axes> to{set.x, set.y, height.z};
         double squares = 0.0;
         for (std::size_t axis = 0; axis < to.size(); ++axis) {
@@ -96,24 +108,31 @@ private:
             at_[axes_[axis]] = to[axis];
         }
         const double length = std::sqrt(squares);
-        const double speed = std::hypot(set.vx, set.vy, height.vz);
         if (!(length > 0.0)) {
             return; // nothing to do
         }
-        if (!(speed > 0.0)) {
-            throw Error(
-                Diagnostic{{file_, line, 0, -1},
-                           fmt::format("set-point {} is {:.6g} mm away and has no speed", n + 1, length),
-                           "load Vmax"});
+        const double speed = std::hypot(set.vx, set.vy, height.vz);
+        const double acceleration = std::hypot(set.ax, set.ay, height.az);
+        if (!(speed > 0.0 && acceleration > 0.0)) {
+            throw Error(Diagnostic{{file_, line, 0, -1},
+                                   fmt::format("set-point {} is {:.6g} mm away and has no {}: it came out as "
+                                               "0 in {}",
+                                               n + 1,
+                                               length,
+                                               speed > 0.0 ? "acceleration" : "speed",
+                                               cordic::to_text(processor_.format())),
+                                   "choose a number format with more bits behind the point"});
         }
         Block& block = add(BlockKind::feed, line);
         block.named = named_;
         block.feed = speed;
         block.duration = length / speed;
+        accelerations_.back() = std::min(acceleration, most_acceleration_);
     }
 
     void command(const Commanded& command, std::size_t n) {
-        const int line = n < made_.command_lines.size() ? made_.command_lines[n] : 0;
+        const int line =
+            n < made_.command_lines.size() ? made_.command_lines[n] : line_of(command.instruction_at);
         const double parameter = command.parameter;
         switch (command.opcode) {
         case Opcode::g04:
@@ -155,9 +174,16 @@ private:
 
 } // namespace
 
+double greatest_acceleration(const cordic::Processor& processor) {
+    double greatest = 0.0;
+    for (const cordic::Published& record : processor.published()) {
+        const auto set = processor.set_point(record);
+        greatest = std::max(greatest, std::hypot(set.ax, set.ay, processor.height_point(record).az));
+    }
+    return greatest;
+}
+
 MachineModel cordic_machine(double acceleration, double jerk) {
-    // A path that uses all three axes alike has sqrt(3) times what each of them has.
-    const double share = 1.0 / std::sqrt(static_cast<double>(linear_axes));
     constexpr double fastest = 1e6; // mm/s: more than any program asks for
     kinematics::MachineDescription description;
     description.name = "cordic";
@@ -168,21 +194,22 @@ MachineModel cordic_machine(double acceleration, double jerk) {
         axis.letter = axis_letters[n];
         axis.direction = directions[n];
         axis.max_velocity = fastest;
-        axis.max_acceleration = acceleration * share;
+        axis.max_acceleration = acceleration;
         if (jerk > 0.0) {
-            axis.max_jerk = jerk * share;
+            axis.max_jerk = jerk;
         }
         description.head.push_back(axis);
     }
     return MachineModel(std::move(description));
 }
 
-Program cordic_motion(const cordic::Processor& processor,
-                      const CordicProgram& made,
-                      const MachineModel& machine,
-                      const AxisPositions& start,
-                      const std::filesystem::path& file) {
-    return Controller(processor, made, machine, start, file).program();
+CordicMotion cordic_motion(const cordic::Processor& processor,
+                           const CordicProgram& made,
+                           const MachineModel& machine,
+                           const AxisPositions& start,
+                           const std::filesystem::path& file,
+                           double most_acceleration) {
+    return Controller(processor, made, machine, start, file, most_acceleration).motion();
 }
 
 } // namespace millwright::gcode

@@ -14,11 +14,21 @@ using kinematics::AxisPositions;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// In a corner each scaled velocity jumps by speed * |change of direction|, allowed is corner_time.
-double by_small_step(const PlannerSettings& settings, const Leg& before, const Leg& after) {
+/// In a corner each scaled velocity jumps by speed * |change of direction|, allowed is corner_time; that of
+/// the linear axes together by what the program's acceleration reaches in that time.
+double by_small_step(const Mechanism& machine,
+                     const PlannerSettings& settings,
+                     const Leg& before,
+                     const Leg& after) {
     constexpr double straight = 1e-15; // rounding of a unit vector
     const double turn = (after.unit - before.unit).cwiseAbs().maxCoeff();
-    return turn > straight ? settings.corner_time / turn : no_limit;
+    if (!(turn > straight)) {
+        return no_limit;
+    }
+    const double by_axes = settings.corner_time / turn;
+    const double most = std::min(before.path_acceleration, after.path_acceleration);
+    const double change = machine.linear_length(after.direction - before.direction);
+    return change > 0.0 ? std::min(by_axes, settings.corner_time * most / change) : by_axes;
 }
 
 /// The direction in mm and degrees, and the speed of a unit of the way in them.
@@ -54,7 +64,7 @@ double by_junction_deviation(const Mechanism& machine,
         return no_limit;
     }
     const AxisPositions change = (out.unit - in.unit).normalized();
-    double acceleration = no_limit;
+    double acceleration = std::min(before.path_acceleration, after.path_acceleration);
     for (int n = 0; n < machine.axis_count(); ++n) {
         const kinematics::MachineAxis& axis = machine.axis(n);
         const bool rotary = axis.kind == kinematics::AxisKind::rotary;
@@ -73,7 +83,7 @@ double by_junction_deviation(const Mechanism& machine,
 double
 corner_speed(const Mechanism& machine, const PlannerSettings& settings, const Leg& before, const Leg& after) {
     return settings.corner_rule == CornerRule::small_step
-               ? by_small_step(settings, before, after)
+               ? by_small_step(machine, settings, before, after)
                : by_junction_deviation(machine, settings, before, after);
 }
 

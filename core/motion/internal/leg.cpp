@@ -33,6 +33,15 @@ void set_axis_limits(Leg& leg, const std::vector<AxisLimits>& limits) {
     }
 }
 
+void set_path_acceleration(Leg& leg, const Mechanism& machine, double path_acceleration) {
+    leg.path_acceleration = path_acceleration;
+    const double length = machine.linear_length(leg.direction);
+    if (leg.acceleration * length > path_acceleration) {
+        leg.acceleration = path_acceleration / length;
+        leg.acceleration_cause = {Limit::axis_acceleration, -1};
+    }
+}
+
 void set_feed(Leg& leg,
               const Mechanism& machine,
               const PlannerSettings& settings,
@@ -76,7 +85,8 @@ Leg leg_of(const Mechanism& machine,
            const PlannerSettings& settings,
            const gcode::Block& block,
            const AxisPositions& from,
-           const AxisPositions& to) {
+           const AxisPositions& to,
+           double path_acceleration) {
     Leg leg;
     const AxisPositions step = to - from;
     leg.unit = step;
@@ -89,6 +99,7 @@ Leg leg_of(const Mechanism& machine,
     leg.rapid = block.kind == gcode::BlockKind::rapid;
     leg.path = block.path.value_or(settings.path);
     set_axis_limits(leg, limits);
+    set_path_acceleration(leg, machine, path_acceleration);
     set_feed(leg, machine, settings, block, from, to);
     return leg;
 }

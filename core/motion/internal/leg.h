@@ -5,6 +5,9 @@
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
 
+#include <limits>
+#include <vector>
+
 namespace millwright::motion::internal {
 
 /// Up to `end` of the scaled length.
@@ -23,18 +26,22 @@ struct Leg {
     double speed = 0.0;         ///< that it never exceeds, by axes and feed with the highest override
     double acceleration = 0.0;
     Cause speed_cause, acceleration_cause;
+    double path_acceleration =
+        std::numeric_limits<double>::infinity(); ///< of the linear axes together, mm/s2
     gcode::PathControl path;
 };
 
 /// The limits of a machine's axes.
 [[nodiscard]] std::vector<AxisLimits> limits_of(const Mechanism& machine);
 
-/// The move from `from` to `to`, which must differ.
+/// The move from `from` to `to`, which must differ. The linear axes together accelerate along it by
+/// `path_acceleration` mm/s2 at most.
 [[nodiscard]] Leg leg_of(const Mechanism& machine,
                          const std::vector<AxisLimits>& limits,
                          const PlannerSettings& settings,
                          const gcode::Block& block,
                          const kinematics::AxisPositions& from,
-                         const kinematics::AxisPositions& to);
+                         const kinematics::AxisPositions& to,
+                         double path_acceleration = std::numeric_limits<double>::infinity());
 
 } // namespace millwright::motion::internal

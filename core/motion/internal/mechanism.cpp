@@ -1,7 +1,9 @@
 #include "core/motion/internal/mechanism.h"
 
+#include "core/base/numbers.h"
 #include "core/kinematics/arm_forward.h"
 
+#include <cmath>
 #include <utility>
 
 namespace millwright::motion::internal {
@@ -36,6 +38,14 @@ Mechanism::Mechanism(std::string name, std::vector<MachineAxis> axes)
             rotary_axes_.push_back(n);
         }
     }
+}
+
+double Mechanism::linear_length(const AxisPositions& change) const {
+    double squares = 0.0;
+    for (int n = 0; n < axis_count(); ++n) {
+        squares += axis(n).kind == AxisKind::linear ? square(change[n]) : 0.0;
+    }
+    return std::sqrt(squares);
 }
 
 MachineMechanism::MachineMechanism(const kinematics::MachineModel& machine)

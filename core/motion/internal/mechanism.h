@@ -24,6 +24,9 @@ public:
     }
     [[nodiscard]] const std::vector<int>& rotary_axes() const { return rotary_axes_; }
 
+    /// What of a change is of linear axes, mm.
+    [[nodiscard]] double linear_length(const kinematics::AxisPositions& change) const;
+
     [[nodiscard]] virtual Vec3 tip(const kinematics::AxisPositions& positions) const = 0;
     /// Of its rows only the first three matter here, d tip / d position.
     [[nodiscard]] virtual kinematics::Jacobian jacobian(const kinematics::AxisPositions& positions) const = 0;

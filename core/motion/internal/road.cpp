@@ -9,6 +9,7 @@ Path lay_out(const gcode::Program& program,
              const Mechanism& machine,
              const PlannerSettings& settings,
              const kinematics::AxisPositions& start,
+             std::span<const double> accelerations,
              const Progress& progress) {
     check_axes(program.axes, program.machine, machine);
     check_settings(settings, machine, start);
@@ -24,7 +25,11 @@ Path lay_out(const gcode::Program& program,
             progress.check();
             progress.report(static_cast<double>(n) / static_cast<double>(program.blocks.size()));
         }
-        builder.add(program.blocks[n]);
+        if (accelerations.empty()) {
+            builder.add(program.blocks[n]);
+        } else {
+            builder.add(program.blocks[n], accelerations[n]);
+        }
     }
     return builder.take(progress);
 }

@@ -5,13 +5,16 @@
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
 
+#include <span>
+
 namespace millwright::motion::internal {
 
-/// As plan() describes. Throws what it throws.
+/// As plan() and, where there are `accelerations`, plan_within() describe. Throws what they throw.
 [[nodiscard]] Path lay_out(const gcode::Program& program,
                            const Mechanism& machine,
                            const PlannerSettings& settings,
                            const kinematics::AxisPositions& start,
+                           std::span<const double> accelerations,
                            const Progress& progress);
 
 } // namespace millwright::motion::internal

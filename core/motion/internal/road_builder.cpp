@@ -122,7 +122,7 @@ void RoadBuilder::reserve(std::size_t blocks) {
     path_.programmed.reserve(blocks);
 }
 
-void RoadBuilder::add(const Block& block) {
+void RoadBuilder::add(const Block& block, double path_acceleration) {
     const AxisPositions before = path_.positions.back();
     const AxisPositions after = position_after(block, before);
     Segment segment;
@@ -135,7 +135,7 @@ void RoadBuilder::add(const Block& block) {
     path_.positions.push_back(after);
     const bool moves = (after - before).cwiseAbs().maxCoeff() > 0.0;
     if (moves) {
-        add_move(block, before, after);
+        add_move(block, before, after, path_acceleration);
     } else if (!keeps_moving(block.kind)) {
         stop();
     }
@@ -173,8 +173,11 @@ Path RoadBuilder::take(const Progress& progress) {
     return std::move(path_);
 }
 
-void RoadBuilder::add_move(const Block& block, const AxisPositions& before, const AxisPositions& after) {
-    Leg leg = leg_of(machine_, path_.limits, settings_, block, before, after);
+void RoadBuilder::add_move(const Block& block,
+                           const AxisPositions& before,
+                           const AxisPositions& after,
+                           double path_acceleration) {
+    Leg leg = leg_of(machine_, path_.limits, settings_, block, before, after, path_acceleration);
     leg.block = forgotten_ + path_.block_count() - 1;
     segment_of(leg).length = leg.length;
     if (open_) {
@@ -240,7 +243,8 @@ void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
         return stop();
     }
     if (rounded) {
-        return round({position, last.direction, next.direction}, next);
+        const double acceleration = std::min(last.path_acceleration, next.path_acceleration);
+        return round({position, last.direction, next.direction, acceleration}, next);
     }
     limit_last_up_to(way_);
     const double speed = corner_speed(machine_, settings_, last, next);
@@ -256,8 +260,8 @@ void RoadBuilder::round(const Corner& corner, const Leg& next) {
                                       settings_.rounding_angle};
     const double longest = 0.5 * std::min(last.length, next.length);
     const double d = rounding_length(machine_, corner, tolerance, longest);
-    const RoundingLimits limits =
-        rounding_limits(path_.limits, corner, d, std::min(last.speed, next.speed), path_.filter_time);
+    const RoundingLimits limits = rounding_limits(
+        machine_, path_.limits, corner, d, std::min(last.speed, next.speed), path_.filter_time);
     segment_of(last).rounding_end = segment_of(next).rounding_start = d;
     segment_of(last).after = next.block;
     segment_of(next).before = last.block;

@@ -10,6 +10,7 @@
 #include "core/motion/planner.h"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,9 @@ public:
                 bool part);
 
     void reserve(std::size_t blocks);
-    /// Throws what plan() throws for a block.
-    void add(const gcode::Block& block);
+    /// The linear axes together accelerate along it by `path_acceleration` mm/s2 at most. Throws what plan()
+    /// throws for a block.
+    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// No more blocks come: the last move ends at rest.
     void finish() { stop(); }
 
@@ -78,7 +80,8 @@ private:
     }
     void add_move(const gcode::Block& block,
                   const kinematics::AxisPositions& before,
-                  const kinematics::AxisPositions& after);
+                  const kinematics::AxisPositions& after,
+                  double path_acceleration);
     void stop();
     void limit_last_up_to(double end);
     void limit_up_to(double end, double speed, Cause by, double acceleration, Cause acceleration_by);

@@ -98,7 +98,8 @@ double rounding_length(const Mechanism& machine,
 // With the way s(t): velocity = q' s', acceleration = q'' s'^2 + q' s'', jerk = q''' s'^3 + 3 q'' s' s'' +
 // q' s''', where |q''| <= 0.75 |change| / d, |q'''| <= 1.5 |change| / d^2, q' is between both directions and
 // the filter keeps |s'''| <= 2 |s''| / filter_time.
-RoundingLimits rounding_limits(const std::vector<AxisLimits>& limits,
+RoundingLimits rounding_limits(const Mechanism& machine,
+                               const std::vector<AxisLimits>& limits,
                                const Corner& corner,
                                double d,
                                double fastest,
@@ -106,6 +107,11 @@ RoundingLimits rounding_limits(const std::vector<AxisLimits>& limits,
     RoundingLimits result;
     result.speed = fastest;
     result.speed_cause = {Limit::programmed_feed, -1};
+    const double path_second = most_second * machine.linear_length(corner.after - corner.before) / d;
+    if (path_second * square(result.speed) > normal_share * corner.acceleration) {
+        result.speed = std::sqrt(normal_share * corner.acceleration / path_second);
+        result.speed_cause = {Limit::corner, -1};
+    }
     const auto axes = static_cast<int>(limits.size());
     const auto bend_of = [&](int n) {
         return std::abs(corner.after[n] - corner.before[n]) /
@@ -127,7 +133,12 @@ RoundingLimits rounding_limits(const std::vector<AxisLimits>& limits,
             result.speed_cause = {Limit::corner, static_cast<std::int8_t>(n)};
         }
     }
-    result.acceleration = std::numeric_limits<double>::infinity();
+    const double path_along =
+        std::max(machine.linear_length(corner.before), machine.linear_length(corner.after));
+    result.acceleration = path_along > 0.0
+                              ? (corner.acceleration - path_second * square(result.speed)) / path_along
+                              : std::numeric_limits<double>::infinity();
+    result.acceleration_cause = {Limit::axis_acceleration, -1};
     const auto keep = [&](double acceleration, int n) {
         if (acceleration < result.acceleration) {
             result.acceleration = acceleration;

@@ -7,12 +7,16 @@
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
 
+#include <limits>
+#include <vector>
+
 namespace millwright::motion::internal {
 
 /// Two straight ways that meet. Directions by the scaled way, in axis units: mm, rad.
 struct Corner {
     kinematics::AxisPositions position;
     kinematics::AxisPositions before, after;
+    double acceleration = std::numeric_limits<double>::infinity(); ///< of the linear axes together, mm/s2
 };
 
 struct RoundingTolerance {
@@ -35,7 +39,8 @@ struct RoundingLimits {
 };
 
 /// `fastest` is what the blocks themselves allow; `filter_time` as in Path.
-[[nodiscard]] RoundingLimits rounding_limits(const std::vector<AxisLimits>& limits,
+[[nodiscard]] RoundingLimits rounding_limits(const Mechanism& machine,
+                                             const std::vector<AxisLimits>& limits,
                                              const Corner& corner,
                                              double d,
                                              double fastest,

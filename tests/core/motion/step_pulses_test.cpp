@@ -123,6 +123,10 @@ TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
 TEST(StepPulses, SayHowFastTheyCome) {
     const Pulsed found = pulsed(feeds({at(10.0)}), hundred_a_mm()); // 10 mm/s
     EXPECT_NEAR(found.axes[0].max_frequency, 1000.0, 1e-3);
+    StepSettings slow = hundred_a_mm();
+    slow.timer_frequency = 2500.0; // a pulse in 2 or in 3 ticks
+    slow.min_interval = 1;
+    EXPECT_NEAR(pulsed(feeds({at(10.0)}), slow).axes[0].given_frequency, 1250.0, 1e-9);
 }
 
 TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
@@ -134,6 +138,17 @@ TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
     EXPECT_GT(found.axes[0].late, 900);
     EXPECT_GT(found.axes[0].over_limit, 900);
     EXPECT_NEAR(found.axes[0].max_jitter, 1.0, 0.05);
+    EXPECT_EQ(found.axes[0].overrun_block, 0);
+    EXPECT_NEAR(found.axes[0].given_frequency, 500.0, 1e-9);
+    EXPECT_EQ(found.axes[1].overrun_block, -1);
+}
+
+TEST(StepPulses, TellTheBlockFromWhichTheTimerDoesNotKeepUp) {
+    StepSettings settings = hundred_a_mm();
+    settings.timer_frequency = 1000.0;
+    EXPECT_EQ(pulsed(feeds({at(3.0), at(6.0), at(16.0)}), settings).axes[0].overrun_block, 2);
+    EXPECT_EQ(pulsed(feeds({at(3.0), at(0.0), at(3.0)}), settings).axes[0].overrun_block, -1)
+        << "back over the same step at once is one pulse that waits";
 }
 
 TEST(StepPulses, StartOnTheStepNearestToTheMotion) {

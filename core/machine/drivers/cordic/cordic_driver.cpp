@@ -4,7 +4,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/cordic_motion.h"
 #include "core/gcode/reader/interpreter.h"
-#include "core/motion/planner.h"
+#include "core/motion/plan_within.h"
 
 #include <fmt/format.h>
 
@@ -165,10 +165,11 @@ void CordicDriver::start(Work work) {
     using gcode::Axis;
     const std::array<double, 3> from{start[Axis::x], start[Axis::y], start[Axis::z]};
     const cordic::RunReport report = cordic::report_of(processor, made.points, options_.clock_hz, from);
-    const auto records = std::make_shared<const gcode::Program>(
-        gcode::cordic_motion(processor, made, *model_, before.position, program_name));
+    gcode::CordicMotion motion =
+        gcode::cordic_motion(processor, made, *model_, before.position, program_name);
+    const auto records = std::make_shared<const gcode::Program>(std::move(motion.program));
     const auto trajectory = std::make_shared<const motion::Trajectory>(
-        motion::plan(*records, *model_, {}, Progress(), before.position));
+        motion::plan_within(*records, motion.accelerations, *model_, {}, Progress(), before.position));
     const std::scoped_lock lock(mutex_);
     machine_.start({records, trajectory, nullptr, {}}); // whose blocks know their lines
     report_ = report;

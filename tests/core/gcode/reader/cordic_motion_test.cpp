@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::gcode {
@@ -16,13 +18,21 @@ namespace {
 
 using kinematics::AxisPositions;
 
-Program motion_of(const std::string& text) {
-    const auto [image, lines, errors, warnings] = cordic::assemble(text, "records.asm", cordic::binary64);
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+CordicMotion whole_motion_of(const std::string& text, double most_acceleration = no_limit) {
+    auto [image, lines, errors, warnings] = cordic::assemble(text, "records.asm", cordic::binary64);
     EXPECT_TRUE(errors.empty());
     cordic::Processor processor({}, image);
     processor.run(1'000'000);
     const auto machine = cordic_machine(100.0);
-    return cordic_motion(processor, {}, machine, AxisPositions::Zero(3), "records.asm");
+    CordicProgram made;
+    made.code_lines = std::move(lines);
+    return cordic_motion(processor, made, machine, AxisPositions::Zero(3), "records.asm", most_acceleration);
+}
+
+Program motion_of(const std::string& text) {
+    return whole_motion_of(text).program;
 }
 
 TEST(CordicMotion, MakesFeedsOfSetPointsAndBlocksOfCommandsInTheirOrder) {
@@ -72,24 +82,42 @@ TEST(CordicMotion, EndsWhereTheProcessorHalts) {
     EXPECT_EQ(motion_of("HLT").blocks.back().kind, BlockKind::end);
 }
 
-TEST(CordicMotion, RefusesASetPointThatIsAwayAndHasNoSpeed) {
-    try {
-        (void)motion_of("MOV XI, 3\nG01\nHLT\n");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.diagnostic().message,
-                    testing::HasSubstr("set-point 1 is 3 mm away and has no speed"));
-    }
+TEST(CordicMotion, GivesEachFeedTheAccelerationOfItsRecord) {
+    const std::string text = "MOV Vmax, 10\nMOV Amax, 100\nMOV XI, 3\nMOV YJ, 4\nG01\n"
+                             "MOV Amax, 60\nMOV Z, 12\nG01Z\nHLT\n";
+    const CordicMotion motion = whole_motion_of(text);
+    ASSERT_EQ(motion.accelerations.size(), motion.program.blocks.size());
+    EXPECT_NEAR(motion.accelerations[0], 50.0, 1e-6); // half of Amax
+    EXPECT_NEAR(motion.accelerations[1], 30.0, 1e-6);
+    EXPECT_TRUE(std::isinf(motion.accelerations.back())) << "the end is no motion";
+    const std::vector<double> slower = whole_motion_of(text, 40.0).accelerations;
+    EXPECT_EQ(slower[0], 40.0);
+    EXPECT_NEAR(slower[1], 30.0, 1e-6);
 }
 
-TEST(CordicMachine, KeepsTheAccelerationOfThePathWhicheverWayItGoes) {
+TEST(CordicMotion, RefusesASetPointWhoseAccelerationTheFormatTakesForNothing) {
+    const auto fault_of = [](const std::string& text) {
+        try {
+            (void)motion_of(text);
+            return std::string();
+        } catch (const Error& error) {
+            EXPECT_GT(error.diagnostic().place.line, 0);
+            return error.diagnostic().message;
+        }
+    };
+    EXPECT_THAT(
+        fault_of(".format q8.8\nMOV Vmax, 10\nMOV Amax, 0.00390625\nMOV XI, 3\nG01\nHLT\n"),
+        testing::HasSubstr("set-point 1 is 3 mm away and has no acceleration: it came out as 0 in q8.8"));
+}
+
+TEST(CordicMachine, HasThreeAxesAsFastAsTheRecordsAsk) {
     const test::WithoutTraps no_traps;
     const auto machine = cordic_machine(90.0, 1000.0);
-    double squares = 0.0;
+    EXPECT_EQ(machine.axis_count(), 3);
     for (const auto& axis : machine.axes()) {
-        squares += axis.max_acceleration * axis.max_acceleration;
+        EXPECT_EQ(axis.max_acceleration, 90.0);
+        EXPECT_EQ(axis.max_jerk, 1000.0);
     }
-    EXPECT_NEAR(std::sqrt(squares), 90.0, 1e-9);
     EXPECT_TRUE(std::isinf(cordic_machine(90.0).axis(0).max_jerk));
     EXPECT_THROW((void)cordic_machine(0.0), Error);
     EXPECT_THROW((void)cordic_machine(std::nan("")), Error);

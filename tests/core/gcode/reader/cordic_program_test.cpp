@@ -49,7 +49,7 @@ std::string instructions(const CordicProgram& program) {
         }
         const auto begin = line.find_first_not_of(' ');
         const auto end = line.find_last_not_of(' ', line.find(';') - 1);
-        all += line.find(".format") == std::string::npos ? line.substr(begin, end - begin + 1) + "\n" : "";
+        all += line[begin] != '.' ? line.substr(begin, end - begin + 1) + "\n" : "";
         line.clear();
     }
     return all;
