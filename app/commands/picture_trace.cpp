@@ -52,7 +52,11 @@ int trace(const Options& options) {
     for (const plot::TracedPath& path : paths) {
         curves += path.curves.size();
     }
-    fmt::print("{} outlines of {} curves\n", paths.size(), curves);
+    fmt::print("{} {} of {} {}\n",
+               paths.size(),
+               paths.size() == 1 ? "outline" : "outlines",
+               curves,
+               curves == 1 ? "curve" : "curves");
     if (out.extension() == ".svg") {
         write_file(out, plot::svg_text(paths, sized.picture, sized.pitch));
         return 0;

@@ -175,6 +175,15 @@ Plot read_to_use(const Options& options) {
     return plot;
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string strokes_of_pens(const Plot& plot) {
+    return counted(plot.strokes.size(), "stroke", "strokes") + " of " +
+           counted(plot::levels_for(plot.strokes).size(), "pen", "pens");
+}
+
 int info(const Options& options) {
     if (options.json) {
         const Plot plot = read(options);
@@ -185,10 +194,9 @@ int info(const Options& options) {
     }
     const Plot plot = read_to_use(options);
     const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
-    fmt::print("{} commands, {} strokes of {} pens\n",
-               plot.commands,
-               plot.strokes.size(),
-               plot::levels_for(plot.strokes).size());
+    fmt::print("{}, {}\n",
+               counted(static_cast<std::size_t>(plot.commands), "command", "commands"),
+               strokes_of_pens(plot));
     if (const auto box = plot::extents(plot.strokes)) {
         fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm\n",
                    box->lower.x(),
@@ -204,8 +212,8 @@ int decode(const Options& options) {
     const Plot plot = read_to_use(options);
     const std::vector<Vec3> points = plot::decode(plot.strokes, options.decode);
     write_file(options.out, plot::point_file_text(points, options.decimals));
-    fmt::print("{} points, {:.3f} s\n",
-               points.size(),
+    fmt::print("{}, {:.3f} s\n",
+               counted(points.size(), "point", "points"),
                static_cast<double>(points.size() - 1) * options.decode.period);
     return 0;
 }
@@ -215,7 +223,7 @@ int view(const Options& options) {
     write_file(
         options.out,
         plot::svg_text(plot.strokes, options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown));
-    fmt::print("{} strokes of {} pens\n", plot.strokes.size(), plot::levels_for(plot.strokes).size());
+    fmt::print("{}\n", strokes_of_pens(plot));
     return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace millwright {
@@ -22,7 +23,8 @@ std::string shortest(double value) {
 
 std::string clock_time(double seconds) {
     expects(std::isfinite(seconds) && seconds >= 0.0, "a duration is finite and not negative");
-    const auto whole = static_cast<long long>(std::ceil(seconds));
+    constexpr double last_bits = 1e-6; // of what was added up to whole seconds
+    const auto whole = static_cast<long long>(std::ceil(std::max(0.0, seconds - last_bits)));
     constexpr long long minute = 60;
     constexpr long long hour = 3600;
     return fmt::format("{:02}:{:02}:{:02}", whole / hour, whole % hour / minute, whole % minute);

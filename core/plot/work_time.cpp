@@ -1,6 +1,7 @@
 #include "core/plot/work_time.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@ namespace millwright::plot {
 
 namespace {
 
-constexpr long long an_hour = 3600; // s
+constexpr std::string_view no_hour = "00:"; // of clock_time
 
 } // namespace
 
@@ -30,14 +31,15 @@ WorkTime work_time(const Strokes& strokes, const TimeModel& model, const Vec2& s
 }
 
 std::string minutes_and_seconds(double seconds) {
-    const long long whole = std::llround(seconds);
-    const long long hours = whole / an_hour;
-    return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, whole / 60 % 60, whole % 60)
-                     : fmt::format("{}:{:02}", whole / 60, whole % 60);
+    std::string text = clock_time(seconds);
+    if (text.starts_with(no_hour)) {
+        text.erase(0, no_hour.size());
+    }
+    return text.starts_with('0') ? text.substr(1) : text;
 }
 
 std::string_view minutes_or_hours(double seconds) {
-    return std::llround(seconds) < an_hour ? "min" : "h";
+    return clock_time(seconds).starts_with(no_hour) ? "min" : "h";
 }
 
 std::string time_for_people(double seconds) {

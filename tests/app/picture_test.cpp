@@ -256,7 +256,7 @@ TEST(PictureCommand, PreviewAgainstTheLightIsBrightWhereThePictureIs) {
         return run(
             {"picture", "trace", preview, "--region", region, "--out", (folder / "dark.svg").string()});
     };
-    EXPECT_THAT(traced("10,10,80,180").out, HasSubstr("1 outlines of")); // all of it is dark
+    EXPECT_THAT(traced("10,10,80,180").out, HasSubstr("1 outline of")); // all of it is dark
     EXPECT_THAT(traced("110,10,80,180").err, HasSubstr("nothing in it is dark enough"));
 }
 

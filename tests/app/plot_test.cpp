@@ -35,6 +35,17 @@ TEST(PlotCommand, DecodeWritesThePointFileOfTheThesis) {
     EXPECT_TRUE(points.ends_with("9.71,9.71,0.00\n10.00,10.00,0.00\n"));
 }
 
+TEST(PlotCommand, InfoCountsOneAndMany) {
+    const ScratchFolder folder;
+    const auto first_line = [&](const std::string& plot) {
+        write_content(folder / "drawn.plt", plot);
+        const std::string said = run({"plot", "info", (folder / "drawn.plt").string()}).out;
+        return said.substr(0, said.find('\n'));
+    };
+    EXPECT_EQ(first_line("PD400,400;"), "1 command, 1 stroke of 1 pen");
+    EXPECT_EQ(first_line("SP1;PD400,400;PU;PA0,0;SP2;PD0,400;"), "6 commands, 2 strokes of 2 pens");
+}
+
 TEST(PlotCommand, InfoAnswersInJson) {
     const ScratchFolder folder;
     write_content(folder / "square.plt",
@@ -243,9 +254,10 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments).out;
     };
-    // 40 mm of the square and 1.414 mm from the origin to it, where it stays: 20 s, 0.14 s, 6 s for the lift.
+    // 40 mm of the square and 1.414 mm from the origin to it, where it stays: 20 s, 0.14 s, 6 s for the lift:
+    // in whole seconds 27, as a clock tells it.
     EXPECT_THAT(runs({}),
-                HasSubstr("0.041 m (0.040 m drawn, 0.001 m in the air), 1 lift, 0:26 min by the thesis, "));
+                HasSubstr("0.041 m (0.040 m drawn, 0.001 m in the air), 1 lift, 0:27 min by the thesis, "));
     EXPECT_THAT(runs({"--hatch", "1.5"}),
                 HasSubstr(", 8 lifts")); // the square, lines at 1.5, 3, ... 10.5
     EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 lifts"));

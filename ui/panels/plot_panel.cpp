@@ -103,6 +103,17 @@ std::string metres(double mm) {
     return fmt::format("{:.3f}", m * mm);
 }
 
+struct Figure {
+    std::string_view id;
+    std::string_view label;
+    std::string_view unit;
+};
+
+/// What becomes of it beside what the file has.
+void both(Ui& ui, const Figure& figure, const std::string& planned, const std::string& drawn) {
+    ui.value(figure.id, figure.label, fmt::format("{} (as drawn {})", planned, drawn), figure.unit);
+}
+
 std::string sources_of(const plot::CuttingValues& values) {
     return "Feed: " + values.feed.source + ". Plunge: " + values.plunge.source +
            ". Depth a pass: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source +
@@ -216,26 +227,15 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         return;
     }
     if (made->as_drawn.runs > 0) {
-        ui.value("drawn",
-                 "Draws",
-                 fmt::format("{} (as drawn {})",
-                             metres(made->as_planned.cut_length),
-                             metres(made->as_drawn.cut_length)),
-                 "m");
-        ui.value("between",
-                 "In the air",
-                 fmt::format("{} (as drawn {})",
-                             metres(made->as_planned.travel_length),
-                             metres(made->as_drawn.travel_length)),
-                 "m");
-        ui.value(
-            "runs", "Lifts", fmt::format("{} (as drawn {})", made->as_planned.runs, made->as_drawn.runs));
-        ui.value("thesis",
-                 "Time, thesis",
-                 fmt::format("{} (as drawn {})",
-                             plot::minutes_and_seconds(made->as_planned.seconds),
-                             plot::minutes_and_seconds(made->as_drawn.seconds)),
-                 plot::minutes_or_hours(made->as_planned.seconds));
+        const plot::WorkTime& planned = made->as_planned;
+        const plot::WorkTime& drawn = made->as_drawn;
+        both(ui, {"drawn", "Draws", "m"}, metres(planned.cut_length), metres(drawn.cut_length));
+        both(ui, {"between", "In the air", "m"}, metres(planned.travel_length), metres(drawn.travel_length));
+        both(ui, {"runs", "Lifts", ""}, fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs));
+        both(ui,
+             {"thesis", "Time, thesis", plot::minutes_or_hours(planned.seconds)},
+             plot::minutes_and_seconds(planned.seconds),
+             plot::minutes_and_seconds(drawn.seconds));
     }
     ui.value("way", "Way, with lifts", metres(made->lengths.cut + made->lengths.travel), "m");
     const double planned = now.in_file() ? now.duration() : 0.0;

@@ -64,16 +64,15 @@ private:
             return false;
         }
         const Pen::Mark before = run_.pen.mark();
-        try {
-            row.follow(run_, {.command = command, .numbers = numbers_});
-            return true;
-        } catch (const Refusal& refusal) {
+        row.follow(run_, {.command = command, .numbers = numbers_});
+        if (auto why = run_.pen.take_refusal()) {
             if (row.moves) {
                 run_.pen.take_back(before);
             }
-            problems_.add(command.byte, refusal.message);
+            problems_.add(command.byte, std::move(*why));
             return false;
         }
+        return true;
     }
 
     bool take_numbers(const CommandRow& row, const Command& command) {

@@ -42,6 +42,8 @@ TEST(Numbers, BecomeTextOnlyWhenFinite) {
 TEST(ClockTime, RoundsUpToWholeSeconds) {
     EXPECT_EQ(clock_time(0.0), "00:00:00");
     EXPECT_EQ(clock_time(59.2), "00:01:00");
+    EXPECT_EQ(clock_time(0.1 + 0.2 + 0.7), "00:00:01");
+    EXPECT_EQ(clock_time(10.0 * (0.1 + 0.2)), "00:00:03"); // 3.0000000000000004
     EXPECT_EQ(clock_time(3725.0), "01:02:05");
 }
 

@@ -174,8 +174,8 @@ TEST(WorkTimes, AreThoseOfTheThesis) {
     EXPECT_EQ(minutes_and_seconds(time.seconds), "3:34");
     EXPECT_EQ(minutes_and_seconds(2465.0), "41:05");
     EXPECT_EQ(minutes_and_seconds(16823.0), "4:40:23");
-    EXPECT_EQ(time_for_people(3599.4), "59:59 min");
-    EXPECT_EQ(time_for_people(3599.6), "1:00:00 h");
+    EXPECT_EQ(time_for_people(3598.6), "59:59 min");
+    EXPECT_EQ(time_for_people(3599.1), "1:00:00 h");
 }
 
 } // namespace

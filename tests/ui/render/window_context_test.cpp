@@ -1,6 +1,7 @@
 #include "ui/render/window_context.h"
 
 #include "core/base/error.h"
+#include "tests/ui/render/file_manager.h"
 #include "ui/render/camera.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
@@ -10,9 +11,11 @@
 
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace millwright::render {
 namespace {
@@ -139,6 +142,21 @@ TEST_F(WithDisplay, OpensAgainAfterItWasClosed) {
         EXPECT_FALSE(window.close_requested());
         EXPECT_GE(window.content_scale(), 0.5);
     }
+}
+
+TEST_F(WithDisplay, FilesOfAnotherProgramAreDroppedOnIt) {
+    WindowContext window({.title = "where files fall", .size = {200, 150}, .smallest = {100, 100}});
+    std::vector<std::filesystem::path> dropped;
+    window.on_drop([&dropped](const std::vector<std::filesystem::path>& files) { dropped = files; });
+    settle(window);
+    test::FileManager other;
+    other.drop("where files fall", "file:///tmp/a%20plot.plt\r\nfile:///tmp/%E0%B8%AB.png\r\n");
+    bool drawn = false;
+    while (!other.answers_until_taken()) {
+        drawn = window.wait(0.01) || drawn;
+    }
+    EXPECT_EQ(dropped, (std::vector<std::filesystem::path>{"/tmp/a plot.plt", "/tmp/\xE0\xB8\xAB.png"}));
+    EXPECT_TRUE(drawn); // what they are is seen
 }
 
 } // namespace

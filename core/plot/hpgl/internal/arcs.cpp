@@ -53,13 +53,17 @@ void follow(Run& run, const std::vector<Vec2>& points) {
 }
 
 void arc(Run& run, const Vec2& centre, double sweep_deg, double chord) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     follow(run, arc_points(run, centre, run.at(), sweep_deg, chord));
 }
 
 /// The arc from the pen through `middle` to `end`; the straight line where the three are on one.
 void three_point_arc(Run& run, const Vec2& middle, const Vec2& end, double chord) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     const Vec2 start = run.at();
     const Vec2 m = middle - start;
     const Vec2 e = end - start;
@@ -81,6 +85,9 @@ void three_point_arc(Run& run, const Vec2& middle, const Vec2& end, double chord
         sweep -= 360.0;
     }
     std::vector<Vec2> points = arc_points(run, centre, start, sweep, chord);
+    if (points.empty()) {
+        return;
+    }
     points.back() = end;
     follow(run, points);
 }
@@ -92,14 +99,16 @@ double usual_chord(const Run& run) {
 }
 
 std::vector<Vec2>
-arc_points(const Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, double chord) {
+arc_points(Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, double chord) {
     if (!(std::abs(sweep_deg) <= most_sweep_deg)) {
-        throw Refusal{fmt::format("an arc of {} degrees; at most {} are allowed", sweep_deg, most_sweep_deg)};
+        run.refuse(fmt::format("an arc of {} degrees; at most {} are allowed", sweep_deg, most_sweep_deg));
+        return {};
     }
     const Vec2 spoke = start - centre;
     const double radius = spoke.norm();
     if (!(radius > 0.0)) {
-        throw Refusal{"an arc without a radius"};
+        run.refuse("an arc without a radius");
+        return {};
     }
     constexpr double slack = 1e-9; // so that 90 degrees are 18 chords of 5 and not 19
     const int count =
@@ -130,11 +139,16 @@ void three_point_arc_relative(Run& run, const Given& given) {
 }
 
 void circle(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     const Vec2 centre = run.at();
     const Vec2 back = run.pen.at();
     const Vec2 start = centre + Vec2(given[0], 0.0);
     std::vector<Vec2> points = arc_points(run, centre, start, 360.0, given.value(1, usual_chord(run)));
+    if (points.empty()) {
+        return;
+    }
     points.back() = start;
     if (run.pen.in_polygon()) {
         run.pen.next_outline();

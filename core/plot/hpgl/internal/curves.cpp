@@ -20,7 +20,9 @@ int chord_count(const Vec2& p0, const Vec2& p1, const Vec2& p2, const Vec2& p3, 
 void curve(Run& run, const Vec2& p1, const Vec2& p2, const Vec2& p3) {
     const Vec2 p0 = run.at();
     for (const Vec2& p : {p1, p2, p3}) {
-        run.pen.expect_near(run.units.plotter(p)); // or a point far away would bend the curve unseen
+        if (!run.pen.is_near(run.units.plotter(p))) { // or a point far away would bend the curve unseen
+            return;
+        }
     }
     const Vec2 unit(run.settings.unit.x, run.settings.unit.y);
     const auto mm = [&](const Vec2& p) { return Vec2(run.units.plotter(p).cwiseProduct(unit)); };
@@ -42,14 +44,18 @@ void curve(Run& run, const Vec2& p1, const Vec2& p2, const Vec2& p3) {
 } // namespace
 
 void bezier_absolute(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     for (std::size_t n = 0; n < given.count(); n += 6) {
         curve(run, given.point(n), given.point(n + 2), given.point(n + 4));
     }
 }
 
 void bezier_relative(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     for (std::size_t n = 0; n < given.count(); n += 6) {
         const Vec2 start = run.at();
         curve(run, start + given.point(n), start + given.point(n + 2), start + given.point(n + 4));

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace millwright::plot::internal {
 namespace {
@@ -21,19 +23,29 @@ class PolylineDecoder {
 public:
     explicit PolylineDecoder(std::string_view bytes) : bytes_(bytes) {}
 
+    /// Up to what is wrong.
     std::vector<Step> decode() {
-        while (skip_controls(), at_ < bytes_.size()) {
+        while (skip_controls(), !wrong_ && at_ < bytes_.size()) {
             if (!flag()) {
                 point();
             }
         }
         if (up_ || absolute_) {
-            throw Refusal{"PE: a flag without a point behind it"};
+            refuse("PE: a flag without a point behind it");
         }
         return std::move(steps_);
     }
 
+    /// What is wrong first.
+    [[nodiscard]] const std::optional<std::string>& wrong() const { return wrong_; }
+
 private:
+    void refuse(std::string why) {
+        if (!wrong_) {
+            wrong_ = std::move(why);
+        }
+    }
+
     void skip_controls() {
         while (at_ < bytes_.size() && static_cast<unsigned char>(bytes_[at_]) <= ' ') {
             ++at_;
@@ -69,12 +81,12 @@ private:
     void point() {
         const double x = number();
         if (skip_controls(), at_ >= bytes_.size()) {
-            throw Refusal{"PE: a point without y"};
+            return refuse("PE: a point without y");
         }
         const double y = number();
         constexpr double largest = 1073741824.0;
         if (!(std::abs(x) <= largest && std::abs(y) <= largest)) {
-            throw Refusal{"PE: a coordinate beyond 2^30"};
+            return refuse("PE: a coordinate beyond 2^30");
         }
         steps_.push_back({.kind = up_ ? Step::Kind::move : Step::Kind::draw,
                           .absolute = absolute_,
@@ -86,7 +98,8 @@ private:
     int whole(const char* what, double least, double most) {
         const double value = number();
         if (value < least || value > most) {
-            throw Refusal{fmt::format("PE: {} as {}", value, what)};
+            refuse(fmt::format("PE: {} as {}", value, what));
+            return 0;
         }
         return static_cast<int>(value);
     }
@@ -98,13 +111,15 @@ private:
         for (int digit = 0; digit < most_digits; ++digit) {
             skip_controls();
             if (at_ >= bytes_.size()) {
-                throw Refusal{"PE: ends in the middle of a number"};
+                refuse("PE: ends in the middle of a number");
+                return 0.0;
             }
             const int code = static_cast<unsigned char>(bytes_[at_++]);
             const int last = base_ == 64 ? 191 : 95;
             const bool ends = code >= last && code < last + base_;
             if (!ends && !(code >= 63 && code < 63 + base_)) {
-                throw Refusal{fmt::format("PE: the byte {:02X} is no digit to the base {}", code, base_)};
+                refuse(fmt::format("PE: the byte {:02X} is no digit to the base {}", code, base_));
+                return 0.0;
             }
             value += place * (code - (ends ? last : 63));
             place *= base_;
@@ -113,7 +128,8 @@ private:
                 return value > 2.0 * half ? -half : half;
             }
         }
-        throw Refusal{"PE: a number of more digits than any coordinate has"};
+        refuse("PE: a number of more digits than any coordinate has");
+        return 0.0;
     }
 
     static constexpr int most_digits = 10;
@@ -124,6 +140,7 @@ private:
     bool up_ = false;
     bool absolute_ = false;
     std::vector<Step> steps_;
+    std::optional<std::string> wrong_;
 };
 
 void follow(Run& run, const Step& step) {
@@ -146,10 +163,14 @@ void follow(Run& run, const Step& step) {
 } // namespace
 
 void encoded_polyline(Run& run, const Given& given) {
-    const std::vector<Step> steps = PolylineDecoder(given.command.arguments).decode();
+    PolylineDecoder decoder(given.command.arguments);
+    const std::vector<Step> steps = decoder.decode();
+    if (decoder.wrong()) {
+        return run.refuse(*decoder.wrong());
+    }
     for (const Step& step : steps) {
         if (step.kind == Step::Kind::pen && step.pen > run.settings.highest_pen) {
-            throw Refusal{fmt::format("PE: there is no pen {}", step.pen)};
+            return run.refuse(fmt::format("PE: there is no pen {}", step.pen));
         }
     }
     for (const Step& step : steps) {

@@ -166,35 +166,38 @@ private:
     Vec2 off_ = Vec2::Zero();
 };
 
-Vec2 direction_of(const Given& given, const char* name) {
-    if (given.count() == 0) {
-        return {1.0, 0.0};
+void set_direction(Run& run, const Given& given, bool relative) {
+    const Vec2 direction = given.count() == 0 ? Vec2(1.0, 0.0) : given.point(0);
+    if (exactly_equal(direction.x(), 0.0) && exactly_equal(direction.y(), 0.0)) {
+        return run.refuse(fmt::format("{}: 0,0 is no direction", given.command.name));
     }
-    if (exactly_equal(given[0], 0.0) && exactly_equal(given[1], 0.0)) {
-        throw Refusal{fmt::format("{}: 0,0 is no direction", name)};
-    }
-    return given.point(0);
+    run.modes.label.direction = direction;
+    run.modes.label.direction_relative = relative;
 }
 
 } // namespace
 
 void label(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     if (!given.command.terminated) {
-        throw Refusal{"a label without its end"};
+        return run.refuse("a label without its end");
     }
     LabelWriter(run).write(given.command.arguments, given.command.byte);
 }
 
 void buffer_label(Run& run, const Given& given) {
     if (!given.command.terminated) {
-        throw Refusal{"a label without its end"};
+        return run.refuse("a label without its end");
     }
     run.buffered_label = given.command.arguments;
 }
 
 void print_buffered_label(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     LabelWriter(run).write(run.buffered_label, given.command.byte);
 }
 
@@ -208,8 +211,8 @@ void character_size(Run& run, const Given& given) {
     constexpr double most_cm = 128.0; // of HP's plotters
     for (const double cm : given.numbers) {
         if (!(std::abs(cm) < most_cm)) {
-            throw Refusal{fmt::format(
-                "SI: characters of {} cm, at the most {}: two numbers may have become one", cm, most_cm)};
+            return run.refuse(fmt::format(
+                "SI: characters of {} cm, at the most {}: two numbers may have become one", cm, most_cm));
         }
     }
     run.modes.label.size_relative = false;
@@ -220,10 +223,10 @@ void relative_character_size(Run& run, const Given& given) {
     constexpr double most_percent = 128.0; // of HP's plotters
     for (const double percent : given.numbers) {
         if (!(std::abs(percent) < most_percent)) {
-            throw Refusal{
+            return run.refuse(
                 fmt::format("SR: characters of {} %, at the most {}: two numbers may have become one",
                             percent,
-                            most_percent)};
+                            most_percent));
         }
     }
     run.modes.label.size_relative = true;
@@ -231,19 +234,17 @@ void relative_character_size(Run& run, const Given& given) {
 }
 
 void label_direction(Run& run, const Given& given) {
-    run.modes.label.direction = direction_of(given, "DI");
-    run.modes.label.direction_relative = false;
+    set_direction(run, given, false);
 }
 
 void relative_label_direction(Run& run, const Given& given) {
-    run.modes.label.direction = direction_of(given, "DR");
-    run.modes.label.direction_relative = true;
+    set_direction(run, given, true);
 }
 
 void label_path(Run& run, const Given& given) {
     const double path = given.value(0, 0.0);
     if (path < 0.0 || path > 3.0) {
-        throw Refusal{fmt::format("DV: {} is none of the paths 0 to 3", path)};
+        return run.refuse(fmt::format("DV: {} is none of the paths 0 to 3", path));
     }
     run.modes.label.path = static_cast<int>(path);
 }
@@ -260,13 +261,15 @@ void label_origin(Run& run, const Given& given) {
     const double origin = given.value(0, 1.0);
     const bool known = (origin >= 1.0 && origin <= 9.0) || (origin >= 11.0 && origin <= 19.0);
     if (!known) {
-        throw Refusal{fmt::format("LO: {} is none of the origins 1 to 9 and 11 to 19", origin)};
+        return run.refuse(fmt::format("LO: {} is none of the origins 1 to 9 and 11 to 19", origin));
     }
     run.modes.label.origin = static_cast<int>(origin);
 }
 
 void character_plot(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     const CharacterFrame frame = frame_of(run);
     LabelStyle& style = run.modes.label;
     Vec2 at = run.pen.at();
@@ -303,7 +306,9 @@ void draw_symbol(Run& run) {
 
 // Steps on a grid of 6 by 18 in a character's cell; 99 lowers the pen and -99 lifts it.
 void user_character(Run& run, const Given& given) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     constexpr double flag = 99.0;
     Glyph lines;
     Vec2 at = Vec2::Zero();
@@ -315,7 +320,7 @@ void user_character(Run& run, const Given& given) {
             continue;
         }
         if (n + 1 == given.count()) {
-            throw Refusal{"UC: a step without y"};
+            return run.refuse("UC: a step without y");
         }
         if (!down || lines.empty() || lines.back().back() != at) {
             lines.push_back({at});

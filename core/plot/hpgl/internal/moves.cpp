@@ -18,14 +18,15 @@ void follow(Run& run, const Given& given, bool relative) {
 
 } // namespace
 
+// A refused one leaves the mode as it was.
 void plot_absolute(Run& run, const Given& given) {
     follow(run, given, false);
-    run.modes.relative = false;
+    run.modes.relative = run.modes.relative && run.pen.refused();
 }
 
 void plot_relative(Run& run, const Given& given) {
     follow(run, given, true);
-    run.modes.relative = true;
+    run.modes.relative = run.modes.relative || !run.pen.refused();
 }
 
 void pen_up(Run& run, const Given& given) {

@@ -23,9 +23,10 @@ void bezier_relative(Run& run, const Given& given);
 void encoded_polyline(Run& run, const Given& given);
 
 /// Points on an arc around `centre` from `start` through `sweep_deg` (counter-clockwise positive), without
-/// the first and with the last; user units. `chord` as CI and AA take it: degrees, or a deviation after CT1.
+/// the first and with the last; user units. Empty if that is refused. `chord` as CI and AA take it: degrees,
+/// or a deviation after CT1.
 [[nodiscard]] std::vector<Vec2>
-arc_points(const Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, double chord);
+arc_points(Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, double chord);
 
 /// What `chord` is where a command does not say it.
 [[nodiscard]] double usual_chord(const Run& run);

@@ -58,11 +58,19 @@ void Pen::draw(const Vec2& to) {
     move(to, !lost_);
 }
 
-void Pen::expect_near(const Vec2& place) const {
-    if (!(std::abs(place.x()) <= farthest_.x() && std::abs(place.y()) <= farthest_.y())) {
-        constexpr double m = 1e-3;
-        throw Refusal{fmt::format("a position {:.0f} m away from the origin: two numbers may have become one",
-                                  m * mm(place).cwiseAbs().maxCoeff())};
+bool Pen::is_near(const Vec2& place) {
+    if (std::abs(place.x()) <= farthest_.x() && std::abs(place.y()) <= farthest_.y()) {
+        return true;
+    }
+    constexpr double m = 1e-3;
+    refuse(fmt::format("a position {:.0f} m away from the origin: two numbers may have become one",
+                       m * mm(place).cwiseAbs().maxCoeff()));
+    return false;
+}
+
+void Pen::refuse(std::string why) {
+    if (!refusal_) {
+        refusal_ = std::move(why);
     }
 }
 
@@ -87,7 +95,9 @@ void Pen::take_back(const Mark& mark) {
 }
 
 void Pen::move(const Vec2& to, bool drawn) {
-    expect_near(to);
+    if (refusal_ || !is_near(to)) {
+        return;
+    }
     if (polygon_open_) {
         count_points(1);
         polygon_.back().push_back({to, drawn});

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::plot::internal {
@@ -47,8 +49,14 @@ public:
     /// Down, whatever the pen's state, which stays.
     void draw(const Vec2& to);
 
-    /// Throws Refusal for a place so far away that two numbers must have become one; plotter units.
-    void expect_near(const Vec2& place) const;
+    /// A place so far away that two numbers must have become one is refused; plotter units.
+    [[nodiscard]] bool is_near(const Vec2& place);
+
+    /// The command being followed cannot be: the pen stays where it is. The first reason counts.
+    void refuse(std::string why);
+    [[nodiscard]] bool refused() const { return refusal_.has_value(); }
+    /// Begins the next command.
+    [[nodiscard]] std::optional<std::string> take_refusal() { return std::exchange(refusal_, std::nullopt); }
 
     /// All that a command may change of the drawing.
     struct Mark {
@@ -106,6 +114,7 @@ private:
     Vec2 tip_ = Vec2::Zero(); ///< where it ends
     Polygon polygon_;
     bool polygon_open_ = false;
+    std::optional<std::string> refusal_;
 };
 
 } // namespace millwright::plot::internal

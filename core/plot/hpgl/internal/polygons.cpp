@@ -68,12 +68,12 @@ void hatch_polygon(Run& run, const Polygon& polygon) {
     const HatchSettings settings = hatch_settings(run);
     constexpr double least_mm = 0.01; // no tool makes finer lines
     if (!(settings.pitch * run.settings.unit.x >= least_mm)) {
-        throw Refusal{fmt::format("a filling of lines {:.4g} mm apart is too fine to be cut",
-                                  settings.pitch * run.settings.unit.x)};
+        return run.refuse(fmt::format("a filling of lines {:.4g} mm apart is too fine to be cut",
+                                      settings.pitch * run.settings.unit.x));
     }
     constexpr double most_lines = 1e6;
     if (!(line_count(region, settings) < most_lines)) {
-        throw Refusal{"a filling of more than a million lines"};
+        return run.refuse("a filling of more than a million lines");
     }
     const Vec2 home = run.pen.at();
     for (const Stroke& stroke : hatch(region, settings)) {
@@ -84,7 +84,9 @@ void hatch_polygon(Run& run, const Polygon& polygon) {
 }
 
 void fill(Run& run, const Polygon& polygon) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     switch (run.settings.fill) {
     case FillMode::hatched:
         return hatch_polygon(run, polygon);
@@ -103,27 +105,31 @@ void fill(Run& run, const Polygon& polygon) {
 }
 
 void edge(Run& run, const Polygon& polygon) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     draw_edges(run, polygon);
 }
 
-/// A closed figure of corners in user units. Throws Refusal as Pen::expect_near.
-Polygon figure(const Run& run, const std::vector<Vec2>& corners) {
+/// A closed figure of corners in user units; empty if one is too far away.
+Polygon figure(Run& run, const std::vector<Vec2>& corners) {
     Outline outline;
     for (const Vec2& corner : corners) {
         const Vec2 at = run.units.plotter(corner);
-        run.pen.expect_near(at); // before it is filled with a thousand times the lines
+        if (!run.pen.is_near(at)) { // before it is filled with a thousand times the lines
+            return {};
+        }
         outline.push_back({at, true});
     }
     return {outline};
 }
 
-Polygon rectangle(const Run& run, const Vec2& corner) {
+Polygon rectangle(Run& run, const Vec2& corner) {
     const Vec2 at = run.at();
     return figure(run, {at, {corner.x(), at.y()}, corner, {at.x(), corner.y()}});
 }
 
-Polygon wedge(const Run& run, const Given& given) {
+Polygon wedge(Run& run, const Given& given) {
     const Vec2 centre = run.at();
     const double begin = from_degrees(given[1]);
     const Vec2 start = centre + given[0] * Vec2(std::cos(begin), std::sin(begin));
@@ -134,16 +140,15 @@ Polygon wedge(const Run& run, const Given& given) {
     return figure(run, corners);
 }
 
-void refuse_without_polygon(const Run& run) {
+bool refuses_without_polygon(Run& run) {
     if (run.pen.in_polygon()) {
-        throw Refusal{"a polygon is drawn before PM2 has closed it"};
+        run.refuse("a polygon is drawn before PM2 has closed it");
+    } else if (run.polygon_damaged) {
+        run.refuse("the polygon is left out, because something in it was wrong");
+    } else if (run.pen.polygon().empty()) {
+        run.refuse("there is no polygon to draw");
     }
-    if (run.polygon_damaged) {
-        throw Refusal{"the polygon is left out, because something in it was wrong"};
-    }
-    if (run.pen.polygon().empty()) {
-        throw Refusal{"there is no polygon to draw"};
-    }
+    return run.pen.refused();
 }
 
 } // namespace
@@ -152,7 +157,7 @@ void polygon_mode(Run& run, const Given& given) {
     const double mode = given.value(0, 0.0);
     const bool open = run.pen.in_polygon();
     if (mode > 0.0 && !open) {
-        throw Refusal{fmt::format("PM{} without PM0 before it", mode)};
+        return run.refuse(fmt::format("PM{} without PM0 before it", mode));
     }
     if (mode > 1.0) {
         run.pen.close_polygon();
@@ -165,13 +170,15 @@ void polygon_mode(Run& run, const Given& given) {
 }
 
 void edge_polygon(Run& run, const Given&) {
-    refuse_without_polygon(run);
-    edge(run, run.pen.polygon());
+    if (!refuses_without_polygon(run)) {
+        edge(run, run.pen.polygon());
+    }
 }
 
 void fill_polygon(Run& run, const Given&) {
-    refuse_without_polygon(run);
-    fill(run, run.pen.polygon());
+    if (!refuses_without_polygon(run)) {
+        fill(run, run.pen.polygon());
+    }
 }
 
 void edge_rectangle_absolute(Run& run, const Given& given) {
@@ -201,7 +208,7 @@ void fill_wedge(Run& run, const Given& given) {
 void fill_type(Run& run, const Given& given) {
     const double spacing = given.value(1, 0.0);
     if (spacing < 0.0) {
-        throw Refusal{fmt::format("FT: a spacing of {}", spacing)};
+        return run.refuse(fmt::format("FT: a spacing of {}", spacing));
     }
     Filling filling;
     filling.type = static_cast<int>(given.value(0, 1.0));

@@ -7,11 +7,6 @@
 
 namespace millwright::plot::internal {
 
-/// Why a command cannot be followed.
-struct Refusal {
-    std::string message;
-};
-
 class Problems {
 public:
     Problems(std::filesystem::path file, const ReaderSettings& settings)

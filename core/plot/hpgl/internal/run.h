@@ -1,5 +1,6 @@
 // The state of a plotter while a file is read, and what the commands are given. Each group of commands has
-// its own file; a command that cannot be followed throws Refusal, and what it has drawn is taken back.
+// its own file; a command that cannot be followed is refused, and what it has drawn is taken back. No
+// exception: damaged files have as many such commands as good ones, and would take ten times as long.
 #pragma once
 
 #include "core/plot/hpgl/internal/label_style.h"
@@ -57,10 +58,13 @@ struct Run {
     std::string buffered_label;
 
     [[nodiscard]] Vec2 at() const { return units.user(pen.at()); }
-    void refuse_if_lost() const {
+    /// Why the command being followed cannot be. What it sets afterwards stays: return.
+    void refuse(std::string why) { pen.refuse(std::move(why)); }
+    [[nodiscard]] bool refuses_if_lost() {
         if (pen.lost()) {
-            throw Refusal{"the pen's position is not known here, because of what was wrong before"};
+            refuse("the pen's position is not known here, because of what was wrong before");
         }
+        return pen.refused();
     }
     /// Distance from P1 to P2, plotter units.
     [[nodiscard]] double diagonal() const { return units.span().norm(); }

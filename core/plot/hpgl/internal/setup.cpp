@@ -33,7 +33,7 @@ void input_points(Run& run, const Given& given) {
     const Vec2 p1 = given.point(0);
     const Vec2 p2 = given.count() == 4 ? given.point(2) : Vec2(p1 + run.units.span());
     if (!run.units.set_points(p1, p2)) {
-        throw Refusal{"IP: P1 and P2 are on one line, which makes no scale"};
+        return run.refuse("IP: P1 and P2 are on one line, which makes no scale");
     }
 }
 
@@ -47,7 +47,7 @@ void input_relative_points(Run& run, const Given& given) {
     const Vec2 p2 =
         given.count() == 4 ? given.point(2) : Vec2(p1 + 100.0 * run.units.span().cwiseQuotient(sheet));
     if (!run.units.set_relative_points(p1, p2)) {
-        throw Refusal{"IR: P1 and P2 are on one line, which makes no scale"};
+        return run.refuse("IR: P1 and P2 are on one line, which makes no scale");
     }
 }
 
@@ -57,7 +57,7 @@ void scale(Run& run, const Given& given) {
         return;
     }
     if (given.count() < 4) {
-        throw Refusal{fmt::format("SC: {} numbers; there are 0, 4, 5 or 7", given.count())};
+        return run.refuse(fmt::format("SC: {} numbers; there are 0, 4, 5 or 7", given.count()));
     }
     const Vec2 first(given[0], given[2]);
     const Vec2 second(given[1], given[3]);
@@ -71,13 +71,13 @@ void scale(Run& run, const Given& given) {
         done = run.units.scale_to_fit(first, second);
     }
     if (!done) {
-        throw Refusal{"SC: these numbers make no scale"};
+        return run.refuse("SC: these numbers make no scale");
     }
 }
 
 void rotate(Run& run, const Given& given) {
     if (!run.units.rotate(static_cast<int>(given.value(0, 0.0)))) {
-        throw Refusal{fmt::format("RO: {} is none of 0, 90, 180, 270 degrees", given[0])};
+        return run.refuse(fmt::format("RO: {} is none of 0, 90, 180, 270 degrees", given[0]));
     }
 }
 
@@ -100,7 +100,8 @@ void select_pen(Run& run, const Given& given) {
     const bool known = number >= 0.0 && number <= run.settings.highest_pen && !(std::floor(number) < number);
     if (!known) {
         run.pen.put_away(); // what follows was meant for another pen than any that is there
-        throw Refusal{fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen)};
+        return run.refuse(
+            fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
     }
     run.pen.select(static_cast<int>(number));
     run.plot.pens.try_emplace(static_cast<int>(number));
@@ -108,13 +109,14 @@ void select_pen(Run& run, const Given& given) {
 
 namespace {
 
-/// The pen that a command names, else the one in use.
-int pen_meant(const Run& run, const Given& given, std::size_t n) {
+/// Of the pen that a command names, else of the one in use. Nothing if there is none of it, which is refused.
+PenUse* use_meant(Run& run, const Given& given, std::size_t n) {
     const double number = given.value(n, run.pen.number().value_or(1));
     if (!(number >= 0.0 && number <= run.settings.highest_pen)) {
-        throw Refusal{fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen)};
+        run.refuse(fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
+        return nullptr;
     }
-    return static_cast<int>(number);
+    return &run.plot.pens[static_cast<int>(number)];
 }
 
 } // namespace
@@ -122,21 +124,24 @@ int pen_meant(const Run& run, const Given& given, std::size_t n) {
 void pen_speed(Run& run, const Given& given) {
     const double cm_per_s = given.value(0, 0.0);
     if (cm_per_s < 0.0) {
-        throw Refusal{fmt::format("VS: a speed of {} cm/s", cm_per_s)};
+        return run.refuse(fmt::format("VS: a speed of {} cm/s", cm_per_s));
     }
     constexpr double mm_per_cm = 10.0;
-    run.plot.pens[pen_meant(run, given, 1)].speed = cm_per_s * mm_per_cm;
+    if (PenUse* use = use_meant(run, given, 1)) {
+        use->speed = cm_per_s * mm_per_cm;
+    }
 }
 
 void pen_width(Run& run, const Given& given) {
     const double width = given.value(0, 0.0);
     if (width < 0.0) {
-        throw Refusal{fmt::format("PW: a width of {}", width)};
+        return run.refuse(fmt::format("PW: a width of {}", width));
     }
     const double diagonal_mm =
         run.units.span().cwiseProduct(Vec2(run.settings.unit.x, run.settings.unit.y)).norm();
-    run.plot.pens[pen_meant(run, given, 1)].width =
-        run.modes.width_relative ? width / 100.0 * diagonal_mm : width;
+    if (PenUse* use = use_meant(run, given, 1)) {
+        use->width = run.modes.width_relative ? width / 100.0 * diagonal_mm : width;
+    }
 }
 
 void pen_thickness(Run& run, const Given& given) {
@@ -154,7 +159,7 @@ void line_type(Run& run, const Given& given) {
     }
     const double type = given[0];
     if (!(std::abs(type) <= static_cast<double>(run.modes.patterns.size()))) {
-        throw Refusal{fmt::format("LT: {} is none of the line types -8 to 8", type)};
+        return run.refuse(fmt::format("LT: {} is none of the line types -8 to 8", type));
     }
     const auto index = static_cast<int>(type);
     if (index == 0) {
@@ -167,8 +172,8 @@ void line_type(Run& run, const Given& given) {
     constexpr double least_mm = 0.1; // no pen and no tool makes finer dashes
     if (!(length * run.settings.unit.x >= least_mm)) {
         run.pen.line.set_solid();
-        throw Refusal{fmt::format("LT: a pattern of {:.4g} mm is too fine to be cut; lines are solid",
-                                  length * run.settings.unit.x)};
+        return run.refuse(fmt::format("LT: a pattern of {:.4g} mm is too fine to be cut; lines are solid",
+                                      length * run.settings.unit.x));
     }
     const Pattern& pattern = run.modes.patterns[static_cast<std::size_t>(std::abs(index) - 1)];
     if (index > 0) {
@@ -185,7 +190,7 @@ void user_line_type(Run& run, const Given& given) {
     }
     const double index = std::abs(given[0]);
     if (!(index >= 1.0 && index <= static_cast<double>(run.modes.patterns.size()))) {
-        throw Refusal{fmt::format("UL: {} is none of the line types 1 to 8", given[0])};
+        return run.refuse(fmt::format("UL: {} is none of the line types 1 to 8", given[0]));
     }
     const auto n = static_cast<std::size_t>(index) - 1;
     if (given.count() == 1) {
@@ -196,13 +201,13 @@ void user_line_type(Run& run, const Given& given) {
     double sum = 0.0;
     for (const double part : given.numbers.subspan(1)) {
         if (part < 0.0) {
-            throw Refusal{fmt::format("UL: a part of {} percent", part)};
+            return run.refuse(fmt::format("UL: a part of {} percent", part));
         }
         pattern.push_back(part);
         sum += part;
     }
     if (!(sum > 0.0)) {
-        throw Refusal{"UL: a pattern without length"};
+        return run.refuse("UL: a pattern without length");
     }
     run.modes.patterns[n] = pattern;
 }
@@ -210,7 +215,9 @@ void user_line_type(Run& run, const Given& given) {
 namespace {
 
 void tick(Run& run, const Vec2& across) {
-    run.refuse_if_lost();
+    if (run.refuses_if_lost()) {
+        return;
+    }
     const Vec2 at = run.pen.at();
     const Vec2 reach = run.units.turned(across);
     run.pen.place(at - run.modes.ticks.negative * reach);
