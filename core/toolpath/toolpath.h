@@ -1,7 +1,8 @@
 // From a grid to the poses of the cutter on the part, and from there to what the machine really does:
-// strategies (zigzag), the branch of every pose (sequencing), the actual trajectory between poses, the error
-// field, the machine's singular points on the surface. The tool is a point at the end of an axis along the
-// surface normal (Parasilmongkol 1997, ch. 3), so the cutter location is the cutter contact point.
+// strategies (zigzag), the cutter and how it leans, the branch of every pose (sequencing), the actual
+// trajectory between poses, the error field, the machine's singular points on the surface. Without a cutter
+// the tool is a point at the end of an axis along the surface normal (Parasilmongkol 1997, ch. 3), so that
+// the cutter location is the cutter contact point.
 #pragma once
 
 #include "core/geometry/tool_pose.h"
@@ -28,6 +29,8 @@ struct PathPoint {
     geometry::ToolPose pose;
     MoveKind reached_by = MoveKind::track;
     GridOrigin origin;
+    Vec3 contact = Vec3::Zero(); ///< where the tool touches the surface
+    Vec3 normal = Vec3::UnitZ(); ///< of the surface there, unit, on the side of the tool
 };
 
 struct Toolpath {

@@ -48,6 +48,8 @@ Toolpath zigzag(const geometry::BezierPatch& patch,
             const Vec2& uv = grid.track_node(direction, track, node);
             PathPoint point;
             point.pose = pose_at(patch, uv, flipped);
+            point.contact = point.pose.tip;
+            point.normal = point.pose.axis;
             point.reached_by = step > 0 ? MoveKind::track : track > 0 ? MoveKind::cross : MoveKind::start;
             const bool along_v = direction == grid::TrackDirection::along_v;
             point.origin = {along_v ? track : node, along_v ? node : track, uv};
