@@ -1,6 +1,7 @@
 #include "app/commands/cordic_programs.h"
 
 #include "app/commands/cordic_source.h"
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/cordic/disassembler.h"
 #include "core/cordic/microprogram.h"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -31,6 +33,9 @@ int show_microprogram(const Options& options) {
 }
 
 int assemble(const Options& options) {
+    if (std::filesystem::path(options.source.file).extension() == ".bin") {
+        throw Error("is an image already", options.source.file, "millwright cordic disasm prints its text");
+    }
     const gcode::CordicProgram program = cordic_program(options.source, options.arithmetic);
     const auto bytes = cordic::to_bytes(program.image);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -44,10 +49,13 @@ int disassemble(const Options& options) {
     return 0;
 }
 
-CLI::App&
-add_file(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+CLI::App& add_file(CLI::App& group,
+                   const char* name,
+                   const char* text,
+                   const std::shared_ptr<Options>& options,
+                   const char* kinds) {
     CLI::App& command = *group.add_subcommand(name, text);
-    add_cordic_source(command, options->source);
+    add_cordic_source(command, options->source, kinds);
     add_cordic_arithmetic(command, options->arithmetic);
     return command;
 }
@@ -56,10 +64,15 @@ add_file(CLI::App& group, const char* name, const char* text, const std::shared_
 
 void add_cordic_programs(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<Options>();
-    CLI::App& assembling = add_file(group, "asm", "Make the image of a program", options);
+    CLI::App& assembling =
+        add_file(group, "asm", "Make the image of a program", options, "G-code or assembler text (.asm)");
     assembling.add_option("--out", options->out, "Image file (.bin)")->required()->type_name("FILE");
     assembling.callback([&chosen, options] { chosen = [options] { return assemble(*options); }; });
-    CLI::App& showing = add_file(group, "disasm", "Print a program as assembler text", options);
+    CLI::App& showing = add_file(group,
+                                 "disasm",
+                                 "Print a program as assembler text",
+                                 options,
+                                 "Image (.bin), G-code or assembler text (.asm)");
     showing.callback([&chosen, options] { chosen = [options] { return disassemble(*options); }; });
     CLI::App& micro = *group.add_subcommand("microprogram", "Print the processor's microprogram");
     micro.add_flag("--over-bus", options->over_bus, "With set-points byte by byte over the bus");

@@ -1,8 +1,11 @@
 #include "app/commands/cordic_remarks.h"
 
+#include "core/base/units.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -41,6 +44,19 @@ std::optional<std::string> idle_remark(const cordic::Processor& processor,
     return fmt::format("motions lead to where the axes are already, the first one at {}", place);
 }
 
+/// Two passes leave up to the angle of the last step each; what is more comes from the word.
+std::string cause_of_speed_error(const cordic::Processor& processor, double error) {
+    const cordic::Sequence& sequence = processor.settings().sequence;
+    const int last = sequence.shifts[static_cast<std::size_t>(sequence.step_count - 1)];
+    const double left = 2.0 * std::atan(std::ldexp(1.0, -last));
+    if (left >= 0.5 * error) {
+        return fmt::format("{} iterations turn its direction by up to {:.2g} degrees beside",
+                           sequence.step_count,
+                           to_degrees(left));
+    }
+    return fmt::format("{} has too few bits for it", cordic::to_text(processor.format()));
+}
+
 } // namespace
 
 std::vector<std::string> remarks_on(const cordic::Processor& processor,
@@ -58,10 +74,9 @@ std::vector<std::string> remarks_on(const cordic::Processor& processor,
             "and what follows leads straight back");
     }
     if (of_gcode && report.speed_error > much) {
-        remarks.push_back(
-            fmt::format("the speed is up to {:.0f} % beside the feed: {} has too few bits for it",
-                        100.0 * report.speed_error,
-                        cordic::to_text(processor.format())));
+        remarks.push_back(fmt::format("the speed is up to {:.0f} % beside the feed: {}",
+                                      100.0 * report.speed_error,
+                                      cause_of_speed_error(processor, report.speed_error)));
     }
     return remarks;
 }

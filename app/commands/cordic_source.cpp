@@ -75,7 +75,7 @@ gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic
     settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
     settings.lets_arcs_drift = source.whole_arcs;
     settings.rapid_speed = from_mm_per_min(source.rapid_mm_per_min);
-    settings.acceleration = source.acceleration.value_or(usual_acceleration);
+    settings.acceleration = source.acceleration.value_or(settings.acceleration);
     settings.leaves_out_other_axes = source.other_axes;
     gcode::CordicProgramBuilder builder(source.file, settings);
     gcode::ReaderSettings reading;
@@ -170,25 +170,28 @@ bool is_of_microprogram(cordic::Stop stop) {
 
 } // namespace
 
-void add_cordic_source(CLI::App& command, CordicSource& source) {
-    command.add_option("FILE", source.file, "G-code, assembler text (.asm) or image (.bin)")->required();
+void add_cordic_source(CLI::App& command, CordicSource& source, const char* kinds) {
+    command.add_option("FILE", source.file, kinds)->required();
     command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q12.20")
         ->default_str("f32");
     source.of_gcode = {
-        command.add_option("--tolerance", source.tolerance, "Farthest that the path may be from its arc, mm")
+        command
+            .add_option(
+                "--tolerance", source.tolerance, "G-code: farthest that the path may be from its arc, mm")
             ->check(CLI::Range(1e-9, 1e3))
             ->capture_default_str(),
-        command.add_option("--rapid", source.rapid_mm_per_min, "Speed of G0, mm/min")
+        command.add_option("--rapid", source.rapid_mm_per_min, "G-code: speed of G0, mm/min")
             ->check(CLI::Range(1e-3, 1e7))
             ->capture_default_str(),
-        command.add_flag("--thesis-arcs", source.thesis_arcs, "End arcs where their rotations lead"),
+        command.add_flag("--thesis-arcs", source.thesis_arcs, "G-code: end arcs where their rotations lead"),
         command.add_flag("--whole-arcs",
                          source.whole_arcs,
-                         "Do not divide arcs, however far rounding leads them from the tolerance"),
-        command.add_flag("--other-axes", source.other_axes, "Leave out what other axes than X, Y and Z do")};
-    command.add_option("--acceleration", source.acceleration, "Amax of G-code, mm/s2")
+                         "G-code: do not divide arcs, however far rounding leads them from the tolerance"),
+        command.add_flag(
+            "--other-axes", source.other_axes, "G-code: leave out what other axes than X, Y and Z do")};
+    command.add_option("--acceleration", source.acceleration, "G-code: Amax, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
-        ->default_str(fmt::format("{}", usual_acceleration));
+        ->default_str(fmt::format("{}", gcode::CordicProgramSettings().acceleration));
 }
 
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {

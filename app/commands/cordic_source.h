@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/cordic/processor.h"
 #include "core/gcode/reader/cordic_program.h"
 
@@ -13,14 +14,12 @@
 
 namespace millwright::app {
 
-inline constexpr double usual_acceleration = 500.0; // mm/s2
-
 struct CordicSource {
     std::string file;                  ///< G-code, assembler text (.asm) or image (.bin)
     std::optional<std::string> format; ///< of an image: its own; else f32
-    double tolerance = 0.001;
-    double rapid_mm_per_min = 3000.0;
-    std::optional<double> acceleration; ///< Amax; of G-code without it usual_acceleration
+    double tolerance = gcode::usual_chord_tolerance;
+    double rapid_mm_per_min = to_mm_per_min(gcode::CordicProgramSettings().rapid_speed);
+    std::optional<double> acceleration; ///< Amax; of G-code without it that of CordicProgramSettings
     bool thesis_arcs = false;
     bool whole_arcs = false;
     bool other_axes = false;
@@ -44,7 +43,10 @@ struct CordicChoice {
     bool over_bus = false;
 };
 
-void add_cordic_source(CLI::App& command, CordicSource& source);
+/// `kinds` says what FILE may be.
+void add_cordic_source(CLI::App& command,
+                       CordicSource& source,
+                       const char* kinds = "G-code, assembler text (.asm) or image (.bin)");
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic);
 void add_cordic_choice(CLI::App& command, CordicChoice& choice); ///< the arithmetic among it
 void add_cordic_clock(CLI::App& command, double& clock_hz);

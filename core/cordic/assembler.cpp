@@ -198,9 +198,18 @@ private:
     void read_mov(int mov_column) {
         const auto target = read_register(true);
         const auto immediate = target ? immediate_of(*target, words_[at_]) : std::nullopt;
-        if (immediate) {
+        if (!immediate) {
+            return;
+        }
+        const Instruction instruction{Opcode::mov, *target, *immediate};
+        if (is_possible(instruction, result_.image.format)) {
             ++at_;
-            add({Opcode::mov, *target, *immediate}, mov_column);
+            add(instruction, mov_column);
+        } else if (is_limit(*target)) {
+            fail(column(), fmt::format("{} must be above 0", to_text(*target)));
+        } else {
+            fail(column(),
+                 fmt::format("\"{}\" is no number in {}", words_[at_].text, to_text(result_.image.format)));
         }
     }
     /// LD or ST of a register at an address.
@@ -212,12 +221,17 @@ private:
         }
         const Instruction instruction{opcode, *target, *address};
         if (!is_possible(instruction, result_.image.format)) {
+            const int size = immediate_bytes(result_.image.format);
+            const bool crosses = crosses_memories(static_cast<std::uint16_t>(*address), size) &&
+                                 (opcode == Opcode::ld || *address >= ram_begin);
             fail(column(),
-                 fmt::format("{} bytes at \"{}\" are not all {}",
-                             immediate_bytes(result_.image.format),
+                 fmt::format("{} bytes at \"{}\" {}",
+                             size,
                              words_[at_].text,
-                             opcode == Opcode::ld ? "on the bus"
-                                                  : "in the RAM or the motion controller's port"));
+                             crosses ? "lie across the border between two memories"
+                             : opcode == Opcode::ld
+                                 ? "are not all on the bus"
+                                 : "are not all in the RAM or the motion controller's port"));
             return;
         }
         ++at_;

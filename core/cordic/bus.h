@@ -31,6 +31,13 @@ enum class Device : std::uint8_t { rom, ram, port };
     return address < port_begin ? Device::ram : Device::port;
 }
 
+/// Whether `size` bytes from `address` on begin in one device and end in another; those behind the last
+/// address are in none.
+[[nodiscard]] constexpr bool crosses_memories(std::uint16_t address, int size) {
+    const std::uint32_t last = address + static_cast<std::uint32_t>(size) - 1;
+    return last <= last_address && device_at(address) != device_at(static_cast<std::uint16_t>(last));
+}
+
 /// What lies behind the bus. The RAM's other port is the host's: it reads and writes `ram` between clocks.
 struct Memory {
     std::vector<std::uint8_t> rom = std::vector<std::uint8_t>(ram_begin, 0xff); ///< whole pages

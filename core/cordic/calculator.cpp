@@ -43,6 +43,17 @@ entered(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal&
     return number;
 }
 
+/// A vector that the format takes for nothing is not turned in silence; one part of it may vanish.
+void refuse_vanished(const NumberFormat& format, const Decimal& x, const Decimal& y, bool is_held) {
+    const long double wanted_x = x.nearest_long_double();
+    const long double wanted_y = y.nearest_long_double();
+    if (!is_held && (std::abs(wanted_x) > 0.0L || std::abs(wanted_y) > 0.0L)) {
+        throw Error(fmt::format("({:g}, {:g}) is less than {} can tell", wanted_x, wanted_y, to_text(format)),
+                    {},
+                    "choose a number format with more bits behind the point");
+    }
+}
+
 /// With all bits of a fixed-point word.
 template <class Arithmetic>
 long double exactly(const Arithmetic& arithmetic, typename Arithmetic::Number number) {
@@ -94,18 +105,20 @@ Rotated rotate(const NumberFormat& format,
         const Kernel kernel(arithmetic, sequence);
         auto from_x = entered(arithmetic, format, x);
         auto from_y = entered(arithmetic, format, y);
+        refuse_vanished(format, x, y, kernel.reach_of_vectoring(from_x, from_y) != Reach::zero_vector);
         const auto turn = turn_of(arithmetic, format, angle_deg);
         bool overflow = false;
         quarter_turn(arithmetic, from_x, from_y, turn.quarter_turns, overflow);
         const auto turned = kernel.rotated({from_x, from_y, turn.rest}, overflow);
         refuse(overflow, format);
-        Rotated answer{
-            arithmetic.to_double(turned.x),
-            arithmetic.to_double(turned.y),
-            arithmetic.to_double(turned.z),
-            0.0,
-            sequence.clock_count(),
-            {arithmetic.to_word(turned.x), arithmetic.to_word(turned.y), arithmetic.to_word(turned.z)}};
+        Rotated answer{arithmetic.to_double(turned.x),
+                       arithmetic.to_double(turned.y),
+                       arithmetic.to_double(turned.z),
+                       0.0,
+                       sequence.clock_count(),
+                       {lowest_bits(arithmetic.to_word(turned.x), format.word()),
+                        lowest_bits(arithmetic.to_word(turned.y), format.word()),
+                        lowest_bits(arithmetic.to_word(turned.z), format.word())}};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
         long double exact_x = x.nearest_long_double();
@@ -149,6 +162,8 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
         refuse(overflow, format);
         answer.angle_deg =
             to_degrees(arithmetic.to_double(found.z)) + right_angle_deg * quarter_turns_of(folded);
+        answer.angle_deg -= answer.angle_deg > 180.0 ? 360.0 : 0.0;
+        answer.angle_deg += answer.angle_deg < -180.0 ? 360.0 : 0.0;
         answer.length_error = std::abs(answer.length - std::hypot(x, y));
         answer.angle_error_deg =
             std::abs(std::remainder(answer.angle_deg - to_degrees(std::atan2(y, x)), 360.0));

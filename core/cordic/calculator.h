@@ -22,7 +22,7 @@ struct Rotated {
 
 /// (x, y) turned counter-clockwise by any angle: quarter turns exactly, the rest by `sequence`, which is
 /// circular. In fixed point the nearest numbers of the format to what is written are turned. Throws Error if
-/// a value does not fit the format.
+/// a value does not fit the format, or if all of the vector is 0 there and was not.
 [[nodiscard]] Rotated rotate(const NumberFormat& format,
                              const Sequence& sequence,
                              const Decimal& x,
@@ -37,7 +37,7 @@ struct Polar {
     int clocks = 0;
 };
 
-/// Length and direction of (x, y). Throws Error for (0, 0), and if a value does not fit the format.
+/// Length and direction of (x, y). Throws Error for (0, 0), and for values as rotate().
 [[nodiscard]] Polar
 polar(const NumberFormat& format, const Sequence& sequence, const Decimal& x, const Decimal& y);
 

@@ -1,6 +1,7 @@
 #include "core/cordic/chord_turner.h"
 
 #include "core/cordic/angles.h"
+#include "core/cordic/internal/space_line.h"
 #include "core/cordic/interpolation.h"
 
 #include <type_traits>
@@ -30,6 +31,32 @@ std::optional<PlaceWords> ChordTurner::next(const ArcWords& arc, const PlaceWord
             return PlaceWords{arithmetic.to_word(end.x), arithmetic.to_word(end.y), arithmetic.to_word(z)};
         },
         kernel_);
+}
+
+bool ChordTurner::reaches(const PlaceWords& from, const PlaceWords& to) const {
+    ProcessorState state;
+    register_of(state, Register::X0) = from.x;
+    register_of(state, Register::Y0) = from.y;
+    register_of(state, Register::Z0) = from.z;
+    state.path.xe = to.x;
+    state.path.ye = to.y;
+    state.path.ze = to.z;
+    std::visit(
+        [&](const auto& kernel) {
+            const auto& arithmetic = kernel.arithmetic();
+            bool overflow = false; // is another reason, which the processor tells
+            internal::fold_space(kernel, state, overflow);
+            const auto plane = kernel.vectored({arithmetic.from_word(state.path.x),
+                                                arithmetic.from_word(state.path.y),
+                                                arithmetic.from_word(state.path.z)},
+                                               overflow);
+            state.path.x = arithmetic.to_word(plane.x);
+            if (from.z != to.z) {
+                internal::fold_rise(kernel, state);
+            }
+        },
+        kernel_);
+    return state.stop != Stop::out_of_reach;
 }
 
 double ChordTurner::turned(Word dz) const {

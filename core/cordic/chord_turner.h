@@ -33,6 +33,10 @@ public:
     /// fit, or dz is beyond the convergence range.
     [[nodiscard]] std::optional<PlaceWords> next(const ArcWords& arc, const PlaceWords& from) const;
 
+    /// Whether the steps turn the line from one place to the other to the x axis, and its slope; where they
+    /// do not, the processor would stop.
+    [[nodiscard]] bool reaches(const PlaceWords& from, const PlaceWords& to) const;
+
     /// The angle, rad, that the steps turn by when asked for dz, which is within the convergence range.
     [[nodiscard]] double turned(Word dz) const;
 

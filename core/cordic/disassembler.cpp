@@ -25,10 +25,7 @@ std::string immediate_text(const Instruction& instruction, const NumberFormat& f
     }
     return with_arithmetic(format, [&](const auto& arithmetic) {
         bool overflow = false;
-        const auto number = arithmetic.from_word(from_immediate(format, instruction.immediate), overflow);
-        if (overflow) {
-            return bits;
-        }
+        const auto number = arithmetic.from_word(from_immediate(format, instruction.immediate));
         const double value = arithmetic.to_double(number);
         const std::string text = format.kind == NumberKind::binary32
                                      ? fmt::format("{}", static_cast<float>(value))

@@ -93,15 +93,32 @@ int operand_bytes(Opcode opcode, const NumberFormat& format) {
     }
 }
 
+namespace {
+
+bool is_number_for(const Instruction& mov, const NumberFormat& format) {
+    return with_arithmetic(format, [&](const auto& arithmetic) {
+        bool overflow = false;
+        const double value =
+            arithmetic.to_double(arithmetic.from_word(from_immediate(format, mov.immediate), overflow));
+        return !overflow && (!is_limit(mov.target) || value > 0.0);
+    });
+}
+
+} // namespace
+
 bool is_possible(const Instruction& instruction, const NumberFormat& format) {
     const Word last = instruction.immediate + static_cast<Word>(immediate_bytes(format)) - 1;
+    const bool in_one =
+        last <= last_address &&
+        !crosses_memories(static_cast<std::uint16_t>(instruction.immediate), immediate_bytes(format));
     switch (instruction.opcode) {
     case Opcode::mov:
-        return !is_whole(instruction.target) || instruction.immediate <= most_of(instruction.target);
+        return is_whole(instruction.target) ? instruction.immediate <= most_of(instruction.target)
+                                            : is_number_for(instruction, format);
     case Opcode::ld:
-        return last <= last_address;
+        return in_one;
     case Opcode::st:
-        return last <= last_address && instruction.immediate >= ram_begin;
+        return in_one && instruction.immediate >= ram_begin;
     default:
         return true;
     }

@@ -49,6 +49,10 @@ inline constexpr int loaded_register_count = 16; ///< those that Mov can load
 [[nodiscard]] constexpr bool is_whole(Register name) {
     return name == Register::N || name == Register::PC || name == Register::P;
 }
+/// Whether a motion needs it above 0.
+[[nodiscard]] constexpr bool is_limit(Register name) {
+    return name == Register::Vmax || name == Register::Amax;
+}
 /// The greatest number of a register of whole numbers.
 [[nodiscard]] constexpr Word most_of(Register name) {
     return name == Register::PC ? 0xffffU : 0xffffffffU;
@@ -139,8 +143,8 @@ inline constexpr int command_bytes = 5; ///< opcode and P, as they go over the b
 /// Bytes behind the opcode.
 [[nodiscard]] int operand_bytes(Opcode opcode, const NumberFormat& format);
 
-/// Whether the processor can do what it says: a whole number fits its register, and all bytes of an address
-/// are there, of St outside of the ROM.
+/// Whether the processor can do what it says: the bits of Mov are a number of the register, of Vmax and Amax
+/// above 0, and all bytes of an address are there in one memory, of St outside of the ROM.
 [[nodiscard]] bool is_possible(const Instruction& instruction, const NumberFormat& format);
 
 /// At most 8 bytes, lowest first.

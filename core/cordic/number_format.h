@@ -64,4 +64,9 @@ fixed_format(int integer_bits, int fraction_bits, Rounding rounding = Rounding::
 /// One unit in the last place of a number of size 1.
 [[nodiscard]] double resolution(const NumberFormat& format);
 
+/// The word as `bits` bits hold it: shorter words are computed with copies of their sign in front.
+[[nodiscard]] constexpr std::uint64_t lowest_bits(std::uint64_t word, int bits) {
+    return bits < 64 ? word & ((std::uint64_t{1} << bits) - 1) : word;
+}
+
 } // namespace millwright::cordic

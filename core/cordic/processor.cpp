@@ -257,6 +257,9 @@ void Processor::move_data(ControlSignals controls) {
     }
     if (has(controls, Control::take_address)) {
         state_.data_address = static_cast<std::uint32_t>(state_.temporary & 0xffffU);
+        if (crosses_memories(static_cast<std::uint16_t>(state_.data_address), immediate_bytes(format_))) {
+            stop(state_, Stop::across_memories);
+        }
         state_.temporary = 0;
         state_.bytes_moved = 0;
     }
@@ -338,7 +341,9 @@ void Processor::store_number(Register target) {
         },
         kernel_);
     if (overflow) {
-        stop(state_, Stop::overflow);
+        stop(state_, format_.kind == NumberKind::fixed ? Stop::overflow : Stop::no_number);
+    } else if (is_limit(target) && !(number(reg(target)) > 0.0)) {
+        stop(state_, Stop::no_speed);
     }
     if (target == Register::Z0) {
         state_.path.ze = reg(target);

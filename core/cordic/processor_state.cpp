@@ -10,6 +10,12 @@ std::string_view to_text(Stop stop) {
         return "halted at the end of the program";
     case Stop::overflow:
         return "a number did not fit the word";
+    case Stop::no_number:
+        return "bits that are no number: NaN or infinity";
+    case Stop::no_speed:
+        return "Vmax and Amax of a motion must be above 0";
+    case Stop::across_memories:
+        return "an LD or ST across the border between two memories";
     case Stop::illegal_instruction:
         return "an opcode that the processor does not know";
     case Stop::stack_overflow:

@@ -30,6 +30,8 @@ enum class Stop : std::uint8_t {
     none,                ///< it runs
     halted,              ///< HLT
     overflow,            ///< a number did not fit the word
+    no_number,           ///< MOV or LD of bits that are none: NaN, infinity
+    no_speed,            ///< Vmax or Amax is not above 0
     illegal_instruction, ///< an opcode that the mapping ROM does not know
     stack_overflow,      ///< of the microprogram
     stack_underflow,
@@ -37,10 +39,11 @@ enum class Stop : std::uint8_t {
     too_many_bytes,   ///< a microprogram moves more than there are
     too_many_steps,   ///< more than the sequence has
     rom_write,
-    beyond_bus,     ///< an address behind the last one
-    no_page,        ///< PAGE behind the last page of the program ROM
-    arc_too_coarse, ///< |Dz| beyond the convergence range, or no chord at all
-    out_of_reach,   ///< a direction that the steps cannot turn to the x axis
+    across_memories, ///< LD or ST that begins in one and ends in another
+    beyond_bus,      ///< an address behind the last one
+    no_page,         ///< PAGE behind the last page of the program ROM
+    arc_too_coarse,  ///< |Dz| beyond the convergence range, or no chord at all
+    out_of_reach,    ///< a direction that the steps cannot turn to the x axis
 };
 
 /// A sentence for people.

@@ -71,6 +71,21 @@ void find_late(RunReport& report, const Processor& processor, double clock_hz, P
     report.fastest = published.size() > 1 ? std::optional(fastest) : std::nullopt;
 }
 
+const char* hint_for(Stop stop) {
+    switch (stop) {
+    case Stop::overflow:
+        return "choose a number format with more bits before the point";
+    case Stop::no_number:
+        return "write numbers of the program's format where it reads them";
+    case Stop::no_speed:
+        return "load both in front of it";
+    case Stop::out_of_reach:
+        return "take 4 iterations or more";
+    default:
+        return "";
+    }
+}
+
 } // namespace
 
 std::vector<PathDifference> path_differences(const Processor& processor, std::span<const ExactPoint> exact) {
@@ -109,8 +124,7 @@ Diagnostic stop_diagnostic(const ProcessorState& state,
             .message = fmt::format("the processor stopped in the instruction at {:#06x}: {}",
                                    state.instruction_at,
                                    to_text(state.stop)),
-            .hint =
-                state.stop == Stop::overflow ? "choose a number format with more bits before the point" : ""};
+            .hint = hint_for(state.stop)};
 }
 
 } // namespace millwright::cordic

@@ -13,7 +13,9 @@
 namespace millwright::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string arc = "assets/samples/thesis-arc.ngc";
 
@@ -187,10 +189,59 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
     ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
     EXPECT_EQ(warnings({image}), "[]");
     const std::string loop =
-        written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  G01\n  G01\nHLT\n");
-    EXPECT_THAT(warnings({loop}), HasSubstr("where the axes are already, the first one at line 5, column 3"));
+        written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  MOV Amax, 1\n  G01\n  G01\nHLT\n");
+    EXPECT_THAT(warnings({loop}), HasSubstr("where the axes are already, the first one at line 6, column 3"));
     const std::string slow = written("slow.ngc", "G21 G90\nF1\nG1 X10 Y7\nM2\n");
-    EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}), HasSubstr("beside the feed"));
+    EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}),
+                HasSubstr("q10.6 has too few bits for it"));
+    const std::string line = written("line.ngc", "G21 G90\nF60\nG1 X10 Y7\nM2\n");
+    EXPECT_THAT(warnings({line, "--iterations", "4"}),
+                AllOf(HasSubstr("4 iterations turn its direction by up to 14 degrees beside"),
+                      Not(HasSubstr("too few bits"))));
+}
+
+TEST_F(CordicOptions, RefuseDirectionsThatSoFewIterationsDoNotReachBeforeAnythingRuns) {
+    const std::string file = written("back.ngc", "G21 F60\nG1 X10\nG1 X-50\nM2\n");
+    const Ended ended = run({"cordic", "run", file, "--iterations", "2"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, HasSubstr("back.ngc:3:1: a line in a direction that 2 iterations do not reach"));
+}
+
+TEST_F(CordicOptions, SayThatASpeedIsMissingOrNegativeWhereItIsRead) {
+    const auto fault_of = [&](const std::string& text) {
+        const Ended ended = run({"cordic", "run", written("speed.asm", text)});
+        EXPECT_EQ(ended.exit_code, 1) << text;
+        return ended.err;
+    };
+    EXPECT_THAT(fault_of("MOV Vmax, -5\nMOV Amax, 1\nMOV XI, 1\nG01\nHLT\n"),
+                HasSubstr("speed.asm:1:11: Vmax must be above 0"));
+    EXPECT_THAT(fault_of("MOV Vmax, 0\nHLT\n"), HasSubstr("speed.asm:1:11: Vmax must be above 0"));
+    EXPECT_THAT(fault_of("MOV Amax, 1\nMOV XI, 1\n  G01\nHLT\n"),
+                AllOf(HasSubstr("speed.asm:3:3: the processor stopped"),
+                      HasSubstr("Vmax and Amax of a motion must be above 0")));
+    // From memory, which the assembler does not know: the host has left nothing there, 0xffffffff.
+    EXPECT_THAT(fault_of("LD Vmax, 0x8000\nHLT\n"),
+                AllOf(HasSubstr("speed.asm:1:1: the processor stopped"), HasSubstr("NaN or infinity")));
+}
+
+TEST_F(CordicOptions, SayThatAVectorIsBelowWhatTheFormatCanTell) {
+    const Ended ended = run({"cordic", "rotate", "1e-9", "0", "30", "--format", "q2.22"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("(1e-09, 0) is less than q2.22 can tell"));
+    const Ended turned = run({"cordic", "rotate", "-0.5", "0", "0", "--format", "q2.22", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(turned.out).at("words").at(0).get<std::string>().size(), 8U)
+        << "0x, 24 bits";
+}
+
+TEST_F(CordicOptions, AreForTheKindOfFileThatTheyAreFor) {
+    const std::string image = path("arc.bin");
+    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
+    const Ended again = run({"cordic", "asm", image, "--out", path("again.bin")});
+    EXPECT_EQ(again.exit_code, 1);
+    EXPECT_THAT(again.err, HasSubstr("is an image already"));
+    EXPECT_THAT(run({"cordic", "asm", "--help"}).out,
+                AllOf(HasSubstr("G-code or assembler text (.asm)"), HasSubstr("G-code: speed of G0")));
 }
 
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
@@ -258,10 +309,10 @@ TEST_F(CordicOptions, SayThatThereIsNothingInAProgramOfNoInstruction) {
 }
 
 TEST_F(CordicOptions, WarnWithThePlaceOfMotionsThatLeadNowhere) {
-    const std::string twice = written("twice.asm", "MOV XI, 1\nMOV Vmax, 1\nG01\n  G01\nHLT\n");
+    const std::string twice = written("twice.asm", "MOV XI, 1\nMOV Vmax, 1\nMOV Amax, 1\nG01\n  G01\nHLT\n");
     const Ended made = run({"cordic", "asm", twice, "--out", path("twice.bin")});
     EXPECT_EQ(made.exit_code, 0);
-    EXPECT_THAT(made.err, HasSubstr("twice.asm:4:3: a move without length"));
+    EXPECT_THAT(made.err, HasSubstr("twice.asm:5:3: a move without length"));
     const Ended vanished = run(
         {"cordic", "asm", written("dz.asm", "MOV Dz, 1e-9\n"), "--format", "q8.24", "--out", path("dz.bin")});
     EXPECT_EQ(vanished.exit_code, 1);

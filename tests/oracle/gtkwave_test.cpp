@@ -17,8 +17,10 @@ using namespace cordic;
 
 /// An arc, as waves.
 std::string waves_of_an_arc(const NumberFormat& format) {
-    const Assembled made = assemble(
-        "mov X0, 1\nmov Vmax, 1\nmov Dz, 0.25\nmov N, 3\nG03\nmov P, 117\nMUSER\nhlt\n", "arc.asm", format);
+    const Assembled made =
+        assemble("mov X0, 1\nmov Vmax, 1\nmov Amax, 1\nmov Dz, 0.25\nmov N, 3\nG03\nmov P, 117\nMUSER\nhlt\n",
+                 "arc.asm",
+                 format);
     EXPECT_TRUE(made.errors.empty());
     Processor processor({.publishing = Publishing::bus}, made.image);
     VcdWriter writer(format, 8e6);

@@ -117,6 +117,9 @@ private:
     }
     void load_speed() {
         const Number a = number(Register::Amax);
+        if (!(number(Register::Vmax) > Number{} && a > Number{})) {
+            stop(state_, Stop::no_speed);
+        }
         path_.x = register_of(state_, Register::Vmax);
         path_.y = zero();
         path_.x2 = word(settings_.halves_acceleration ? arithmetic().shifted(a, 1) : a);

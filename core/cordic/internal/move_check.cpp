@@ -12,16 +12,16 @@ std::string_view MoveCheck::idle(const Instruction& next) {
         break;
     case Opcode::g00:
     case Opcode::g01:
-        return line(false);
+        return with_speed(line(false));
     case Opcode::g00z:
     case Opcode::g01z:
-        return line(true);
+        return with_speed(line(true));
     case Opcode::g02:
     case Opcode::g03:
-        return arc(false);
+        return with_speed(arc(false));
     case Opcode::g02z:
     case Opcode::g03z:
-        return arc(true);
+        return with_speed(arc(true));
     default:
         return {};
     }
@@ -29,6 +29,11 @@ std::string_view MoveCheck::idle(const Instruction& next) {
         forget(); // a jump
     }
     return {};
+}
+
+std::string_view MoveCheck::with_speed(std::string_view found) {
+    const bool missing = is_zero(Register::Vmax) || is_zero(Register::Amax);
+    return found.empty() && missing ? "a motion without Vmax or Amax: the processor will stop" : found;
 }
 
 std::string_view MoveCheck::line(bool in_space) {

@@ -1,5 +1,5 @@
-// Motions of a program that lead nowhere, found by following its loads from instruction to instruction. Where
-// another way may lead in - a label, a jump, bytes - nothing is known any more.
+// Motions of a program that lead nowhere or have no speed, found by following its loads from instruction to
+// instruction. Where another way may lead in - a label, a jump, bytes - nothing is known any more.
 #pragma once
 
 #include "core/cordic/instruction.h"
@@ -16,13 +16,14 @@ public:
     MoveCheck() { known_.fill(Word{0}); }
 
     void forget() { known_.fill(std::nullopt); }
-    /// The next instruction: why its motion leads nowhere; empty if it does, or may.
+    /// The next instruction: why its motion leads nowhere or is none; empty if it does, or may.
     [[nodiscard]] std::string_view idle(const Instruction& next);
 
 private:
     [[nodiscard]] std::optional<Word>& at(Register name) { return known_[static_cast<std::size_t>(name)]; }
     [[nodiscard]] bool are_equal(Register a, Register b) { return at(a) && at(a) == at(b); }
     [[nodiscard]] bool is_zero(Register name) { return at(name) == Word{0}; }
+    [[nodiscard]] std::string_view with_speed(std::string_view found);
     [[nodiscard]] std::string_view line(bool in_space);
     [[nodiscard]] std::string_view arc(bool rises);
 

@@ -29,11 +29,13 @@ enum class ArcEnd : std::uint8_t {
     rotated     ///< where all the rotations lead, as in the thesis
 };
 
+inline constexpr double usual_chord_tolerance = 0.001; // mm
+
 struct CordicProgramSettings {
     cordic::NumberFormat format = cordic::binary32;
     /// That the program is made for: arcs are divided as its rotations come out.
     cordic::ProcessorSettings processor;
-    double chord_tolerance = 0.001; ///< mm: of chords from their arcs, rounding included
+    double chord_tolerance = usual_chord_tolerance; ///< mm: of chords from their arcs, rounding included
     ArcEnd arc_end = ArcEnd::programmed;
     /// Arcs stay whole however far rounding leads their rotations astray, to look at that; else they are
     /// divided or, where they end as rotated, a fault.

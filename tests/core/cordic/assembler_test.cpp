@@ -85,6 +85,12 @@ TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
              Wrong{"mov XI, +-1", 1, 9, "\"+-1\" is no number"},
              Wrong{"ld Vz, 0x8000", 1, 4, "Vz is computed and cannot be loaded"},
              Wrong{"ld XI, 70000", 1, 8, "\"70000\" is no address from 0 to 65535"},
+             Wrong{"mov XI, 0x7fc00000", 1, 9, "\"0x7fc00000\" is no number in f32"},
+             Wrong{".format q8.8\nmov XI, 0x8000", 2, 9, "\"0x8000\" is no number in q8.8"},
+             Wrong{"mov Vmax, -5", 1, 11, "Vmax must be above 0"},
+             Wrong{"mov Amax, 0", 1, 11, "Amax must be above 0"},
+             Wrong{"ld XI, 0xbffe", 1, 8, "4 bytes at \"0xbffe\" lie across the border between two memories"},
+             Wrong{"st XI, 0xbffd", 1, 8, "lie across the border between two memories"},
              Wrong{"ld XI, 0xfffd", 1, 8, "4 bytes at \"0xfffd\" are not all on the bus"},
              Wrong{"st XI, 0x7fff", 1, 8, "are not all in the RAM or the motion controller's port"},
              Wrong{"a: st XI, a", 1, 11, "\"a\" is no address"},
@@ -173,14 +179,14 @@ TEST(Assembler, RefusesNumbersThatTheFormatTakesForNone) {
     EXPECT_THAT(made.errors[0].message, HasSubstr("-1e-8 is less than q8.24 can tell"));
 }
 
-/// The lines that the assembler warns of.
+/// The lines that the assembler warns of, behind those that load Vmax and Amax.
 std::vector<int> idle_lines(const std::string& text) {
-    const Assembled made = assemble(text, "a.asm");
+    const Assembled made = assemble("MOV Vmax, 1\nMOV Amax, 1\n" + text, "a.asm");
     EXPECT_TRUE(made.errors.empty());
     std::vector<int> lines;
     for (const Diagnostic& warning : made.warnings) {
         EXPECT_GT(warning.place.column, 0);
-        lines.push_back(warning.place.line);
+        lines.push_back(warning.place.line - 2);
     }
     return lines;
 }
@@ -194,6 +200,16 @@ TEST(Assembler, WarnsOfMotionsThatLeadNowhere) {
     EXPECT_THAT(idle_lines("MOV XI, 1\nMOV N, 3\nG03\n"), ElementsAre(3)) << "Dz is 0";
     EXPECT_THAT(idle_lines("MOV XI, 1\nMOV Dz, 0.1\nMOV N, 3\nG03\nG03\n"), ElementsAre(5)) << "N is 0";
     EXPECT_THAT(idle_lines("MOV N, 3\nMOV Z, 0.1\nG02Z\n"), ElementsAre()) << "it climbs";
+}
+
+TEST(Assembler, WarnsOfMotionsWithoutSpeedOrAcceleration) {
+    const auto warnings = [](const std::string& text) { return assemble(text, "a.asm").warnings; };
+    const auto without = warnings("MOV Vmax, 1\nMOV XI, 1\n  G01\nHLT\n");
+    ASSERT_EQ(without.size(), 1U);
+    EXPECT_EQ(without[0].place.line, 3);
+    EXPECT_EQ(without[0].place.column, 3);
+    EXPECT_THAT(without[0].message, HasSubstr("a motion without Vmax or Amax: the processor will stop"));
+    EXPECT_TRUE(warnings("MOV Vmax, 1\nLD Amax, 0x8000\nMOV XI, 1\nG01\nHLT\n").empty());
 }
 
 TEST(Assembler, DoesNotWarnWhereAnotherWayMayLead) {

@@ -92,5 +92,37 @@ TEST(Calculator, LosesNoDigitOfWideWords) {
         static_cast<double>(static_cast<std::int64_t>(still.words[0]) - 461168601842738790), 0.0, 64.0);
 }
 
+TEST(Calculator, RefusesAVectorThatTheFormatTakesForNone) {
+    const Sequence sequence = thesis_sequence();
+    const NumberFormat format = fixed_format(2, 22);
+    EXPECT_THROW((void)rotate(format, sequence, Decimal::parse("1e-8"), 0.0, 30.0), Error);
+    EXPECT_THROW((void)rotate(binary32, sequence, 0.0, Decimal::parse("-1e-60"), 30.0), Error);
+    EXPECT_THROW((void)polar(format, sequence, 0.0, Decimal::parse("1e-8")), Error);
+    EXPECT_NEAR(rotate(format, sequence, 1.0, Decimal::parse("1e-8"), 30.0).error, 0.0, 1e-5) << "one part";
+    EXPECT_EQ(rotate(format, sequence, 0.0, 0.0, 30.0).error, 0.0) << "0 is 0";
+    EXPECT_NO_THROW((void)rotate(format, sequence, 0.0, Decimal::parse("3e-7"), 30.0));
+}
+
+TEST(Calculator, GivesWordsOfAsManyBitsAsTheFormatHas) {
+    for (const int fraction_bits : {6, 22, 30, 62}) {
+        const NumberFormat format = fixed_format(2, fraction_bits);
+        const Rotated found = rotate(format, thesis_sequence(), -0.5, -0.5, 10.0);
+        for (const Word word : found.words) {
+            EXPECT_EQ(lowest_bits(word, format.word()), word) << fraction_bits;
+        }
+        EXPECT_EQ(found.words[0] >> (format.word() - 1), 1U) << "negative";
+    }
+}
+
+TEST(Calculator, FindsNoDirectionBeyondHalfATurn) {
+    for (const NumberFormat& format : {binary64, binary32, fixed_format(8, 8), fixed_format(8, 24)}) {
+        for (const double y : {0.0, -0.0}) {
+            const Polar found = polar(format, thesis_sequence(), -3.0, y);
+            EXPECT_LE(std::abs(found.angle_deg), 180.0) << to_text(format);
+            EXPECT_LT(found.angle_error_deg, 2.0) << to_text(format);
+        }
+    }
+}
+
 } // namespace
 } // namespace millwright::cordic

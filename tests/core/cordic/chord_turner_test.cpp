@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <string>
 
 namespace millwright::cordic {
@@ -83,6 +84,67 @@ TEST(ChordTurner, SaysNothingWhereTheProcessorWouldStop) {
     EXPECT_FALSE(turner.next({.dz = word(1.8)}, {.x = word(1.0)}).has_value());   // beyond 97.9 degrees
     EXPECT_FALSE(turner.next({.rise = word(5.0)}, {.x = word(1.0), .z = word(5.0)}).has_value());
     EXPECT_FALSE(overflow);
+}
+
+/// Whether the processor comes to the end of a line, from bits of numbers of the format.
+bool processor_reaches(const NumberFormat& format,
+                       const ProcessorSettings& settings,
+                       const PlaceWords& from,
+                       const PlaceWords& to) {
+    Image image{.format = format};
+    const auto load = [&](Register name, Word word) {
+        append(image.code, {Opcode::mov, name, to_immediate(format, word)}, format);
+    };
+    const Word one = with_arithmetic(format, [](const auto& arithmetic) {
+        bool overflow = false;
+        return arithmetic.to_word(arithmetic.from_double(1.0, overflow));
+    });
+    load(Register::Vmax, one);
+    load(Register::Amax, one);
+    load(Register::X0, from.x);
+    load(Register::Y0, from.y);
+    load(Register::Z0, from.z);
+    load(Register::XI, to.x);
+    load(Register::YJ, to.y);
+    load(Register::Z, to.z);
+    append(image.code, {.opcode = from.z == to.z ? Opcode::g01 : Opcode::g01z}, format);
+    append(image.code, {.opcode = Opcode::hlt}, format);
+    Processor processor(settings, image);
+    processor.run(10'000);
+    EXPECT_TRUE(processor.state().stop == Stop::halted || processor.state().stop == Stop::out_of_reach)
+        << to_text(processor.state().stop);
+    return processor.state().stop == Stop::halted;
+}
+
+TEST(ChordTurner, TellsBeforehandInWhichDirectionsTheProcessorCannotGo) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> coordinate(-10.0, 10.0);
+    int reached = 0;
+    int refused = 0;
+    for (const NumberFormat& format : {binary64, binary32, fixed_format(8, 24)}) {
+        for (int iterations = 1; iterations <= 5; ++iterations) {
+            ProcessorSettings settings;
+            settings.sequence = classic_sequence(CoordinateSystem::circular, iterations);
+            const ChordTurner turner(format, settings);
+            const auto word = [&](double value) {
+                return with_arithmetic(format, [&](const auto& arithmetic) {
+                    bool overflow = false;
+                    return arithmetic.to_word(arithmetic.from_double(value, overflow));
+                });
+            };
+            for (int n = 0; n < 100; ++n) {
+                const PlaceWords from{word(coordinate(random)), word(coordinate(random)), word(0.0)};
+                const PlaceWords to{word(coordinate(random)),
+                                    word(coordinate(random)),
+                                    word(n % 2 == 0 ? 0.0 : coordinate(random))};
+                const bool reaches = processor_reaches(format, settings, from, to);
+                EXPECT_EQ(turner.reaches(from, to), reaches) << to_text(format) << ' ' << iterations;
+                ++(reaches ? reached : refused);
+            }
+        }
+    }
+    EXPECT_GT(reached, 100);
+    EXPECT_GT(refused, 100);
 }
 
 } // namespace

@@ -104,9 +104,13 @@ TEST(DualPortRam, IsNoWayAroundTheChecksOfMov) {
         processor.run(1'000);
         return processor.state().stop;
     };
-    EXPECT_EQ(stop_of("LD XI, 0x8000\nHLT\n"), Stop::overflow);
+    EXPECT_EQ(stop_of("LD XI, 0x8000\nHLT\n"), Stop::no_number);
     EXPECT_EQ(stop_of("LD PC, 0x8000\nHLT\n"), Stop::overflow);
-    // What the assembler would refuse, as bytes: into the ROM, and behind the last address.
+    // What the assembler would refuse, as bytes: into the ROM, across its end and that of the RAM, and behind
+    // the last address.
+    EXPECT_EQ(stop_of(".byte 0x80\n.byte 0xfe\n.byte 0x7f\nHLT\n"), Stop::across_memories);
+    EXPECT_EQ(stop_of(".byte 0x80\n.byte 0xfe\n.byte 0xbf\nHLT\n"), Stop::across_memories);
+    EXPECT_EQ(stop_of(".byte 0xa0\n.byte 0xfe\n.byte 0xbf\nHLT\n"), Stop::across_memories);
     EXPECT_EQ(stop_of(".byte 0xa0\n.byte 0x00\n.byte 0x10\nHLT\n"), Stop::rom_write);
     EXPECT_EQ(stop_of(".byte 0x80\n.byte 0xfe\n.byte 0xff\nHLT\n"), Stop::beyond_bus);
     EXPECT_EQ(stop_of(".byte 0xa0\n.byte 0xfe\n.byte 0xff\nHLT\n"), Stop::beyond_bus);

@@ -305,7 +305,8 @@ TEST(Stop, APageBehindTheLastIsRefused) {
 // Each chord of a helix is a line in space that rises by Z: 37 clocks to turn the radius, 140 for the speeds.
 TEST(Clocks, OfAHelixAre177OfCordicAChord) {
     const Assembled made = assemble(
-        ".format f64\nmov X0, 3\nmov Vmax, 2\nmov Dz, 0.1\nmov N, 20\nmov Z, 0.25\nG03Z\nhlt\n", "helix.asm");
+        ".format f64\nmov X0, 3\nmov Vmax, 2\nmov Amax, 2\nmov Dz, 0.1\nmov N, 20\nmov Z, 0.25\nG03Z\nhlt\n",
+        "helix.asm");
     ASSERT_TRUE(made.errors.empty());
     Processor processor({}, made.image);
     processor.run(100'000);
@@ -343,10 +344,29 @@ TEST(Stop, AnImmediateThatDoesNotFitTheWordIsAnOverflow) {
     EXPECT_EQ(run_to_end({}, code.image()).state().stop, Stop::overflow);
 }
 
-TEST(Stop, NoNumberIsAnOverflowToo) {
-    Code code(binary32);
-    code.whole(Register::XI, 0x7fc00000).op(Opcode::hlt);
-    EXPECT_EQ(run_to_end({}, code.image()).state().stop, Stop::overflow);
+TEST(Stop, BitsOfNoNumberAreToldApartFromOverflow) {
+    for (const Word bits : {0x7fc00000U, 0x7f800000U, 0xff800000U}) {
+        Code code(binary32);
+        code.whole(Register::XI, bits).op(Opcode::hlt);
+        EXPECT_EQ(run_to_end({}, code.image()).state().stop, Stop::no_number) << std::hex << bits;
+    }
+}
+
+TEST(Stop, AMotionWithoutSpeedOrAccelerationIsNone) {
+    const auto stop_with = [](double speed, double acceleration) {
+        Code code(binary64);
+        code.mov(Register::Vmax, speed).mov(Register::Amax, acceleration).mov(Register::XI, 1.0);
+        return run_to_end({}, code.op(Opcode::g01).op(Opcode::hlt).image()).state().stop;
+    };
+    EXPECT_EQ(stop_with(1.0, 1.0), Stop::halted);
+    EXPECT_EQ(stop_with(-1.0, 1.0), Stop::no_speed);
+    EXPECT_EQ(stop_with(1.0, -1.0), Stop::no_speed);
+    EXPECT_EQ(stop_with(0.0, 1.0), Stop::no_speed);
+    Code never(binary64); // loaded: 0 since reset
+    never.mov(Register::Vmax, 1.0).mov(Register::XI, 1.0).op(Opcode::g01).op(Opcode::hlt);
+    const Processor stands = run_to_end({}, never.image());
+    EXPECT_EQ(stands.state().stop, Stop::no_speed);
+    EXPECT_TRUE(stands.published().empty());
 }
 
 TEST(Stop, UnknownOpcodesAndEmptyMemoryAreIllegalInstructions) {
@@ -369,7 +389,7 @@ TEST(Stop, DirectionsBeyondWhatTheStepsReachAreRefused) {
     ProcessorSettings few;
     few.sequence = classic_sequence(CoordinateSystem::circular, 2);
     Code backwards(binary64);
-    backwards.mov(Register::Vmax, 1.0).mov(Register::XI, -1.0).op(Opcode::g01);
+    backwards.mov(Register::Vmax, 1.0).mov(Register::Amax, 1.0).mov(Register::XI, -1.0).op(Opcode::g01);
     EXPECT_EQ(run_to_end(few, backwards.image()).state().stop, Stop::out_of_reach);
     EXPECT_EQ(run_to_end({}, backwards.image()).state().stop, Stop::illegal_instruction)
         << "what follows the move";

@@ -17,7 +17,8 @@ using testing::HasSubstr;
 constexpr double scan_s = 1e-3;
 
 /// 100 mm at 50 mm/s, 2 s; then back.
-const std::string there_and_back = ".format f64\nMOV Vmax, 50\nMOV XI, 100\nG01\nMOV XI, 0\nG01\nM30\n";
+const std::string there_and_back =
+    ".format f64\nMOV Vmax, 50\nMOV Amax, 100\nMOV XI, 100\nG01\nMOV XI, 0\nG01\nM30\n";
 
 Processor processor_of(const std::string& code) {
     const Assembled made = assemble(code, "program.asm");
@@ -75,7 +76,7 @@ TEST(SupervisedRun, IsStoppedByTheLogicWhereTheAxesAre) {
 }
 
 TEST(SupervisedRun, WaitsAtM00UntilTheLogicStartsIt) {
-    const std::string code = "MOV Vmax, 50\nMOV XI, 10\nG01\nM00\nMOV XI, 20\nG01\nHLT\n";
+    const std::string code = "MOV Vmax, 50\nMOV Amax, 100\nMOV XI, 10\nG01\nM00\nMOV XI, 20\nG01\nHLT\n";
     const SupervisedRun done =
         run(code, "LD WAITING\nST Q0\nLD I0\nST START\n", "0 I0 1\n0.05 I0 0\n2 I0 1\n");
     EXPECT_EQ(done.end, SupervisedEnd::finished);
@@ -86,7 +87,7 @@ TEST(SupervisedRun, WaitsAtM00UntilTheLogicStartsIt) {
 
 // M117 closes a clamp, whose switch reports half a second later.
 TEST(SupervisedRun, HandsTheMachinesOwnCommandsToTheLogicUntilItIsDone) {
-    const std::string code = "MOV P, 117\nMUSER\nMOV Vmax, 50\nMOV XI, 10\nG01\nHLT\n";
+    const std::string code = "MOV P, 117\nMUSER\nMOV Vmax, 50\nMOV Amax, 100\nMOV XI, 10\nG01\nHLT\n";
     const SupervisedRun done =
         run(code, "LD U117\nS Q3\nLD U117\nAND I3\nST FIN\nLD U118\nST Q4\n", "0.5 I3 1\n");
     EXPECT_EQ(done.end, SupervisedEnd::finished);
@@ -105,7 +106,7 @@ TEST(SupervisedRun, ShowsSpindleCoolantAndTheEndToTheLogic) {
 // A chord takes 121 clocks to compute and 2.6 ms to cut: at 10 kHz the axes wait for each of them.
 TEST(SupervisedRun, TellsHowLongTheAxesWaitedForTheProcessor) {
     const std::string code =
-        ".format f64\nMOV X0, 5\nMOV Vmax, 50\nMOV Dz, 0.0261799\nMOV N, 120\nG03\nHLT\n";
+        ".format f64\nMOV X0, 5\nMOV Vmax, 50\nMOV Amax, 100\nMOV Dz, 0.0261799\nMOV N, 120\nG03\nHLT\n";
     Processor slow = processor_of(code);
     Plc nothing(assemble_plc("", "logic.plc"));
     SupervisedSettings settings;
@@ -135,7 +136,8 @@ TEST(SupervisedRun, SewsOnlyWhileTheNeedleIsUp) {
 }
 
 TEST(SupervisedRun, EndsInADefinedStateWhereTheProcessorStands) {
-    const SupervisedRun done = run(".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV XI, 7\nG01\nHLT\n", "");
+    const SupervisedRun done =
+        run(".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV Amax, 1\nMOV XI, 7\nG01\nHLT\n", "");
     EXPECT_EQ(done.end, SupervisedEnd::fault);
     EXPECT_EQ(done.executed, 0);
     EXPECT_EQ(run("again: MOV PC, again\n", "").end, SupervisedEnd::out_of_time);

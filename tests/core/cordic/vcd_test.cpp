@@ -12,7 +12,7 @@ namespace {
 
 TEST(Vcd, SaysTheSameAsTheStatesItWasMadeFrom) {
     const auto [image, lines, errors, warnings] =
-        assemble("mov Vmax, 0.5\nmov XI, 6\nmov YJ, 8\ng01\nhlt", "a.asm");
+        assemble("mov Vmax, 0.5\nmov Amax, 0.5\nmov XI, 6\nmov YJ, 8\ng01\nhlt", "a.asm");
     ASSERT_TRUE(errors.empty());
     Processor processor({.publishing = Publishing::bus, .wait_states = 1}, image);
     VcdWriter writer(image.format, 8e6);

@@ -100,6 +100,14 @@ void CordicPath::go(const LineOpcodes& opcodes,
                     const HeldPlace& to,
                     const Place3& exact,
                     const FeedOf& feed) {
+    if (!turner_.reaches(held_.words, to.words)) {
+        code_.fault({feed.source, 'G'},
+                    fmt::format("a line in a direction that {} iterations do not reach",
+                                settings_.processor.sequence.step_count),
+                    "take 4 iterations or more");
+        held_ = to;
+        return;
+    }
     if (!load_speed(feed)) {
         return;
     }

@@ -32,7 +32,7 @@ Rotations rotations_within(const cordic::ChordTurner& turner,
     Rotations done{.end = from};
     while (done.count < most) {
         const auto next = turner.next(words, done.end.words);
-        if (!next || *next == done.end.words) {
+        if (!next || *next == done.end.words || !turner.reaches(done.end.words, *next)) {
             break;
         }
         const HeldPlace end = held(turner, *next);

@@ -397,5 +397,20 @@ TEST(CordicCompiler, KeepsRandomProgramsNearTheExactPath) {
     }
 }
 
+TEST(CordicCompiler, RefusesDirectionsThatSoFewIterationsDoNotReachWithTheirPlace) {
+    CordicProgramSettings few;
+    few.processor.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, 2);
+    const CordicProgram made = compiled("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few);
+    ASSERT_EQ(made.faults.size(), 1U);
+    EXPECT_EQ(made.faults[0].place.line, 3);
+    EXPECT_EQ(made.faults[0].place.column, 3);
+    EXPECT_THAT(made.faults[0].message, testing::HasSubstr("a direction that 2 iterations do not reach"));
+    const CordicProgram arc = compiled("G21 F60\nG2 X0 Y0 I10 J0\nM2\n", few);
+    ASSERT_FALSE(arc.faults.empty());
+    EXPECT_EQ(arc.faults[0].place.line, 2);
+    few.processor.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, 4);
+    EXPECT_TRUE(compiled("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few).faults.empty());
+}
+
 } // namespace
 } // namespace millwright::gcode
