@@ -67,11 +67,14 @@ kinematics::MachineModel machine_of(const CuttingOptions& options) {
 
 namespace {
 
-plot::CutPath placed(plot::CutPath path, const std::vector<double>& origin) {
-    if (!origin.empty()) {
-        for (plot::CutPoint& point : path) {
-            point.at += Vec3(origin[0], origin[1], 0.0);
-        }
+/// Where the drawing's origin lies on the machine.
+Vec3 origin_of(const CuttingOptions& options) {
+    return options.origin.empty() ? Vec3(Vec3::Zero()) : Vec3(options.origin[0], options.origin[1], 0.0);
+}
+
+plot::CutPath placed(plot::CutPath path, const Vec3& origin) {
+    for (plot::CutPoint& point : path) {
+        point.at += origin;
     }
     return path;
 }
@@ -85,11 +88,8 @@ gcode::Program program_of(const plot::CutPath& path,
     settings.axes = gcode::plot_axes(machine);
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
-    const plot::CutPath on_machine = placed(path, options.origin);
-    gcode::expect_on_table(on_machine,
-                           machine,
-                           options.origin.empty() ? Vec2(Vec2::Zero())
-                                                  : Vec2(options.origin[0], options.origin[1]));
+    const plot::CutPath on_machine = placed(path, origin_of(options));
+    gcode::expect_on_table(on_machine, machine, origin_of(options).head<2>());
     return gcode::plot_program(on_machine, settings);
 }
 
@@ -129,14 +129,14 @@ void write_program(const plot::CutPath& path,
     progress.check();
     write_file(options.out, text.text.listing.text);
     if (!options.path_file.empty()) {
-        write_file(options.path_file, plot::path_file_text(placed(path, options.origin)));
+        write_file(options.path_file, plot::path_file_text(placed(path, origin_of(options))));
     }
     if (!preview.empty()) {
         write_file(options.preview.file, preview);
     }
     print_notes(text);
     const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
-    const plot::PathLengths lengths = plot::lengths(path);
+    const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
     constexpr double m = 1e-3;
     fmt::print("{} points: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
                path.size(),

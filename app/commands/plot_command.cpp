@@ -7,7 +7,7 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/decode.h"
+#include "core/plot/decode_within.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/point_file.h"
 #include "core/plot/stroke_svg.h"
@@ -65,6 +65,7 @@ struct Options {
     bool no_air = false;
     plot::ReaderSettings reading;
     plot::DecodeSettings decode;
+    std::optional<double> fastest;
     int decimals = 2;
     StrokeCutting cutting;
 };
@@ -210,7 +211,9 @@ int info(const Options& options) {
 
 int decode(const Options& options) {
     const Plot plot = read_to_use(options);
-    const std::vector<Vec3> points = plot::decode(plot.strokes, options.decode);
+    const std::vector<Vec3> points = options.fastest
+                                         ? plot::decode_within(*options.fastest, plot.strokes, options.decode)
+                                         : plot::decode(plot.strokes, options.decode);
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
                counted(points.size(), "point", "points"),
@@ -276,6 +279,7 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     command.add_option("--rounding", decoding.rounding, "Of the number of steps of a segment")
         ->transform(CLI::CheckedTransformer(roundings))
         ->default_str("nearest");
+    command.add_option("--fastest", options->fastest, "What no rounding exceeds, mm/s")->check(above_zero());
     command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s")
         ->check(above_zero());
     command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s")

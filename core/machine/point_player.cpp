@@ -52,13 +52,19 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
                                      const MachineModel& model,
                                      const std::filesystem::path& file) {
     const auto index = indices_of(model);
+    const int decimals = PlayerOptions().decimals;
+    const double digit = std::pow(10.0, -decimals);
+    const auto written = [&](std::size_t n, std::size_t k) {
+        return std::round(points[n][static_cast<Eigen::Index>(k)] / digit) * digit;
+    };
     std::vector<Diagnostic> found;
     std::set<std::pair<std::size_t, bool>> told;
     const auto tell = [&](std::size_t n, std::size_t axis, bool place, std::string sentence) {
         if (told.insert({axis, place}).second) {
-            found.push_back({{file, static_cast<int>(n) + 1, 0, -1},
-                             std::move(sentence),
-                             place ? "" : "decode it with a lower velocity, or round the samples up"});
+            found.push_back(
+                {{file, static_cast<int>(n) + 1, 0, -1},
+                 std::move(sentence),
+                 place ? "" : "decode it with a lower velocity, samples rounded up, or more digits"});
         }
     };
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -75,17 +81,20 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
                                  axis.min,
                                  axis.max));
             }
-            const double way = n == 0 ? 0.0 : std::abs(at - points[n - 1][static_cast<Eigen::Index>(k)]);
-            constexpr double rounding = 1.001; // of the points' digits
-            if (way > axis.max_velocity * period * rounding) {
+            const double way = n == 0 ? 0.0 : std::abs(written(n, k) - written(n - 1, k));
+            constexpr double last_bits = 1e-3; // of a digit
+            if (way > axis.max_velocity * period + last_bits * digit) {
                 tell(n,
                      k,
                      false,
-                     fmt::format("axis {} would go {:.3f} mm in {} s, and goes {:.3f} mm/s at the most",
-                                 axis.letter,
-                                 way,
-                                 period,
-                                 axis.max_velocity));
+                     fmt::format(
+                         "axis {} would go {:.{}f} mm in {} s, {:.6g} mm/s, and goes {:.6g} mm/s at the most",
+                         axis.letter,
+                         way,
+                         decimals,
+                         period,
+                         way / period,
+                         axis.max_velocity));
             }
         }
     }

@@ -51,8 +51,8 @@ struct PlayStatus {
 [[nodiscard]] double machine_period(const PlayerOptions& options, bool linked);
 
 /// The points that a machine must not be sent: outside of its limits, or faster than its axes go from one to
-/// the next. A sentence each, with the line in `file`; the first of each kind and axis. Throws Error if the
-/// machine has no X, Y, Z.
+/// the next, as a player writes them. A sentence each, with the line in `file`; the first of each kind and
+/// axis. Throws Error if the machine has no X, Y, Z.
 [[nodiscard]] std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
                                                    double period,
                                                    const kinematics::MachineModel& model,

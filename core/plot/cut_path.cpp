@@ -140,6 +140,10 @@ private:
 
 PathLengths lengths(const CutPath& path) {
     PathLengths lengths;
+    if (!path.empty()) {
+        const Vec3& first = path.front().at;
+        lengths.travel = std::abs(first.z()) + first.head<2>().norm();
+    }
     for (std::size_t n = 1; n < path.size(); ++n) {
         const double distance = (path[n].at - path[n - 1].at).norm();
         (path[n].speed > 0.0 ? lengths.cut : lengths.travel) += distance;

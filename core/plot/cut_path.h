@@ -64,7 +64,7 @@ struct PathLengths {
     double travel = 0.0; ///< as fast as the machine can
 };
 
-/// In space, mm.
+/// In space, mm. From zero, up before across, as its program begins.
 [[nodiscard]] PathLengths lengths(const CutPath& path);
 
 /// How far below the top the path goes, mm; 0 if nowhere.

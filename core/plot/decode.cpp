@@ -1,12 +1,14 @@
 #include "core/plot/decode.h"
 
 #include "core/base/error.h"
+#include "core/plot/decode_within.h"
 #include "core/plot/internal/speed_profile.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace millwright::plot {
 namespace {
@@ -35,9 +37,16 @@ void check(const DecodeSettings& settings) {
     }
 }
 
-/// Eq. 3-3 with a whole number of samples.
-double sample_count(double q, SampleRounding rounding) {
-    constexpr double slack = 1e-9; // of a step: 4 mm at 0.4 mm are 10 steps, whatever the last bit says
+/// By how much the last bits of two places may make the way between them too long: 4 mm at 0.4 mm are 10
+/// steps, wherever they lie.
+double noise(const Vec3& from, const Vec3& to) {
+    constexpr double bits = 4.0;
+    return bits * std::numeric_limits<double>::epsilon() *
+           std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>());
+}
+
+/// Eq. 3-3 with a whole number of samples; `slack` is that of q.
+double sample_count(double q, double slack, SampleRounding rounding) {
     switch (rounding) {
     case SampleRounding::down:
         return std::max(1.0, std::floor(q + slack));
@@ -52,7 +61,8 @@ double sample_count(double q, SampleRounding rounding) {
 
 class Decoder {
 public:
-    Decoder(const DecodeSettings& settings, const Vec2& start) : settings_(settings) {
+    Decoder(const DecodeSettings& settings, const std::optional<double>& fastest, const Vec2& start)
+        : settings_(settings), fastest_(fastest) {
         points_.emplace_back(start.x(), start.y(), settings.pen_up_z);
     }
 
@@ -106,6 +116,13 @@ private:
                 .period = settings_.period};
     }
 
+    /// Up to the kth period. What the last bits of a long way would make faster than the velocity waits for
+    /// the next one.
+    [[nodiscard]] double
+    next_way(const internal::SpeedProfile& profile, double k, double before, double velocity) const {
+        return std::min(profile.way(k * settings_.period), before + velocity * settings_.period);
+    }
+
     void limited_line(const Vec3& to, double velocity) {
         const Vec3 from = points_.back();
         const double distance = (to - from).norm();
@@ -114,9 +131,10 @@ private:
         }
         const internal::SpeedProfile profile({Vec2(0.0, 0.0), Vec2(distance, 0.0)}, limits(velocity));
         reserve(profile.duration() / settings_.period);
+        double way = 0.0;
         for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
-            const double share = std::min(1.0, profile.way(k * settings_.period) / distance);
-            points_.emplace_back(from + share * (to - from));
+            way = next_way(profile, k, way, velocity);
+            points_.emplace_back(from + std::min(1.0, way / distance) * (to - from));
         }
         points_.push_back(to);
     }
@@ -129,13 +147,24 @@ private:
             return;
         }
         const double q = distance / (velocity * settings_.period);
-        const double count = sample_count(q, rounding);
+        const double count = step_count(distance, velocity, rounding, noise(from, to));
         reserve(count);
         const double step = rounding == SampleRounding::exact ? 1.0 / q : 1.0 / count;
         for (double n = 1.0; n < count; n += 1.0) {
             points_.emplace_back(from + (n * step) * (to - from));
         }
         points_.push_back(to);
+    }
+
+    /// As the rounding says, and more where those steps would be faster than the fastest.
+    [[nodiscard]] double
+    step_count(double distance, double velocity, SampleRounding rounding, double unsure) const {
+        const auto count = [&](double speed, SampleRounding how) {
+            const double step = speed * settings_.period;
+            return sample_count(distance / step, unsure / step, how);
+        };
+        const double wanted = count(velocity, rounding);
+        return fastest_ ? std::max(wanted, count(*fastest_, SampleRounding::up)) : wanted;
     }
 
     /// Points at whole multiples of the step along the stroke.
@@ -156,8 +185,7 @@ private:
             passed += distance;
         }
         const Vec3 end = at(stroke.points.back());
-        constexpr double same = 1e-9; // of a step
-        if ((points_.back() - end).norm() > same * step) {
+        if ((points_.back() - end).norm() > noise(points_.back(), end)) {
             points_.push_back(end);
         } else {
             points_.back() = end;
@@ -170,8 +198,9 @@ private:
         reserve(profile.duration() / settings_.period);
         double passed = 0.0; // length of the stroke up to the segment
         std::size_t n = 1;
+        double way = 0.0;
         for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
-            const double way = profile.way(k * settings_.period);
+            way = next_way(profile, k, way, settings_.velocity);
             double distance = (stroke.points[n] - stroke.points[n - 1]).norm();
             while (passed + distance < way && n + 1 < stroke.points.size()) {
                 passed += distance;
@@ -193,14 +222,23 @@ private:
     }
 
     const DecodeSettings& settings_;
+    std::optional<double> fastest_;
     std::vector<Vec3> points_;
 };
 
-} // namespace
+void check(double fastest, const DecodeSettings& settings) {
+    const double most = std::max(
+        {settings.velocity, settings.travel_velocity.value_or(0.0), settings.plunge_velocity.value_or(0.0)});
+    if (!(fastest >= most && std::isfinite(fastest))) {
+        throw Error(fmt::format("a velocity of {} mm/s is above the fastest, {} mm/s", most, fastest));
+    }
+}
 
-std::vector<Vec3> decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
-    check(settings);
-    Decoder decoder(settings, start);
+std::vector<Vec3> decoded(const Strokes& strokes,
+                          const DecodeSettings& settings,
+                          const std::optional<double>& fastest,
+                          const Vec2& start) {
+    Decoder decoder(settings, fastest, start);
     for (const Stroke& stroke : strokes) {
         decoder.stroke(stroke);
     }
@@ -209,6 +247,20 @@ std::vector<Vec3> decode(const Strokes& strokes, const DecodeSettings& settings,
         decoder.travel(*settings.end);
     }
     return decoder.take();
+}
+
+} // namespace
+
+std::vector<Vec3> decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
+    check(settings);
+    return decoded(strokes, settings, std::nullopt, start);
+}
+
+std::vector<Vec3>
+decode_within(double fastest, const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
+    check(settings);
+    check(fastest, settings);
+    return decoded(strokes, settings, fastest, start);
 }
 
 } // namespace millwright::plot

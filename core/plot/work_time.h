@@ -30,7 +30,7 @@ struct WorkTime {
 [[nodiscard]] WorkTime
 work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end);
 
-/// m:ss, or h:mm:ss from an hour on; seconds rounded.
+/// m:ss, or h:mm:ss from an hour on; whole seconds as clock_time has them.
 [[nodiscard]] std::string minutes_and_seconds(double seconds);
 /// What stands behind it: min, or h.
 [[nodiscard]] std::string_view minutes_or_hours(double seconds);

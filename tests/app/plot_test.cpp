@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace millwright::test {
 namespace {
@@ -44,6 +46,28 @@ TEST(PlotCommand, InfoCountsOneAndMany) {
     };
     EXPECT_EQ(first_line("PD400,400;"), "1 command, 1 stroke of 1 pen");
     EXPECT_EQ(first_line("SP1;PD400,400;PU;PA0,0;SP2;PD0,400;"), "6 commands, 2 strokes of 2 pens");
+}
+
+// What it says of its path is what the program does, which `gcode time` reads back, the way to its beginning
+// as well.
+TEST(PlotCommand, ToolpathIsAsLongAndTakesAsLongAsItsProgram) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "line.ngc").string();
+    write_content(folder / "line.plt", "IN;SP1;PU200,200;PD4200,200;PU;SP;");
+    const Ended made =
+        run({"plot", "toolpath", (folder / "line.plt").string(), "--origin", "3,4", "--out", file});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    double feed = 0.0;
+    double rapid = 0.0;
+    const std::string figures = made.out.substr(made.out.find(" points: ") + 9);
+    ASSERT_EQ(std::sscanf(figures.c_str(), "%lf m at a feed, %lf m at rapid", &feed, &rapid), 2) << made.out;
+    const Ended timed = run({"gcode", "time", file, "--machine", "forming-table"});
+    double seconds = 0.0;
+    double way = 0.0;
+    const std::string said = timed.out.substr(timed.out.find('(') + 1);
+    ASSERT_EQ(std::sscanf(said.c_str(), "%lf s), %lf mm", &seconds, &way), 2) << timed.out;
+    EXPECT_NEAR(1000.0 * (feed + rapid), way, 1.1); // each in whole millimetres
+    EXPECT_THAT(made.out, HasSubstr(fmt::format("0:{:02.0f} min on ", std::ceil(seconds))));
 }
 
 TEST(PlotCommand, InfoAnswersInJson) {

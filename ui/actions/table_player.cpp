@@ -1,10 +1,27 @@
 #include "ui/actions/table_player.h"
 
+#include "core/plot/decode_within.h"
+
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace millwright::actions {
 
 namespace {
+
+/// The slowest axis, which no rounding of the samples exceeds; velocities that were asked for may.
+double fastest_of(const plot::DecodeSettings& decoding, const kinematics::MachineModel& model) {
+    double slowest = std::numeric_limits<double>::max();
+    for (const char letter : {'X', 'Y', 'Z'}) {
+        const int axis = model.axis_index(letter);
+        slowest = axis < 0 ? slowest : std::min(slowest, model.axis(axis).max_velocity);
+    }
+    return std::max({slowest,
+                     decoding.velocity,
+                     decoding.travel_velocity.value_or(0.0),
+                     decoding.plunge_velocity.value_or(0.0)});
+}
 
 std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
                                                 const plot::Strokes& strokes,
@@ -14,7 +31,8 @@ std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
     plot::DecodeSettings decoding = choice.decoding;
     constexpr std::int64_t most = 5'000'000;
     decoding.most_points = most;
-    auto points = std::make_shared<const std::vector<Vec3>>(plot::decode(strokes, decoding));
+    auto points = std::make_shared<const std::vector<Vec3>>(
+        plot::decode_within(fastest_of(decoding, model), strokes, decoding));
     machine::PlayerOptions options;
     options.period = choice.decoding.period;
     options.speed = choice.speed;

@@ -103,15 +103,24 @@ std::string metres(double mm) {
     return fmt::format("{:.3f}", m * mm);
 }
 
-struct Figure {
-    std::string_view id;
-    std::string_view label;
-    std::string_view unit;
-};
-
-/// What becomes of it beside what the file has.
-void both(Ui& ui, const Figure& figure, const std::string& planned, const std::string& drawn) {
-    ui.value(figure.id, figure.label, fmt::format("{} (as drawn {})", planned, drawn), figure.unit);
+/// What becomes of the drawing beside what the file has.
+void compare(Ui& ui, const plot::WorkTime& planned, const plot::WorkTime& drawn) {
+    constexpr std::array<widgets::Column, 3> columns{
+        {{"", "", 1.3F, false}, {"Planned", "", 1.0F, true}, {"As drawn", "", 1.0F, true}}};
+    constexpr std::array<const char*, 4> ids{"drawn", "between", "runs", "thesis"};
+    const std::array<std::array<std::string, 3>, 4> cells{
+        {{"Draws, m", metres(planned.cut_length), metres(drawn.cut_length)},
+         {"In the air, m", metres(planned.travel_length), metres(drawn.travel_length)},
+         {"Lifts", fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs)},
+         {"By the thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)}}};
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(cells);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        return cells[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    };
+    view.row_id = [&](std::ptrdiff_t row) { return ids[static_cast<std::size_t>(row)]; };
+    (void)widgets::table(ui, "compared", view);
 }
 
 std::string sources_of(const plot::CuttingValues& values) {
@@ -227,15 +236,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         return;
     }
     if (made->as_drawn.runs > 0) {
-        const plot::WorkTime& planned = made->as_planned;
-        const plot::WorkTime& drawn = made->as_drawn;
-        both(ui, {"drawn", "Draws", "m"}, metres(planned.cut_length), metres(drawn.cut_length));
-        both(ui, {"between", "In the air", "m"}, metres(planned.travel_length), metres(drawn.travel_length));
-        both(ui, {"runs", "Lifts", ""}, fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs));
-        both(ui,
-             {"thesis", "Time, thesis", plot::minutes_or_hours(planned.seconds)},
-             plot::minutes_and_seconds(planned.seconds),
-             plot::minutes_and_seconds(drawn.seconds));
+        compare(ui, made->as_planned, made->as_drawn);
     }
     ui.value("way", "Way, with lifts", metres(made->lengths.cut + made->lengths.travel), "m");
     const double planned = now.in_file() ? now.duration() : 0.0;

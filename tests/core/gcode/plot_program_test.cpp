@@ -55,6 +55,20 @@ TEST(PlotProgram, IsReadBackMoveByMove) {
     EXPECT_NE(listing.text.find("M2"), std::string::npos);
 }
 
+// From zero, where a program begins, to its end: the two figures that a person is told.
+TEST(PlotProgram, GoesAsFarAsItsPathSays) {
+    const plot::CutPath path = square_and_hole();
+    const plot::PathLengths told = plot::lengths(path);
+    const Program program = plot_program(path);
+    double way = 0.0;
+    kinematics::AxisPositions at = program.start;
+    for (const Block& block : program.blocks) {
+        way += (block.target - at).norm();
+        at = block.target;
+    }
+    EXPECT_NEAR(told.cut + told.travel, way, 1e-3);
+}
+
 TEST(PlotProgram, TellsTheFirstToolBeforeTheSpindleTurns) {
     const auto text_of = [](const plot::CutPath& path) { return write_gcode(plot_program(path), {}).text; };
     const std::string two = text_of(square_and_hole());

@@ -185,5 +185,19 @@ TEST(CheckPoints, FindsWhatIsOutsideOrTooFastOnceAnAxis) {
     EXPECT_THAT(far.front().message, HasSubstr("axis Y would go to 550.100"));
 }
 
+// The axes go 10 mm/s: not a hair more, of the points as they are written.
+TEST(CheckPoints, RefusesAHairMoreThanAnAxisGoes) {
+    const auto model = test::machine("forming-table");
+    const auto found = [&](double way) {
+        return check_points({Vec3(1.7, 0, 0), Vec3(1.7 + way, 0, 0)}, 0.04, model, "p");
+    };
+    EXPECT_TRUE(found(0.4).empty());
+    ASSERT_EQ(found(0.4001).size(), 1U);
+    EXPECT_EQ(found(0.4001).front().message,
+              "axis X would go 0.4001 mm in 0.04 s, 10.0025 mm/s, and goes 10 mm/s at the most");
+    EXPECT_TRUE(found(0.40004).empty()); // written as 0.4
+    EXPECT_FALSE(found(0.40006).empty());
+}
+
 } // namespace
 } // namespace millwright::machine

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot/decode_within.h"
 #include "core/plot/point_file.h"
 #include "tests/support/without_traps.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <random>
 #include <sstream>
 
 namespace millwright::plot {
@@ -66,6 +68,84 @@ TEST(Decoding, PointFileIsThatOfTheThesis) {
     }
 }
 
+/// Farthest from one point to the next.
+double longest_step(const std::vector<Vec3>& points) {
+    double longest = 0.0;
+    for (std::size_t n = 1; n < points.size(); ++n) {
+        longest = std::max(longest, (points[n] - points[n - 1]).norm());
+    }
+    return longest;
+}
+
+/// Lengths that are whole steps, whole steps and a hair, and anything between, anywhere on a table.
+Strokes lines_of_many_lengths(double step) {
+    Strokes strokes;
+    std::mt19937 random(2006);
+    std::uniform_real_distribution<double> place(0.0, 480.0);
+    std::uniform_real_distribution<double> any(0.1, 12.0);
+    for (int n = 0; n < 400; ++n) {
+        const Vec2 from(place(random), place(random));
+        const double angle = place(random);
+        for (const double hair : {0.0, 1e-12, 1e-10, 1e-6}) {
+            const double length = step * (n % 2 == 0 ? std::ceil(any(random)) + hair : any(random));
+            const Vec2 to = from + length * Vec2(std::cos(angle), std::sin(angle));
+            strokes.push_back({.pen = 1, .points = {from, to, from}});
+        }
+    }
+    return strokes;
+}
+
+constexpr double last_bits = 1e-12; // mm, of places up to 550 mm
+
+// What rounds towards slow does so to the last bit of a point.
+TEST(Decoding, IsNoHairFasterThanItsVelocity) {
+    DecodeSettings settings = steps_of(0.4);
+    const Strokes strokes = lines_of_many_lengths(0.4);
+    for (const auto rounding : {SampleRounding::up, SampleRounding::exact}) {
+        settings.rounding = rounding;
+        EXPECT_LE(longest_step(decode(strokes, settings)), 0.4 + last_bits);
+    }
+    settings.mode = DecodeMode::path;
+    EXPECT_LE(longest_step(decode(strokes, settings)), 0.4 + last_bits);
+    settings.acceleration = 500.0;
+    EXPECT_LE(longest_step(decode(strokes, settings)), 0.4 + last_bits);
+    settings.jerk = 20'000.0;
+    EXPECT_LE(longest_step(decode(strokes, settings)), 0.4 + last_bits);
+}
+
+// The thesis's own rounding is faster than its velocity by up to 1 / N; a machine's limit is kept by all of
+// them.
+TEST(Decoding, NoRoundingIsFasterThanTheFastest) {
+    const Strokes strokes = lines_of_many_lengths(0.4);
+    for (const auto rounding :
+         {SampleRounding::down, SampleRounding::nearest, SampleRounding::up, SampleRounding::exact}) {
+        DecodeSettings settings = steps_of(0.4);
+        settings.rounding = rounding;
+        for (const double most : {0.4, 0.42, 0.5}) {
+            EXPECT_LE(longest_step(decode_within(most * 100.0, strokes, settings)), most + last_bits) << most;
+        }
+    }
+}
+
+TEST(Decoding, AFastestLeavesSegmentsThatKeepItAlone) {
+    DecodeSettings settings = steps_of(0.4);
+    settings.rounding = SampleRounding::down;
+    const auto as_the_thesis = decode(diagonal(), settings);
+    // 10 * sqrt(2) mm in 35 steps are 40.406 mm/s.
+    EXPECT_EQ(decode_within(40.5, diagonal(), settings), as_the_thesis);
+    EXPECT_EQ(decode_within(40.4, diagonal(), settings).size(), as_the_thesis.size() + 1);
+}
+
+TEST(Decoding, VelocitiesAboveTheFastestAreRefused) {
+    for (const auto velocity : {&DecodeSettings::travel_velocity, &DecodeSettings::plunge_velocity}) {
+        DecodeSettings settings = steps_of(0.4);
+        EXPECT_NO_THROW(static_cast<void>(decode_within(40.0, diagonal(), settings)));
+        settings.*velocity = 41.0;
+        EXPECT_THROW(static_cast<void>(decode_within(40.0, diagonal(), settings)), Error);
+    }
+    EXPECT_THROW(static_cast<void>(decode_within(39.9, diagonal(), steps_of(0.4))), Error);
+}
+
 // A machine that is told its own greatest speed refuses points that are farther apart than that.
 TEST(Decoding, TravelIsNeverFasterThanItsVelocity) {
     const Strokes strokes = {{.pen = 1, .points = {{7.03, 3.1}, {8.0, 3.1}}}};
@@ -77,7 +157,7 @@ TEST(Decoding, TravelIsNeverFasterThanItsVelocity) {
         const auto points = decode(strokes, settings);
         for (std::size_t n = 1; n < points.size(); ++n) {
             if (points[n].z() > 0.0 || points[n - 1].z() > 0.0) {
-                EXPECT_LE((points[n] - points[n - 1]).norm(), 0.4 + 1e-9);
+                EXPECT_LE((points[n] - points[n - 1]).norm(), 0.4 + last_bits);
             }
         }
     }

@@ -66,7 +66,7 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     ASSERT_FALSE(bench.made().failure);
     for (const char* path : {"layers/levels",
                              "layers/level/depth_mm",
-                             "layers/figures/thesis",
+                             "layers/figures/compared/thesis",
                              "inspector/cutter/tool_mm",
                              "inspector/fill/hatch_mm",
                              "inspector/travel/link_mm",
@@ -94,6 +94,20 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
     const motion::Trajectory& way = *done.opened->motion->trajectory;
     EXPECT_NEAR(way.part_length_at(done.time()), way.part_length(), 1e-6);
     EXPECT_GT(way.part_length(), 250.0); // what the plot draws, and travel
+}
+
+// "Has gone ... of" and "Way": one number, of the program that is played.
+TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    const auto differ = [&] {
+        const motion::Trajectory& gone = *bench.person.workshop().look().opened->motion->trajectory;
+        const plot::PathLengths told = bench.made().lengths;
+        return std::abs(told.cut + told.travel - gone.part_length());
+    };
+    EXPECT_LT(differ(), 0.1); // targets have four decimals
+    bench.person.fill_in("inspector/work/origin_x_mm", "30");
+    bench.settle();
+    EXPECT_LT(differ(), 0.1);
 }
 
 TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
