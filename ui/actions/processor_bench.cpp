@@ -36,16 +36,14 @@ std::string instruction_of(const std::string& row) {
 
 std::vector<CodeRow> rows_of(const gcode::CordicProgram& program) {
     std::vector<CodeRow> rows;
-    const std::vector<std::string> lines = lines_of(cordic::disassemble(program.image));
-    for (std::size_t n = 1; n < lines.size(); ++n) { // the first one names the format
-        const std::size_t place = lines[n].find(';');
+    for (const std::string& line : lines_of(cordic::disassemble(program.image))) {
+        const std::size_t place = line.find(';');
         if (place == std::string::npos) {
-            continue; // the rest of a page
+            continue; // what the program is made for, or the rest of a page
         }
         const auto address =
-            static_cast<cordic::CodeAddress>(std::stoul(lines[n].substr(place + 2), nullptr, 16));
-        rows.push_back(
-            {address, instruction_of(lines[n]), cordic::line_at(program.code_lines, address).line});
+            static_cast<cordic::CodeAddress>(std::stoul(line.substr(place + 2), nullptr, 16));
+        rows.push_back({address, instruction_of(line), cordic::line_at(program.code_lines, address).line});
     }
     return rows;
 }

@@ -22,8 +22,8 @@ enum class ProcessorSource : std::uint8_t { thesis_arc, thesis_path, opened_file
 struct ProcessorChoice {
     ProcessorSource source = ProcessorSource::thesis_arc;
     cordic::NumberFormat format = cordic::binary32;
-    int iterations = 0;             ///< of the classic sequence; 0: the thesis's 29
-    double chord_tolerance = 0.01;  ///< mm
+    int iterations = 0;                                    ///< of the classic sequence; 0: the thesis's 29
+    double chord_tolerance = gcode::usual_chord_tolerance; ///< mm
     bool thesis_direction = false;  ///< G02 counter-clockwise, as the thesis's model turns
     bool matlab_zero = false;       ///< no turn where nothing is left to turn, as the thesis's MATLAB model
     double clocks_a_second = 200.0; ///< while it runs, to be watched; 0: as fast as it goes

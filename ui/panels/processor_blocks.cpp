@@ -101,7 +101,16 @@ std::vector<std::string> pipeline_lines(const Processor& processor) {
                         cordic::to_text(word.op),
                         cordic::to_text(word.condition),
                         word.branch),
-            signal_names(word.controls)};
+            signal_names(word.controls),
+            fmt::format("clock {}", processor.state().clocks.total)};
+}
+
+std::string_view cycle_name(const cordic::BusPins& pins) {
+    return pins.ale    ? "gives the address"
+           : pins.psen ? "fetches"
+           : pins.rd   ? "reads"
+           : pins.wr   ? "writes"
+                       : "at rest";
 }
 
 std::string flag(std::string_view name, bool on) {
@@ -173,7 +182,8 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
     switch (block) {
     case ProcessorBlock::bus:
         return {fmt::format("ALE{:d} PSEN{:d} RD{:d} WR{:d}", pins.ale, pins.psen, pins.rd, pins.wr),
-                fmt::format("A {:04x}  AD {:02x}", pins.address, pins.data)};
+                fmt::format("A {:04x}  AD {:02x}", pins.address, pins.data),
+                std::string(cycle_name(pins))};
     case ProcessorBlock::rom:
         return rom_lines(state);
     case ProcessorBlock::ram:
@@ -181,7 +191,9 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
     case ProcessorBlock::port:
         return port_lines(processor);
     case ProcessorBlock::ir:
-        return {fmt::format("{:02x}", state.opcode), opcode_name(state)};
+        return {fmt::format("{:02x}", state.opcode),
+                opcode_name(state),
+                fmt::format("at {:04x}", state.instruction_at)};
     case ProcessorBlock::map: {
         const auto start = processor.microprogram().map[state.opcode];
         return {start ? fmt::format("\u2192 {:02x}", *start) : "\u2192 none",
@@ -203,7 +215,9 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
                 line("Y0", Register::Y0),
                 line("Z0", Register::Z0),
                 line("Vx", Register::Vx),
-                line("Vy", Register::Vy)};
+                line("Vy", Register::Vy),
+                line("Ax", Register::Ax),
+                line("Ay", Register::Ay)};
     }
     case ProcessorBlock::fold:
         return {flag("f1", state.path.f1), flag("f2", state.path.f2)};

@@ -149,8 +149,8 @@ void draw_block(Ui& ui,
     // As far apart as the box has room, in a small window closer.
     const float room = box.h - title - 2.0F * top;
     const auto count = static_cast<float>(std::max<std::size_t>(lines.size(), 1));
-    const float line = std::clamp(room / count, ui.px(14.0F), ui.px(17.0F));
-    float y = box.y + top + title;
+    const float line = std::clamp(room / count, ui.px(14.0F), ui.px(24.0F));
+    float y = box.y + top + title + 0.5F * std::max(room - count * line, 0.0F);
     for (std::size_t n = 0; n < lines.size() && y + line <= box.bottom() + ui.px(2.0F); ++n) {
         const Rect place{box.x + pad, y, inside, line};
         sketch.text(place, lines[n], colours.text, widgets::TextAlign::left, widgets::TextFont::mono);

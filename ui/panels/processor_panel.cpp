@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -70,17 +71,14 @@ std::string late_text(std::int64_t late, std::int64_t stitches) {
 
 std::string register_text(const cordic::Processor& processor, Register name) {
     const cordic::Word word = processor.state().registers[static_cast<std::size_t>(name)];
-    if (name == Register::PC) {
-        return fmt::format("{:04x}", word);
-    }
     return cordic::is_whole(name) ? fmt::format("{}", word) : word_text(processor, word);
 }
 
 std::string bits_text(const cordic::Processor& processor, Register name) {
-    const int digits = cordic::is_whole(name) ? 8 : (processor.format().word() + 3) / 4;
+    const int bits = cordic::is_whole(name) ? static_cast<int>(std::bit_width(cordic::most_of(name)))
+                                            : processor.format().word();
     const cordic::Word word = processor.state().registers[static_cast<std::size_t>(name)];
-    const cordic::Word mask = digits >= 16 ? ~cordic::Word{0} : (cordic::Word{1} << (4 * digits)) - 1;
-    return fmt::format("{:0{}x}", word & mask, digits);
+    return fmt::format("{:0{}x}", cordic::lowest_bits(word, bits), (bits + 3) / 4);
 }
 
 constexpr std::array<std::string_view, 4> source_actions{
@@ -89,8 +87,14 @@ constexpr std::array<std::string_view, 4> source_actions{
 constexpr widgets::FieldInfo bits_field{
     "fraction", "Fraction bits", {}, "10 before it, sign included", 4.0, 54.0};
 constexpr widgets::FieldInfo steps_field{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
-constexpr widgets::FieldInfo tolerance_field{
-    "tolerance", "Chord tolerance", "mm", "Farthest that a chord may be from its arc", 1e-5, 10.0, 0.01, 5};
+constexpr widgets::FieldInfo tolerance_field{"tolerance",
+                                             "Chord tolerance",
+                                             "mm",
+                                             "Farthest that the path may be from its arc",
+                                             1e-5,
+                                             10.0,
+                                             gcode::usual_chord_tolerance,
+                                             5};
 constexpr widgets::FieldInfo clock_field{"clock",
                                          "Clock",
                                          "kHz",
@@ -337,7 +341,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
     ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
     ui.value("fastest",
              "None up to",
-             report.fastest ? fmt::format("{:.6g}", to_mm_per_min(*report.fastest)) : "-",
+             report.fastest ? fmt::format("{:.0f}", to_mm_per_min(*report.fastest)) : "-",
              "mm/min");
     if (const auto value = ui.number(choice.needle_rpm, needle_field)) {
         ProcessorChoice wanted = choice;

@@ -133,7 +133,7 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
     sketch.path(ends, widgets::faded(colours.series[1], 0.8), 1.0F);
     sketch.arrow(middle, ends.back(), colours.accent, 2.5F);
     sketch.text({inside.x + ui.px(6.0F), inside.bottom() - ui.px(20.0F), inside.w, ui.px(18.0F)},
-                fmt::format("left {:.2e}\u00b0", to_degrees(trace.points.back().angle_error)),
+                fmt::format("left {:.3g}\u00b0", to_degrees(trace.points.back().angle_error)),
                 colours.text,
                 widgets::TextAlign::left,
                 widgets::TextFont::small);

@@ -204,10 +204,10 @@ TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
     EXPECT_TRUE(bench.processor().report().late.empty());
     person.click("inspector/registers"); // folded away, so that all of the next section is in sight
     person.click("inspector/times/clock");
-    person.type("0.2"); // kHz: a chord takes 0.6 s to compute, and 1.2 s at 30 mm/min
+    person.type("0.6"); // kHz: a chord takes 0.2 s to compute, and 0.4 s at 30 mm/min
     person.press_key(render::Key::enter);
     person.frames(2);
-    EXPECT_NEAR(bench.processor().choice().clock_hz, 200.0, 1e-9);
+    EXPECT_NEAR(bench.processor().choice().clock_hz, 600.0, 1e-9);
     EXPECT_EQ(bench.processor().report().late.size(), 1U); // the rapid before it is faster
     person.click("inspector/times/clock");
     person.type("0.05"); // 2.4 s
