@@ -4,11 +4,11 @@
 #include "core/base/parallel.h"
 #include "core/base/units.h"
 #include "core/kinematics/branch.h"
-#include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/chord_curve.h"
+#include "core/toolpath/internal/move_error.h"
 #include "core/toolpath/zigzag.h"
 
 #include <algorithm>
@@ -83,28 +83,11 @@ grid::MoveError judge(const MachineModel& machine,
                       int tip_samples) {
     const Node a = off_the_pole(machine, first, second);
     const Node b = off_the_pole(machine, second, first);
-    grid::MoveError error{infinity, infinity, curve.length(), infinity, infinity};
     if (a.branches.empty() || b.branches.empty()) {
-        return error;
+        return {infinity, infinity, curve.length(), infinity, infinity};
     }
     const AxisPositions& from = a.branches.front();
-    const AxisPositions step = follow(machine, from, b.branches) - from;
-    double squared = 0.0;
-    error.axis = 0.0;
-    error.off_surface = 0.0;
-    error.param = 0.0;
-    for (int k = 1; k <= tip_samples; ++k) {
-        const double t = static_cast<double>(k) / (tip_samples + 1);
-        const ToolPose actual = kinematics::forward(machine, from + t * step);
-        const ChordCurve::Nearest nearest = curve.nearest(actual.tip);
-        squared = std::max(squared, nearest.squared);
-        const double off = std::abs((actual.tip - nearest.point).dot(nearest.normal.normalized()));
-        error.off_surface = std::max(error.off_surface, off);
-        error.param = std::max(error.param, (actual.tip - curve.at(t)).norm());
-        error.axis = std::max(error.axis, angle_between(actual.axis, nearest.normal));
-    }
-    error.tip = std::sqrt(squared);
-    return error;
+    return move_error(machine, from, follow(machine, from, b.branches), curve, tip_samples);
 }
 
 Vec2 blend(const Vec2& a, const Vec2& b, double t) {

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
+#include "core/toolpath/internal/path_point_text.h"
 
 #include <fmt/format.h>
 
@@ -13,24 +14,11 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-[[noreturn]] void unreachable(std::size_t n, const PathPoint& point, const std::string& why) {
-    throw Error(fmt::format("path point {} (node {},{}, tip {:.3f} {:.3f} {:.3f}) cannot be reached: {}",
-                            n,
-                            point.origin.i,
-                            point.origin.j,
-                            point.pose.tip.x(),
-                            point.pose.tip.y(),
-                            point.pose.tip.z(),
-                            why),
-                {},
-                "move the part on the table, or choose another machine");
-}
-
 AxisPositions
 position_at(const MachineModel& machine, const Toolpath& path, std::size_t n, const AxisPositions& previous) {
     const kinematics::InverseSolution solution = kinematics::inverse(machine, path.points[n].pose, previous);
     if (solution.branches.empty()) {
-        unreachable(n, path.points[n], solution.why);
+        refuse_point(n, path.points[n], solution.why);
     }
     return kinematics::nearest_branch(machine, solution.branches, previous);
 }
