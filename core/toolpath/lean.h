@@ -3,8 +3,7 @@
 // direction of the move along the surface, r = f x n to the right of it. Angles rad.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
-#include "core/toolpath/toolpath.h"
+#include "core/geometry/vectors.h"
 
 namespace millwright::toolpath {
 
@@ -22,12 +21,5 @@ struct Lean {
 /// The tool axis for a unit `normal` and a unit direction `feed` square to it, at the parameter `along` the
 /// track, 0 to 1.
 [[nodiscard]] Vec3 leaning_axis(const Lean& lean, const Vec3& normal, const Vec3& feed, double along);
-
-/// `toolpath` with the axis that leans. The direction of the move at a point is that from the point before to
-/// the one after on its track. Throws Error with the node where there is none on the surface.
-[[nodiscard]] Toolpath leaned(const geometry::BezierPatch& patch, const Lean& lean, Toolpath toolpath);
-
-/// The unit direction on the surface in which the parameters change by `step`; zero where there is none.
-[[nodiscard]] Vec3 surface_direction(const geometry::SurfaceDerivatives& at, const Vec2& step);
 
 } // namespace millwright::toolpath

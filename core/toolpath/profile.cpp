@@ -155,6 +155,29 @@ BodyNear near(const Profile& body, const geometry::ToolPose& pose, const Vec3& p
                 parallel * around * around.transpose()};
 }
 
+double
+height_over(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, const Vec3& direction) {
+    constexpr int most_steps = 100;
+    constexpr double exact = 1e-11; // mm
+    const ProfileShape& shape = body.shape();
+    const bool inside = distance(body, pose, point) < 0.0;
+    // The distance is convex along a line. Newton's steps towards its zero never pass it: upwards from a
+    // point outside, or up again from below the whole body.
+    double height = inside ? -2.0 * (shape.top - shape.bottom + 2.0 * shape.radius) : 0.0;
+    for (int n = 0; n < most_steps; ++n) {
+        const BodyNear seen = near(body, pose, point + height * direction);
+        const double slope = seen.normal.dot(direction);
+        if (seen.distance <= exact) {
+            return height;
+        }
+        if (!(slope < 0.0)) {
+            return std::numeric_limits<double>::infinity(); // past the body: from here it gets farther
+        }
+        height -= seen.distance / slope;
+    }
+    return height;
+}
+
 double distance(const Profile& body, const geometry::ToolPose& pose, const Vec3& point) {
     return body.near(section_of(pose, point).at).distance;
 }

@@ -72,4 +72,9 @@ struct BodyNear {
 /// The distance alone.
 [[nodiscard]] double distance(const Profile& body, const geometry::ToolPose& pose, const Vec3& point);
 
+/// The height over `point`, along the unit `direction`, at which the body begins: infinity where it does not.
+/// Of a point inside the body less than 0: so deep below it the body ends.
+[[nodiscard]] double
+height_over(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, const Vec3& direction);
+
 } // namespace millwright::toolpath

@@ -113,6 +113,35 @@ TEST(Profile, ItsNormalAndCurvatureAreTheDerivativesOfTheDistance) {
     }
 }
 
+/// The same by small steps along the line.
+TEST(Profile, ABodyBeginsOverAPointWhereALineMeetsIt) {
+    std::mt19937 random(11);
+    int met = 0;
+    for (const CutterShape& cutter : test::every_cutter) {
+        const Profile body = test::body(cutter);
+        for (int n = 0; n < 200; ++n) {
+            const geometry::ToolPose pose{Vec3(1, 2, 3), test::random_upward(random)};
+            const Vec3 point = pose.tip + test::random_point(random, 8.0);
+            const Vec3 up = test::random_upward(random);
+            const double found = height_over(body, pose, point, up);
+            const bool inside = distance(body, pose, point) < 0.0;
+            constexpr double step = 0.01;
+            double height = 0.0;
+            const auto within = [&] { return distance(body, pose, point + height * up) < 0.0; };
+            while (within() == inside && std::abs(height) < 60.0) {
+                height += inside ? -step : step;
+            }
+            if (std::abs(height) < 60.0) {
+                EXPECT_NEAR(found, height, 1.01 * step);
+                ++met;
+            } else {
+                EXPECT_TRUE(std::isinf(found) || std::abs(distance(body, pose, point + found * up)) < 1e-9);
+            }
+        }
+    }
+    EXPECT_GT(met, 150);
+}
+
 TEST(Profile, ItsOutlineKeepsToTheBoundary) {
     for (const CutterShape& cutter : test::every_cutter) {
         const Profile body = test::body(cutter);

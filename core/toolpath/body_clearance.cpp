@@ -1,0 +1,115 @@
+#include "core/toolpath/body_clearance.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+
+namespace millwright::toolpath {
+
+namespace {
+
+using Matrix2 = Eigen::Matrix2d;
+
+/// The distance d(S(u, v)) of the surface from the body, with derivatives by the parameters.
+struct Expansion {
+    double d = 0.0;
+    Vec2 gradient = Vec2::Zero();
+    Matrix2 hessian = Matrix2::Zero();
+    Matrix2 metric = Matrix2::Zero(); ///< first fundamental form
+};
+
+Expansion expansion_at(const geometry::BezierPatch& patch,
+                       const Profile& body,
+                       const geometry::ToolPose& pose,
+                       const Vec2& uv) {
+    const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
+    const BodyNear seen = near(body, pose, at.position);
+    const Vec3 h_du = seen.hessian * at.du;
+    const Vec3 h_dv = seen.hessian * at.dv;
+    const double across = at.du.dot(h_dv) + seen.normal.dot(at.duv);
+    const double shear = at.du.dot(at.dv);
+    Expansion e;
+    e.d = seen.distance;
+    e.gradient = {seen.normal.dot(at.du), seen.normal.dot(at.dv)};
+    e.hessian << at.du.dot(h_du) + seen.normal.dot(at.duu), across, across,
+        at.dv.dot(h_dv) + seen.normal.dot(at.dvv);
+    e.metric << at.du.squaredNorm(), shear, shear, at.dv.squaredNorm();
+    return e;
+}
+
+/// `matrix` and `gradient` without the parameters that a side of the square holds.
+void hold_sides(const Vec2& uv, Matrix2& matrix, Vec2& gradient) {
+    for (int k = 0; k < 2; ++k) {
+        const bool leaves = (uv[k] <= 0.0 && gradient[k] > 0.0) || (uv[k] >= 1.0 && gradient[k] < 0.0);
+        if (leaves) {
+            matrix.row(k).setZero();
+            matrix.col(k).setZero();
+            matrix(k, k) = 1.0;
+            gradient[k] = 0.0;
+        }
+    }
+}
+
+/// The Newton step, damped by as much curvature (1/mm) as makes it a descent.
+Vec2 step_at(const Expansion& e, const Vec2& uv) {
+    constexpr double most_curvature = 1e9;
+    for (double damping = 0.0; damping < most_curvature; damping = std::max(1e-3, 10.0 * damping)) {
+        Matrix2 h = e.hessian + damping * e.metric;
+        Vec2 g = e.gradient;
+        hold_sides(uv, h, g);
+        const double det = h.determinant();
+        if (h(0, 0) > 0.0 && h(1, 1) > 0.0 && det > 1e-9 * h(0, 0) * h(1, 1)) {
+            return -(h.inverse() * g);
+        }
+    }
+    return Vec2::Zero(); // the tangents vanish
+}
+
+/// Less than 0: how far below the surface point, which is inside, the body ends. A thin body may be deep in
+/// the part though no point of the surface is deep in the body.
+double depth_at(const geometry::BezierPatch& patch,
+                const Profile& body,
+                const geometry::ToolPose& pose,
+                const Vec2& uv) {
+    const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
+    const Vec3 normal = patch.unit_normal(at).value_or(pose.axis);
+    const Vec3 up = normal.dot(pose.axis) < 0.0 ? Vec3(-normal) : normal;
+    return height_over(body, pose, at.position, up);
+}
+
+} // namespace
+
+BodyClearance clearance_near(const geometry::BezierPatch& patch,
+                             const Profile& body,
+                             const geometry::ToolPose& pose,
+                             const Vec2& start) {
+    expects(is_finite(pose.tip) && is_finite(pose.axis) && is_finite(start), "a tool has a finite pose");
+    constexpr int most_steps = 60;
+    constexpr double smallest_step = 1e-12; // of the parameter: about 1e-10 mm on a part of 100 mm
+    const auto inside = [](const Vec2& uv) { return Vec2(uv.cwiseMax(0.0).cwiseMin(1.0)); };
+    Vec2 uv = inside(start);
+    Expansion now = expansion_at(patch, body, pose, uv);
+    for (int n = 0; n < most_steps; ++n) {
+        const Vec2 full = step_at(now, uv);
+        double fraction = 1.0;
+        Vec2 next = inside(uv + full);
+        Expansion there = expansion_at(patch, body, pose, next);
+        while (there.d > now.d && fraction > 1e-4) {
+            fraction *= 0.5;
+            next = inside(uv + fraction * full);
+            there = expansion_at(patch, body, pose, next);
+        }
+        if (!(there.d <= now.d)) {
+            break;
+        }
+        const double moved = (next - uv).cwiseAbs().maxCoeff();
+        uv = next;
+        now = there;
+        if (moved < smallest_step) {
+            break;
+        }
+    }
+    return {uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d};
+}
+
+} // namespace millwright::toolpath

@@ -1,0 +1,238 @@
+#include "core/toolpath/swept_cut.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/base/units.h"
+#include "core/toolpath/actual_trajectory.h"
+#include "core/toolpath/body_clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace millwright::toolpath {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct SurfacePoint {
+    Vec2 uv = Vec2::Zero();
+    Vec3 position = Vec3::Zero();
+    Vec3 normal = Vec3::Zero(); ///< on the side of the tool
+    std::size_t index = 0;      ///< in the raster
+};
+
+/// Neighbouring points in a ball: a body that is far from the middle is far from all.
+struct Tile {
+    Vec3 middle = Vec3::Zero();
+    double radius = 0.0;
+    std::vector<SurfacePoint> points;
+};
+
+void enclose(Tile& tile) {
+    Box3 box;
+    for (const SurfacePoint& point : tile.points) {
+        box.extend(point.position);
+    }
+    tile.middle = box.center();
+    for (const SurfacePoint& point : tile.points) {
+        tile.radius = std::max(tile.radius, (point.position - tile.middle).norm());
+    }
+}
+
+Tile tile_at(const geometry::BezierPatch& patch,
+             bool flipped,
+             const SweepSettings& raster,
+             int first_i,
+             int first_j,
+             int side) {
+    Tile tile;
+    for (int i = first_i; i < std::min(first_i + side, raster.nu); ++i) {
+        for (int j = first_j; j < std::min(first_j + side, raster.nv); ++j) {
+            const Vec2 uv(static_cast<double>(i) / (raster.nu - 1), static_cast<double>(j) / (raster.nv - 1));
+            const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
+            if (const auto normal = patch.unit_normal(at)) {
+                const auto index = static_cast<std::size_t>(i) * static_cast<std::size_t>(raster.nv) +
+                                   static_cast<std::size_t>(j);
+                tile.points.push_back({uv, at.position, flipped ? Vec3(-*normal) : *normal, index});
+            }
+        }
+    }
+    enclose(tile);
+    return tile;
+}
+
+std::vector<Tile> tiles_of(const geometry::BezierPatch& patch, bool flipped, const SweepSettings& raster) {
+    constexpr int side = 6;
+    std::vector<Tile> tiles;
+    for (int i = 0; i < raster.nu; i += side) {
+        for (int j = 0; j < raster.nv; j += side) {
+            tiles.push_back(tile_at(patch, flipped, raster, i, j, side));
+        }
+    }
+    return tiles;
+}
+
+/// Looks at a move so often that neither the tip goes farther than `step` between two, nor the axis a degree.
+int looks_at(const kinematics::MachineModel& machine, const SweptMove& move, double step) {
+    constexpr int coarse = 9;
+    constexpr double most = 5000.0;
+    const auto poses = actual_poses(machine, move.from, move.to, coarse);
+    double way = 0.0;
+    double turn = 0.0;
+    for (std::size_t n = 1; n < poses.size(); ++n) {
+        way += (poses[n].tip - poses[n - 1].tip).norm();
+        turn += angle_between(poses[n].axis, poses[n - 1].axis);
+    }
+    return static_cast<int>(std::clamp(std::ceil(std::max(way / step, turn / from_degrees(1.0))), 1.0, most));
+}
+
+/// The height over one point that a move leaves.
+struct Left {
+    std::size_t index = 0;
+    double height = infinity;
+};
+
+/// What one move finds, before it is put together with the others.
+struct Found {
+    std::vector<Left> left;
+    MoveBites bites;
+};
+
+/// The lowest point of a body so far, with its pose for a sharper look.
+struct Lowest {
+    double height = 0.0; ///< below 0 only
+    SurfacePoint at;
+    geometry::ToolPose pose;
+};
+
+/// One move against the surface.
+class Sweep {
+public:
+    Sweep(const std::vector<Tile>& tiles, const Tool& tool, double highest, std::size_t raster)
+        : tiles_(tiles), tool_(tool), highest_(highest), heights_(raster, highest) {}
+
+    void look(const geometry::ToolPose& pose) {
+        for (const Tile& tile : tiles_) {
+            if (distance(*tool_.cutter, pose, tile.middle) - tile.radius < highest_) {
+                cut(pose, tile);
+            }
+            if (tool_.holder && distance(*tool_.holder, pose, tile.middle) - tile.radius < 0.0) {
+                hit(pose, tile);
+            }
+        }
+    }
+
+    [[nodiscard]] Found found(const geometry::BezierPatch& patch) const {
+        Found result;
+        for (const std::size_t index : touched_) {
+            result.left.push_back({index, heights_[index]});
+        }
+        result.bites.cutter = sharpened(patch, *tool_.cutter, by_cutter_);
+        if (tool_.holder) {
+            result.bites.holder = sharpened(patch, *tool_.holder, by_holder_);
+        }
+        return result;
+    }
+
+private:
+    void cut(const geometry::ToolPose& pose, const Tile& tile) {
+        for (const SurfacePoint& point : tile.points) {
+            double& least = heights_[point.index];
+            if (distance(*tool_.cutter, pose, point.position) >= std::max(least, 0.0)) {
+                continue; // the height is not below the distance
+            }
+            const double height = height_over(*tool_.cutter, pose, point.position, point.normal);
+            if (height < least) {
+                if (least >= highest_) {
+                    touched_.push_back(point.index);
+                }
+                least = height;
+                note(by_cutter_, height, point, pose);
+            }
+        }
+    }
+
+    void hit(const geometry::ToolPose& pose, const Tile& tile) {
+        for (const SurfacePoint& point : tile.points) {
+            if (distance(*tool_.holder, pose, point.position) < 0.0) {
+                note(by_holder_, height_over(*tool_.holder, pose, point.position, point.normal), point, pose);
+            }
+        }
+    }
+
+    static void
+    note(Lowest& lowest, double height, const SurfacePoint& point, const geometry::ToolPose& pose) {
+        if (height < lowest.height) {
+            lowest = {height, point, pose};
+        }
+    }
+
+    static Bite sharpened(const geometry::BezierPatch& patch, const Profile& body, const Lowest& lowest) {
+        if (lowest.height >= 0.0) {
+            return {};
+        }
+        const BodyClearance sharp = clearance_near(patch, body, lowest.pose, lowest.at.uv);
+        if (sharp.distance < lowest.height) {
+            return {-sharp.distance,
+                    sharp.parameters,
+                    patch.position(sharp.parameters.x(), sharp.parameters.y())};
+        }
+        return {-lowest.height, lowest.at.uv, lowest.at.position};
+    }
+
+    const std::vector<Tile>& tiles_;
+    const Tool& tool_;
+    double highest_ = 0.0;
+    std::vector<double> heights_; // of the raster
+    std::vector<std::size_t> touched_;
+    Lowest by_cutter_, by_holder_;
+};
+
+} // namespace
+
+SweptCut swept_cut(const geometry::BezierPatch& patch,
+                   bool flipped,
+                   const kinematics::MachineModel& machine,
+                   const Tool& tool,
+                   std::span<const SweptMove> moves,
+                   const SweepSettings& settings,
+                   const Progress& progress) {
+    expects(tool.cutter.has_value(), "a tool without a cutter sweeps nothing");
+    expects(settings.nu >= 2 && settings.nv >= 2 && settings.step > 0.0 && settings.highest > 0.0,
+            "a raster has two points or more each way, steps and heights are above 0");
+    const std::vector<Tile> tiles = tiles_of(patch, flipped, settings);
+    SweptCut cut{settings.nu, settings.nv, {}, {}};
+    cut.heights.assign(static_cast<std::size_t>(settings.nu) * static_cast<std::size_t>(settings.nv),
+                       infinity);
+    cut.moves.resize(moves.size());
+    constexpr std::ptrdiff_t at_once = 64; // moves whose findings are held before they are put together
+    for (std::ptrdiff_t first = 0; first < std::ssize(moves); first += at_once) {
+        const std::ptrdiff_t count = std::min(at_once, std::ssize(moves) - first);
+        std::vector<Found> found(static_cast<std::size_t>(count));
+        parallel_for(count, 1, [&](std::ptrdiff_t n) {
+            const SweptMove& move = moves[static_cast<std::size_t>(first + n)];
+            Sweep sweep(tiles, tool, settings.highest, cut.heights.size());
+            const int looks = looks_at(machine, move, settings.step);
+            for (int k = 0; k <= looks; ++k) {
+                progress.check();
+                sweep.look(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));
+            }
+            found[static_cast<std::size_t>(n)] = sweep.found(patch);
+        });
+        for (std::ptrdiff_t n = 0; n < count; ++n) {
+            const auto move = static_cast<std::size_t>(first + n);
+            const Found& of_move = found[static_cast<std::size_t>(n)];
+            cut.moves[move] = of_move.bites;
+            for (const Left& left : moves[move].cuts ? of_move.left : std::vector<Left>{}) {
+                cut.heights[left.index] = std::min(cut.heights[left.index], left.height);
+            }
+        }
+        progress.report(static_cast<double>(first + count) / static_cast<double>(moves.size()));
+    }
+    return cut;
+}
+
+} // namespace millwright::toolpath

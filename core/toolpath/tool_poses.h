@@ -1,0 +1,33 @@
+// From the points that the tool touches to its poses: the tool leans, the machine has its say about the axis,
+// and the tip is where the cutter touches the contact. Formulas: docs/reference/cutter.md.
+#pragma once
+
+#include "core/geometry/bezier_patch.h"
+#include "core/kinematics/machine_model.h"
+#include "core/toolpath/tool.h"
+#include "core/toolpath/toolpath.h"
+
+namespace millwright::toolpath {
+
+/// `contacts`, a path of a point along the normal, as the path of `tool` on `machine`. The direction of the
+/// move at a point is that from the point before to the one after on its track. Throws Error with the node
+/// where a track has no direction and the tool leans, and where a machine without rotary axes cannot turn to
+/// the surface.
+[[nodiscard]] Toolpath with_tool(const geometry::BezierPatch& patch,
+                                 const kinematics::MachineModel& machine,
+                                 const Tool& tool,
+                                 Toolpath contacts);
+
+/// In which the parameters change at point `n` of the path, not scaled.
+[[nodiscard]] Vec2 heading_at(const Toolpath& path, std::size_t n);
+
+/// The axis that a tool is to have at the parameters `uv` of a track that goes along `heading` there;
+/// `normal` where it stands along the normal or the heading vanishes.
+[[nodiscard]] Vec3 intended_axis(const geometry::BezierPatch& patch,
+                                 const Lean& lean,
+                                 grid::TrackDirection direction,
+                                 const Vec2& uv,
+                                 const Vec2& heading,
+                                 const Vec3& normal);
+
+} // namespace millwright::toolpath

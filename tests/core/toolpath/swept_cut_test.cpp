@@ -1,0 +1,193 @@
+#include "core/toolpath/swept_cut.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/kinematics/forward.h"
+#include "core/kinematics/inverse.h"
+#include "core/toolpath/contact_shape.h"
+#include "core/toolpath/sequencing.h"
+#include "core/toolpath/tool_poses.h"
+#include "core/toolpath/zigzag.h"
+#include "tests/support/cutters.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stop_token>
+
+namespace millwright::toolpath {
+namespace {
+
+using grid::Grid;
+using grid::TrackDirection;
+
+/// A part of 40 mm by twice `half`: z = bend y^2 / 2 with a wall of height `wall` that rises smoothly at its
+/// end x = 40.
+geometry::BezierPatch part(double bend, double wall = 0.0, double half = 20.0) {
+    geometry::ControlNet net = geometry::ControlNet::sized(5, 3);
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const double y = half * (j - 1);
+            net.point(i, j) = {
+                10.0 * i, y, 0.5 * bend * half * half * (j == 1 ? -1.0 : 1.0) + (i == 4 ? wall : 0.0)};
+        }
+    }
+    return geometry::BezierPatch(net);
+}
+
+std::vector<SweptMove> moves_of(const kinematics::MachineModel& machine, const Toolpath& path) {
+    const AxisPath axes = sequence(machine, path);
+    std::vector<SweptMove> moves;
+    for (std::size_t n = 1; n < axes.positions.size(); ++n) {
+        const bool cuts = path.points[n].reached_by == MoveKind::track;
+        moves.push_back({axes.positions[n - 1], axes.positions[n], cuts});
+    }
+    return moves;
+}
+
+SweptCut
+cut_of(const geometry::BezierPatch& patch, const Tool& tool, int tracks, const SweepSettings& settings) {
+    const auto machine = test::machine("router-xyz");
+    const Toolpath path = with_tool(
+        patch, machine, tool, zigzag(patch, Grid::uniform(20, tracks), TrackDirection::along_u, false));
+    return swept_cut(patch, false, machine, tool, moves_of(machine, path), settings);
+}
+
+double highest(const SweptCut& cut) {
+    return *std::max_element(cut.heights.begin(), cut.heights.end());
+}
+
+/// A ball over a plane leaves r - sqrt(r^2 - gap^2 / 4).
+TEST(SweptCut, LeavesTheScallopsOfTheClosedForm) {
+    const auto plane = part(0.0);
+    for (const int tracks : {21, 11}) {
+        const double gap = 40.0 / (tracks - 1);
+        const SweptCut cut =
+            cut_of(plane, {.cutter = test::body(test::ball)}, tracks, {.nu = 11, .nv = 161, .highest = 0.6});
+        EXPECT_NEAR(highest(cut), 4.0 - std::sqrt(16.0 - 0.25 * gap * gap), 1.5e-3);
+        EXPECT_GE(*std::min_element(cut.heights.begin(), cut.heights.end()), -1e-9);
+        for (const MoveBites& bites : cut.moves) {
+            EXPECT_LT(bites.cutter.depth, 1e-9);
+        }
+    }
+}
+
+/// In a valley the formula of second order is met; measured along the normal of the surface.
+TEST(SweptCut, AgreesWithTheFormulaOfSecondOrderOnACurvedPart) {
+    const double bend = 0.03;
+    const auto valley = part(bend);
+    const SweptCut cut = cut_of(
+        valley, {.cutter = test::body(test::ball)}, 41, {.nu = 5, .nv = 321, .step = 0.15, .highest = 0.3});
+    const auto at = [&](int j) { return cut.height(2, j); };
+    double in_the_middle = 0.0; // between the tracks next to y = 0, where the gap is 1 mm
+    for (int j = 152; j <= 168; ++j) {
+        in_the_middle = std::max(in_the_middle, at(j));
+    }
+    EXPECT_NEAR(in_the_middle, scallop_height(4.0, -bend, 1.0), 1e-3);
+}
+
+/// All bodies at all poses against all points, without tiles, orders or descents.
+TEST(SweptCut, IsWhatBruteForceFinds) {
+    const auto patch = test::patch("two-bell");
+    const auto machine = test::machine("ac-table");
+    const Tool tool{.cutter = test::body(test::bull_nose), .lean = {.lead = 0.1}};
+    const Toolpath path =
+        with_tool(patch, machine, tool, zigzag(patch, Grid::uniform(5, 6), TrackDirection::along_v, false));
+    const std::vector<SweptMove> all = moves_of(machine, path);
+    const std::vector<SweptMove> moves(all.begin() + 6, all.begin() + 11); // one track
+    const SweepSettings settings{.nu = 13, .nv = 17, .step = 1.0, .highest = 3.0};
+    const SweptCut cut = swept_cut(patch, false, machine, tool, moves, settings);
+    int cut_points = 0;
+    for (int i = 0; i < settings.nu; ++i) {
+        for (int j = 0; j < settings.nv; ++j) {
+            const Vec2 uv(i / 12.0, j / 16.0);
+            const Vec3 p = patch.position(uv.x(), uv.y());
+            const Vec3 n = patch.unit_normal(uv.x(), uv.y()).value();
+            double least = std::numeric_limits<double>::infinity();
+            for (const SweptMove& move : moves) {
+                for (int k = 0; k <= 400; ++k) {
+                    const auto pose =
+                        kinematics::forward(machine, move.from + k / 400.0 * (move.to - move.from));
+                    least = std::min(least, height_over(*tool.cutter, pose, p, n));
+                }
+            }
+            if (least < 2.5) {
+                EXPECT_NEAR(cut.height(i, j), least, 0.05) << i << ", " << j;
+                ++cut_points;
+            } else if (least > 3.0) {
+                EXPECT_TRUE(std::isinf(cut.height(i, j)));
+            }
+        }
+    }
+    EXPECT_GT(cut_points, 20);
+}
+
+/// In a valley of a smaller radius than its own a ball that touches the bottom cuts into the sides.
+TEST(SweptCut, ABallInAValleyThatIsTooNarrowGougesItsSides) {
+    const double radius = 3.0;
+    const auto valley = part(1.0 / radius, 0.0, 6.0); // of the parabola's bottom
+    const SweptCut cut =
+        cut_of(valley, {.cutter = test::body(test::ball)}, 3, {.nu = 21, .nv = 201, .step = 0.3});
+    // The ball's centre is r over the bottom: the deepest point of the parabola z = y^2 / 2R in the ball.
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= 100'000; ++k) {
+        const double y = 6.0 * k / 100'000;
+        least = std::min(least, std::hypot(y, y * y / (2.0 * radius) - 4.0) - 4.0);
+    }
+    ASSERT_LT(least, -0.1);
+    const Bite& bite = cut.moves[30].cutter; // on the middle one of three tracks
+    EXPECT_NEAR(bite.depth, -least, 1e-3);
+    EXPECT_GT(std::abs(bite.position.y()), 0.5);
+}
+
+TEST(SweptCut, AHolderThatIsTooLowHitsTheWallAndALongerCutterDoesNot) {
+    const auto walled = part(0.0, 50.0);
+    const auto holder_depth = [&](double length) {
+        CutterShape shape = test::ball;
+        shape.length = length;
+        const Tool tool{.cutter = test::body(shape),
+                        .holder = body_of(HolderShape{.diameter = 30.0, .length = 40.0}, length)};
+        double most = 0.0;
+        for (const MoveBites& bites : cut_of(walled, tool, 5, {.nu = 41, .nv = 41, .step = 0.5}).moves) {
+            most = std::max(most, bites.holder.depth);
+        }
+        return most;
+    };
+    EXPECT_GT(holder_depth(12.0), 1.0);
+    EXPECT_EQ(holder_depth(150.0), 0.0);
+}
+
+TEST(SweptCut, IsTheSameOnAnyNumberOfThreads) {
+    const auto patch = part(0.02);
+    const Tool tool{.cutter = test::body(test::cone)};
+    std::vector<std::vector<double>> heights;
+    for (const int threads : {1, 2, 7}) {
+        set_thread_count(threads);
+        heights.push_back(cut_of(patch, tool, 9, {.nu = 31, .nv = 31, .step = 1.0}).heights);
+    }
+    set_thread_count(0);
+    EXPECT_EQ(heights[0], heights[1]);
+    EXPECT_EQ(heights[0], heights[2]);
+}
+
+TEST(SweptCut, StopsWhenAskedAndRefusesAPoint) {
+    const auto machine = test::machine("router-xyz");
+    const SweptMove move{kinematics::AxisPositions::Zero(3), kinematics::AxisPositions::Zero(3)};
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)swept_cut(part(0.0),
+                                 false,
+                                 machine,
+                                 {.cutter = test::body(test::ball)},
+                                 {&move, 1},
+                                 {},
+                                 {nullptr, stop.get_token()}),
+                 Cancelled);
+    EXPECT_THROW((void)swept_cut(part(0.0), false, machine, {}, {&move, 1}, {}), Defect);
+}
+
+} // namespace
+} // namespace millwright::toolpath
