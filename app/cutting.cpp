@@ -104,11 +104,22 @@ std::string preview_of(const plot::CutPath& path,
                                                  : plot::shaded(field, plate));
 }
 
+PostedText posted_text(const plot::CutPath& path,
+                       const kinematics::MachineModel& machine,
+                       const CuttingOptions& options,
+                       const std::vector<std::string>& header) {
+    return posted(program_of(path, machine, options, header),
+                  machine,
+                  options.post,
+                  std::filesystem::path(options.out).stem().string());
+}
+
 } // namespace
 
 double planned_seconds(const plot::CutPath& path, const CuttingOptions& options, const Progress& progress) {
     const kinematics::MachineModel machine = machine_of(options);
-    return motion::plan(program_of(path, machine, options, {}), machine, {}, progress).duration();
+    return motion::plan(posted_text(path, machine, options, {}).text.program, machine, {}, progress)
+        .duration();
 }
 
 void write_program(const plot::CutPath& path,
@@ -116,14 +127,14 @@ void write_program(const plot::CutPath& path,
                    const plot::ToolTip& tip,
                    const std::vector<std::string>& header,
                    const Progress& progress) {
+    if (path.empty()) {
+        throw Error("there is nothing to cut");
+    }
     if (options.preview.plate && !options.preview.through) {
         plot::expect_within_plate(path, *options.preview.plate);
     }
     const kinematics::MachineModel machine = machine_of(options);
-    const PostedText text = posted(program_of(path, machine, options, header),
-                                   machine,
-                                   options.post,
-                                   std::filesystem::path(options.out).stem().string());
+    const PostedText text = posted_text(path, machine, options, header);
     const std::string preview =
         options.preview.file.empty() ? "" : preview_of(path, options.preview, tip, progress.part(0.2, 0.6));
     progress.check();

@@ -48,26 +48,61 @@ TEST(PlotCommand, InfoCountsOneAndMany) {
     EXPECT_EQ(first_line("SP1;PD400,400;PU;PA0,0;SP2;PD0,400;"), "6 commands, 2 strokes of 2 pens");
 }
 
-// What it says of its path is what the program does, which `gcode time` reads back, the way to its beginning
-// as well.
-TEST(PlotCommand, ToolpathIsAsLongAndTakesAsLongAsItsProgram) {
-    const ScratchFolder folder;
-    const std::string file = (folder / "line.ngc").string();
-    write_content(folder / "line.plt", "IN;SP1;PU200,200;PD4200,200;PU;SP;");
-    const Ended made =
-        run({"plot", "toolpath", (folder / "line.plt").string(), "--origin", "3,4", "--out", file});
-    ASSERT_EQ(made.exit_code, 0) << made.err;
+struct Told {
+    double way = 0.0;  ///< mm
+    std::string clock; ///< "32:52 min"
+};
+
+/// "... points: 8.1 m at a feed, 0.4 m at rapid ... 32:52 min on the machine".
+Told told_by_toolpath(const std::string& out) {
     double feed = 0.0;
     double rapid = 0.0;
-    const std::string figures = made.out.substr(made.out.find(" points: ") + 9);
-    ASSERT_EQ(std::sscanf(figures.c_str(), "%lf m at a feed, %lf m at rapid", &feed, &rapid), 2) << made.out;
-    const Ended timed = run({"gcode", "time", file, "--machine", "forming-table"});
-    double seconds = 0.0;
-    double way = 0.0;
-    const std::string said = timed.out.substr(timed.out.find('(') + 1);
-    ASSERT_EQ(std::sscanf(said.c_str(), "%lf s), %lf mm", &seconds, &way), 2) << timed.out;
-    EXPECT_NEAR(1000.0 * (feed + rapid), way, 1.1); // each in whole millimetres
-    EXPECT_THAT(made.out, HasSubstr(fmt::format("0:{:02.0f} min on ", std::ceil(seconds))));
+    const std::string figures = out.substr(out.find(" points: ") + 9);
+    EXPECT_EQ(std::sscanf(figures.c_str(), "%lf m at a feed, %lf m at rapid", &feed, &rapid), 2) << out;
+    const std::size_t end = out.rfind(" on ");
+    const std::size_t begin = out.rfind(", ", end) + 2;
+    return {1000.0 * (feed + rapid), out.substr(begin, end - begin)};
+}
+
+/// "00:32:52 (1971.020 s), 8500.1 mm, 2067 blocks".
+Told told_by_gcode_time(const std::string& out) {
+    Told told;
+    const std::string figures = out.substr(out.find("s), ") + 4);
+    EXPECT_EQ(std::sscanf(figures.c_str(), "%lf mm", &told.way), 1) << out;
+    int minutes = 0;
+    int seconds = 0;
+    EXPECT_EQ(std::sscanf(out.c_str(), "00:%d:%d", &minutes, &seconds), 2) << out;
+    told.clock = fmt::format("{}:{:02} min", minutes, seconds);
+    return told;
+}
+
+// What it says of its path is what the program does, which `gcode time` reads back, the way to its beginning
+// as well: with corners that are rounded as the control is told, or followed exactly by one that is not.
+TEST(PlotCommand, ToolpathIsAsLongAndTakesAsLongAsItsProgram) {
+    const ScratchFolder folder;
+    const std::string line = (folder / "line.plt").string();
+    write_content(line, "IN;SP1;PU200,200;PD4200,200;PU;SP;");
+    const std::string sign = "assets/samples/plot/thesis-sign.plt";
+    const std::vector<std::vector<std::string>> jobs{{line, "--origin", "3,4"},
+                                                     {sign, "--link", "3"},
+                                                     {sign, "--link", "3", "--post", "grbl"},
+                                                     {"assets/samples/plot/figures.plt", "--order"}};
+    for (const auto& job : jobs) {
+        SCOPED_TRACE(testing::PrintToString(job));
+        const std::string file = (folder / "out.ngc").string();
+        std::vector<std::string> words{"plot", "toolpath", "--out", file};
+        words.insert(words.end(), job.begin(), job.end());
+        const Ended made = run(words);
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const Ended timed = run({"gcode", "time", file, "--machine", "forming-table"});
+        ASSERT_EQ(timed.exit_code, 0) << timed.err;
+        const Told of_path = told_by_toolpath(made.out);
+        const Told of_program = told_by_gcode_time(timed.out);
+        EXPECT_EQ(of_path.clock, of_program.clock) << made.out << timed.out;
+        EXPECT_NEAR(of_path.way, of_program.way, 1.1); // each in whole millimetres
+        const std::string last = made.out.substr(0, made.out.find(" points: "));
+        EXPECT_THAT(last, HasSubstr(of_path.clock + " by the planner\n"));
+    }
 }
 
 TEST(PlotCommand, InfoAnswersInJson) {
@@ -266,6 +301,17 @@ TEST(PlotCommand, ToolpathGoesAroundItsPartWithTheToolOutside) {
         run({"plot", "toolpath", (folder / "square.plt").string(), "--level", "7:depth=2", "--out", file})
             .err,
         HasSubstr("pen 7 draws nothing"));
+}
+
+TEST(PlotCommand, ToolpathOfPensThatAreAllOffIsRefused) {
+    const ScratchFolder folder;
+    write_content(folder / "line.plt", "IN;SP1;PU200,200;PD4200,200;PU;SP;");
+    const std::string file = (folder / "line.ngc").string();
+    const Ended ended =
+        run({"plot", "toolpath", (folder / "line.plt").string(), "--level", "1:off", "--out", file});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("there is nothing to cut"));
+    EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(PlotCommand, ToolpathHatchesClosedStrokes) {

@@ -256,10 +256,7 @@ void check_parts(const JsonValue& root, const PostFormat& post) {
     if (post.reader == TextReader::grbl && post.tip) {
         root.at("tip").fail("Grbl knows no tip control");
     }
-    const bool names_path = std::any_of(post.blocks.head.begin(), post.blocks.head.end(), [](const auto& l) {
-        return l.find("{path}") != std::string::npos;
-    });
-    if (names_path && (post.blocks.path_blended.empty() || post.blocks.path_exact.empty())) {
+    if (says_path_mode(post) && (post.blocks.path_blended.empty() || post.blocks.path_exact.empty())) {
         root.at("blocks").at("head").fail("{path} needs path_blended and path_exact");
     }
 }
@@ -331,6 +328,12 @@ PostFormat read_post(const std::filesystem::path& file) {
 
 PostFormat parse_post(std::string_view text, const std::filesystem::path& file) {
     return post_of(JsonValue::parse(text, file));
+}
+
+bool says_path_mode(const PostFormat& post) {
+    return std::any_of(post.blocks.head.begin(), post.blocks.head.end(), [](const std::string& line) {
+        return line.find("{path}") != std::string::npos;
+    });
 }
 
 } // namespace millwright::gcode

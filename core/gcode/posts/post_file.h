@@ -14,4 +14,7 @@ namespace millwright::gcode {
 /// The same of a text, which is called `file` in diagnostics.
 [[nodiscard]] PostFormat parse_post(std::string_view text, const std::filesystem::path& file);
 
+/// Whether texts in `post` say how closely corners are followed: some line of their head has {path}.
+[[nodiscard]] bool says_path_mode(const PostFormat& post);
+
 } // namespace millwright::gcode

@@ -1,17 +1,38 @@
 #include "core/gcode/posts/release.h"
 
 #include "core/gcode/posts/arc_fit.h"
+#include "core/gcode/posts/post_file.h"
 #include "core/gcode/posts/read_back.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace millwright::gcode {
+
+namespace {
+
+/// The head of the text says it, for all moves, or nothing does.
+void set_path_mode(Program& program, const PostFormat& format, double tolerance) {
+    std::optional<PathControl> said;
+    if (says_path_mode(format)) {
+        said = {tolerance > 0.0 ? PathMode::continuous : PathMode::exact_path, std::max(0.0, tolerance)};
+    }
+    for (Block& block : program.blocks) {
+        if (block.moves()) {
+            block.path = said;
+        }
+    }
+}
+
+} // namespace
 
 ReleasedText release(const Program& program,
                      const kinematics::MachineModel& machine,
                      const PostFormat& format,
                      const ReleaseSettings& settings) {
     PreparedProgram ready = prepare(program, machine, format, settings.tip_tolerance);
+    set_path_mode(ready.program, format, settings.text.path_tolerance);
     if (settings.arc_tolerance > 0.0) {
         ready.wording.arcs = fit_arcs(ready.program, ready.wording, format, settings.arc_tolerance);
     }

@@ -97,6 +97,11 @@ std::uint8_t level(double brightness) {
     return static_cast<std::uint8_t>(std::lround(most * std::clamp(brightness, 0.0, 1.0)));
 }
 
+/// IEC 61966-2-1: as a picture says how much light there is, 0 to 1.
+double srgb(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+}
+
 GrayImage image_like(const HeightField& field) {
     return {field.columns, field.rows, std::vector<std::uint8_t>(field.z.size())};
 }
@@ -160,7 +165,7 @@ GrayImage against_light(const HeightField& field, double thickness, double half_
     GrayImage image = image_like(field);
     std::ranges::transform(field.z, image.pixels.begin(), [&](float z) {
         const double left = std::max(0.0, thickness + static_cast<double>(z));
-        return level(std::exp2(-left / half_depth));
+        return level(srgb(std::exp2(-left / half_depth)));
     });
     return image;
 }

@@ -19,8 +19,8 @@ finished(const CutPath& path, const ToolTip& tip, int longest_side, const Progre
 /// Lit from the upper left, as a matt surface. Squares at or below `-thickness` are through the plate: white.
 [[nodiscard]] GrayImage shaded(const HeightField& field, double thickness);
 
-/// Against the light: what is left of a plate of this thickness halves the light each `half_depth`. Throws
-/// Error unless both are above 0 and finite.
+/// Against the light: what is left of a plate of this thickness halves the light each `half_depth`; levels of
+/// sRGB. Throws Error unless both are above 0 and finite.
 [[nodiscard]] GrayImage against_light(const HeightField& field, double thickness, double half_depth);
 
 } // namespace millwright::plot

@@ -89,6 +89,26 @@ TEST(Release, WritesWhatTheWriterWritesForLinuxCnc) {
     EXPECT_EQ(release(program, machine, post_named("linuxcnc")).listing.text, write_gcode(program, {}).text);
 }
 
+// Who plans the released program plans what its reader plans.
+TEST(Release, FollowsCornersAsItsTextSays) {
+    const auto machine = test::machine("router-xyz");
+    Program program = test::empty_program(machine);
+    test::add_move(program, kinematics::AxisPositions(Vec3(10.0, 0.0, 0.0)), 1.0);
+    program.blocks.back().path = PathControl{PathMode::exact_stop, 0.0};
+    test::add_move(program, kinematics::AxisPositions(Vec3(10.0, 10.0, 0.0)), 1.0);
+    test::add_block(program, BlockKind::end);
+    const auto said = [&](const char* post, double tolerance) {
+        const ReleasedText text =
+            release(program, machine, post_named(post), {.text = {.path_tolerance = tolerance}});
+        EXPECT_EQ(text.program.blocks[0].path, text.program.blocks[1].path);
+        EXPECT_FALSE(text.program.blocks.back().path);
+        return text.program.blocks[0].path;
+    };
+    EXPECT_EQ(said("linuxcnc", 0.02), (PathControl{PathMode::continuous, 0.02}));
+    EXPECT_EQ(said("linuxcnc", 0.0), (PathControl{PathMode::exact_path, 0.0}));
+    EXPECT_EQ(said("grbl", 0.02), std::nullopt) << "its words know no corners";
+}
+
 TEST(Release, ReadsEveryRandomProgramBack) {
     std::mt19937 random(2026);
     for (const std::string post : posts) {

@@ -91,7 +91,7 @@ TEST(FinishedLook, HalvesTheLight) {
     const millwright::test::WithoutTraps no_traps;
     HeightField field{4, 1, 1.0, {0.0F, -1.0F, -1.5F, -3.0F}};
     const GrayImage image = against_light(field, 2.0, 0.5);
-    EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{16, 64, 128, 255})); // 255 / 16, / 4, / 2, through
+    EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{71, 137, 188, 255})); // sRGB of 1/16, 1/4, 1/2, 1
     EXPECT_THROW(static_cast<void>(against_light(field, 0.0, 0.5)), Error);
     EXPECT_THROW(static_cast<void>(against_light(field, 1.0, std::nan(""))), Error);
 }
