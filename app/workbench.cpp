@@ -67,15 +67,9 @@ void run_workbench(const std::optional<std::filesystem::path>& file) {
                                 .settings = project::recent_files_place(),
                                 .recovery = project::recovery_place(),
                                 .wake = [&window] { window.request_redraw(); }});
-    window.on_drop([&workshop](const std::vector<std::filesystem::path>& files) {
-        actions::ActionQueue ask;
-        ask.open_file(files.front());
-        workshop.perform(ask);
-    });
+    window.on_drop([&workshop](const std::vector<std::filesystem::path>& files) { workshop.receive(files); });
     if (file) {
-        actions::ActionQueue ask;
-        ask.open_file(*file);
-        workshop.perform(ask);
+        workshop.receive({*file});
     }
     run(window, workshop);
 }

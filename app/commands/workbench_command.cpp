@@ -46,7 +46,8 @@ int open_workbench(const std::string& file) {
 
 void add_workbench_command(CLI::App& app, Command& chosen) {
     const auto file = std::make_shared<std::string>();
-    app.add_option("FILE", *file, "Project (.json) or G-code file to open in the workbench");
+    app.add_option(
+        "FILE", *file, "Project (.json), plot, picture, path or G-code file to open in the workbench");
     chosen = [file] { return open_workbench(*file); };
 }
 

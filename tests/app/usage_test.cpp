@@ -22,7 +22,8 @@ void expect_wrong_usage(const std::vector<std::string>& arguments, const std::st
 TEST(Usage, HelpNamesEveryCommandAndOption) {
     const Ended ended = run({"--help"});
     EXPECT_EQ(ended.exit_code, 0);
-    for (const char* command : {"plan", "render", "run", "gcode", "--version", "FILE"}) {
+    for (const char* command :
+         {"plan", "render", "run", "gcode", "--version", "FILE", "plot, picture, path or"}) {
         EXPECT_THAT(ended.out, HasSubstr(command));
     }
     EXPECT_THAT(run({"render", "--help"}).out, HasSubstr("design,grid,toolpath,error,machine"));

@@ -156,6 +156,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 }
 
 bool Workshop::advance(double seconds) {
+    follow_received();
     follow_plot();
     follow_file();
     follow_begin();

@@ -51,6 +51,9 @@ public:
     /// A project file opens in place of the project, whatever is unsaved; undo goes back. Any other file is
     /// taken for G-code and opens beside the project. Throws Error; what is open then stays.
     void open(const std::filesystem::path& file);
+    /// Files from outside of the window, dropped on it or named on the command line: opens the first one as
+    /// soon as nothing asks the person, and says which of several that is.
+    void receive(const std::vector<std::filesystem::path>& files);
     /// Throws Error; the old file then stays as it was. Goes on with what waited for it.
     void save(const std::filesystem::path& file);
     /// Reads the opened G-code file once more, by the rules and for the machine of the session.
@@ -136,6 +139,7 @@ private:
     void look_at_another();
     void open_gcode(const std::filesystem::path& file);
     void follow_file();
+    void follow_received();
     void open_plot(const std::filesystem::path& file);
     void follow_plot();
     void finish_writing_plot();
@@ -157,6 +161,7 @@ private:
     std::vector<Document> documents_; ///< by project number of the history
     project::RecentFiles recent_;
     std::optional<Leaving> leaving_;
+    std::optional<std::filesystem::path> received_; ///< waits until nothing is asked
     std::vector<project::LeftBehind> left_behind_;
     std::optional<Document> kept_; ///< what the autosave was last told: the file, the unsaved state
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept

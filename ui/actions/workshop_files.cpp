@@ -48,6 +48,30 @@ void Workshop::open(const fs::path& file) {
     remember(file);
 }
 
+void Workshop::receive(const std::vector<fs::path>& files) {
+    expects(!files.empty(), "files are received, not none");
+    const std::string name = files.front().filename().string();
+    received_ = files.front();
+    if (files.size() > 1) {
+        tell(session_,
+             widgets::Severity::warning,
+             "One file is opened at a time: of these " + std::to_string(files.size()) + " it is " + name +
+                 ".");
+    }
+    follow_received();
+    if (received_) {
+        tell(session_, widgets::Severity::info, name + " is opened when the question is answered.");
+    }
+}
+
+void Workshop::follow_received() {
+    if (received_ && !look().asks()) {
+        ActionQueue ask;
+        ask.open_file(*std::exchange(received_, std::nullopt));
+        perform(ask);
+    }
+}
+
 void Workshop::open_gcode(const fs::path& file) {
     if (jobs_->view().running) {
         throw Error("a job is running; another program can be opened when it has ended", file);

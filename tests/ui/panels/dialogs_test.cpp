@@ -222,6 +222,47 @@ TEST(RecoveryDialog, RecoverGoesOnWithTheUnsavedWork) {
     EXPECT_TRUE(is_empty_of_copies(scratch.path()));
 }
 
+TEST(RecoveryDialog, FilesFromOutsideWaitForTheAnswer) {
+    const test::ScratchFolder scratch;
+    leave_behind(scratch.path(), fs::absolute(dome));
+    Person person({1280, 800}, scratch.path());
+    person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt")});
+    person.frames();
+    EXPECT_TRUE(person.project().plot.file.empty()) << "opened behind the question";
+    EXPECT_EQ(person.workshop().session().log.back(), "moves.plt is opened when the question is answered.");
+    person.click("dialogs/recovery/recovery_recover");
+    person.wait_idle();
+    EXPECT_EQ(person.project().grid.nu, 33);
+    EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::plot);
+}
+
+TEST(ReceivedFiles, OfSeveralTheOneThatIsOpenedIsNamed) {
+    Person person;
+    person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt"),
+                               fs::absolute("assets/samples/plot/figures.plt"),
+                               fs::absolute(dome)});
+    person.wait_idle();
+    EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
+    const auto& log = person.workshop().session().log;
+    EXPECT_EQ(log.back(), "One file is opened at a time: of these 3 it is moves.plt.");
+}
+
+TEST(ReceivedFiles, WaitBehindAQuestionAboutUnsavedChangesAndAskTheirOwn) {
+    Person person;
+    (void)opened_copy(person);
+    change(person);
+    choose_sample(person);
+    person.workshop().receive({fs::absolute(dome)});
+    person.frames();
+    person.click("dialogs/unsaved/unsaved_cancel");
+    person.frames();
+    ASSERT_TRUE(person.sees("dialogs/unsaved/unsaved_discard")) << "now about the dome";
+    EXPECT_EQ(person.workshop().look().leaving_to, "open dome.json");
+    person.click("dialogs/unsaved/unsaved_discard");
+    EXPECT_EQ(person.workshop().look().document.file, fs::absolute(dome));
+}
+
 TEST(RecoveryDialog, DiscardRemovesTheCopy) {
     const test::ScratchFolder scratch;
     leave_behind(scratch.path(), {});

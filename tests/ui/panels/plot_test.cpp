@@ -33,9 +33,7 @@ struct Bench {
         drop(folder / file.filename());
     }
     void drop(const fs::path& file) {
-        actions::ActionQueue ask; // as the window does it for what is dropped on it
-        ask.open_file(file);
-        person.workshop().perform(ask);
+        person.workshop().receive({file}); // as the window does it for what is dropped on it
         settle();
     }
     /// Until everything is derived and looked at.
