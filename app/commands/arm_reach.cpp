@@ -12,6 +12,7 @@
 #include "core/kinematics/machine_file.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
+#include "core/project/arm_input.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
@@ -78,13 +79,7 @@ Frame frame_of(const std::vector<double>& v) {
             throw Error("the frame has a number that is not finite");
         }
     }
-    Frame frame = Frame::Identity();
-    frame.translation() = Vec3(v[0], v[1], v[2]);
-    frame.linear() = (Eigen::AngleAxisd(from_degrees(v[5]), Vec3::UnitZ()) *
-                      Eigen::AngleAxisd(from_degrees(v[4]), Vec3::UnitY()) *
-                      Eigen::AngleAxisd(from_degrees(v[3]), Vec3::UnitX()))
-                         .toRotationMatrix();
-    return frame;
+    return project::base_T_path({Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])});
 }
 
 std::vector<ArmWay> ways_of(const Options& options) {

@@ -28,12 +28,20 @@ void Driver::stop_jog() {}
 
 void Driver::trust_position() {}
 
+void Driver::enable() {
+    refuse(*this, "switch the power of its motors");
+}
+
 void Driver::home() {
     refuse(*this, "home");
 }
 
 int Driver::command(const std::string&) {
     refuse(*this, "execute single lines");
+}
+
+int Driver::load(const std::vector<std::string>&) {
+    refuse(*this, "load files of settings");
 }
 
 void Driver::set_single_block(bool on) {

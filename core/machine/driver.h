@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,7 @@ struct Capabilities {
     bool other_overrides = false;         ///< of rapids and spindle speed, too
     bool jog = false;
     std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
+    bool power = false;          ///< motors get theirs from enable(), never by themselves
     bool home = false;
     std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
     bool tells_spindle = true;      ///< whether it turns
@@ -40,7 +42,8 @@ struct Capabilities {
     bool single_block = false;      ///< can stand still after each block
     bool optional_stop = false;     ///< has a switch for M1 here
     bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
-    std::optional<gcode::Dialect> dialect{}; ///< in which it reads text
+    std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
+    std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };
 
 /// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and a second.
@@ -49,6 +52,9 @@ struct MachineLimits {
         char letter = 'X';
         std::optional<double> min, max; ///< of the travel
         std::optional<double> speed;    ///< greatest
+        std::optional<double> acceleration{};
+        std::optional<double> jog_speed{}; ///< in force for jogs
+        std::optional<double> output_V{};  ///< greatest, to its amplifier
     };
     std::vector<Axis> axes;
     std::optional<double> spindle_rpm; ///< greatest
@@ -130,12 +136,17 @@ public:
     virtual void jog(const Jog& jog);
     /// Brakes and forgets all jogs. Does nothing unless jogging.
     virtual void stop_jog();
+    /// Gives the motors power where they stand. Only ever because a person looked and said so.
+    virtual void enable();
     /// Finds the machine's zero by its switches; also after an alarm.
     virtual void home();
     /// Lines of G-code, or of what else the controller is told by lines (settings), executed now, while idle
     /// or stopped; after a refused one the rest is left out. What became of them: DriverStatus::answer, whose
     /// number is returned.
     virtual int command(const std::string& lines);
+    /// The same for a whole file of settings: what is behind a refused line is sent all the same, and the
+    /// answer has a line for each refusal.
+    virtual int load(const std::vector<std::string>& lines);
     /// After each block with anything to do the machine rests, DriverState::holding, until resume(). Also
     /// while a program runs: it rests as soon as it can.
     virtual void set_single_block(bool on);

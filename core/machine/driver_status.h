@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::machine {
 
@@ -53,6 +54,14 @@ struct Probing {
     kinematics::AxisPositions position; ///< where, in machine coordinates
 };
 
+/// What a controller tells of the motor of an axis.
+struct MotorReading {
+    double following_error = 0.0; ///< where it was sent minus where it is, mm or rad
+    double output_V = 0.0;        ///< to its amplifier
+
+    friend bool operator==(const MotorReading&, const MotorReading&) = default;
+};
+
 /// What became of the last command().
 struct CommandAnswer {
     enum class State { none, pending, done, refused };
@@ -70,6 +79,8 @@ struct DriverStatus {
     /// against it. Ended by homing, by a new zero of every axis, or by Driver::trust_position().
     std::string position_doubt;
     kinematics::AxisPositions velocity;
+    bool powered = true;              ///< its motors, where that is told
+    std::vector<MotorReading> motors; ///< of each axis; empty where the controller does not tell
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;
     int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not told

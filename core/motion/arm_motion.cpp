@@ -70,9 +70,9 @@ void ArmMotion::add(BlockKind kind, const JointPositions& target, double seconds
     program_.blocks.push_back(std::move(block));
 }
 
-void ArmMotion::go_to(const JointPositions& target) {
+void ArmMotion::go_to(const JointPositions& target, double seconds) {
     expect_inside(arm_, target);
-    add(BlockKind::rapid, target, 0.0, 0);
+    add(seconds > 0.0 ? BlockKind::feed : BlockKind::rapid, target, seconds, 0);
 }
 
 void ArmMotion::follow(const std::vector<ArmWay>& ways,

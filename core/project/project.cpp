@@ -3,6 +3,7 @@
 #include "core/geometry/presets.h"
 #include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
+#include "core/project/taught_points.h"
 
 #include <fmt/format.h>
 
@@ -77,6 +78,18 @@ void check_machine(Faults& faults, const MachineInput& machine) {
     }
 }
 
+void check_arm(Faults& faults, const ArmInput& arm) {
+    const std::vector<std::string> found = faults_of(arm.points);
+    faults.insert(faults.end(), found.begin(), found.end());
+    constexpr double farthest_mm = 1e5, most_deg = 360.0;
+    const bool near = arm.path.at_mm.allFinite() && arm.path.at_mm.cwiseAbs().maxCoeff() <= farthest_mm &&
+                      arm.path.turned_deg.allFinite() &&
+                      arm.path.turned_deg.cwiseAbs().maxCoeff() <= most_deg;
+    if (!near) {
+        faults.emplace_back("arm/path: its place is within 100 m and 360 degrees");
+    }
+}
+
 void check_plot(Faults& faults, const PlotSettings& set) {
     check<PlotSettings>(faults, "plot", set, plot_numbers());
     check<plot::Level>(faults, "plot/level", set.level, level_numbers());
@@ -117,6 +130,7 @@ std::vector<std::string> faults_of(const Project& project) {
     check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
     check<ProgramInput>(faults, "program", project.program, program_numbers());
     check_plot(faults, project.plot.settings);
+    check_arm(faults, project.arm);
     return faults;
 }
 

@@ -6,6 +6,7 @@
 #include "core/geometry/surface.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/rotary_tilt.h"
+#include "core/project/arm_input.h"
 #include "core/project/plot_input.h"
 
 #include <array>
@@ -105,6 +106,7 @@ struct Project {
     GridInput grid;
     ProgramInput program;
     PlotInput plot; ///< beside the surface
+    ArmInput arm;   ///< beside both
 
     friend bool operator==(const Project&, const Project&) = default;
 };

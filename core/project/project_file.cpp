@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "core/base/numbers.h"
 #include "core/geometry/presets.h"
+#include "core/project/internal/arm_json.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
@@ -180,7 +181,7 @@ fs::path to_folder(const fs::path& file, const fs::path& folder) {
 }
 
 Project project(const JsonValue& root, const fs::path& folder) {
-    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program", "plot"});
+    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program", "plot", "arm"});
     if (root.at("format").text() != format_name) {
         root.at("format").fail("not a project file", fmt::format("expected \"{}\"", format_name));
     }
@@ -198,6 +199,9 @@ Project project(const JsonValue& root, const fs::path& folder) {
     if (const auto value = root.find("plot")) {
         result.plot = plot_of(*value);
         result.plot.file = from_folder(result.plot.file, folder);
+    }
+    if (const auto value = root.find("arm")) {
+        result.arm = arm_of(*value);
     }
     return result;
 }
@@ -298,6 +302,9 @@ std::string project_text(const Project& project) {
     json["program"] = json_of(project.program);
     if (!(project.plot == PlotInput{})) {
         json["plot"] = json_of(project.plot);
+    }
+    if (!(project.arm == ArmInput{})) {
+        json["arm"] = json_of(project.arm);
     }
     return json_text(json);
 }

@@ -84,6 +84,8 @@ public:
     /// Opens a chosen file, after asking what becomes of unsaved changes; saves to one.
     void open_file(std::filesystem::path file);
     void save_file(std::filesystem::path file);
+    /// What is done with another file that was chosen.
+    void files(std::function<void(Workshop&)> what) { requests_.push_back(std::move(what)); }
 
     /// What is to be done with the processor.
     void processor(std::function<void(ProcessorBench&)> what);

@@ -1,5 +1,4 @@
 // What a person can do with the arm as a whole; its joints and its goal are moved by panels and the view.
-#include "core/machine/drivers/pmac/pmac_driver.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
@@ -33,8 +32,11 @@ Permission moves(const Workbench& now) {
 }
 
 Permission can_enable(const Workbench& now) {
-    if (!now.arm_connected()) {
-        return Permission::refused("No PMAC is connected.");
+    if (!now.controller.connected() || !now.controller.can.power) {
+        return Permission::refused("Nothing is connected whose motors get their power from here.");
+    }
+    if (now.controller.status.powered) {
+        return Permission::refused("The motors have power.");
     }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm) {
@@ -46,11 +48,7 @@ Permission can_enable(const Workbench& now) {
 }
 
 void enable(Hands& hands) {
-    hands.workshop.controller().tell([](machine::Driver& driver) {
-        if (auto* pmac = dynamic_cast<machine::PmacDriver*>(&driver)) {
-            pmac->enable();
-        }
-    });
+    hands.workshop.controller().tell([](machine::Driver& driver) { driver.enable(); });
 }
 
 template <ArmMove how> void go(Hands& hands) {

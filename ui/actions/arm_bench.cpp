@@ -4,10 +4,9 @@
 #include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_hold.h"
-#include "core/kinematics/arm_path.h"
 #include "core/kinematics/arm_rates.h"
 #include "core/kinematics/arm_simulation.h"
-#include "core/motion/arm_motion.h"
+#include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 
@@ -39,9 +38,8 @@ JointPositions home_of(const ArmModel& arm) {
                                      : JointPositions(JointPositions::Zero(arm.joint_count())));
 }
 
-kinematics::ArmAim aim_of(const ArmModel& arm, double most_tilt) {
-    const bool free_roll = arm.joint_count() <= 5;
-    return {free_roll ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame, most_tilt};
+bool turns(const ArmModel& arm, int joint) {
+    return arm.joint(joint).kind == kinematics::JointKind::revolute;
 }
 
 Frame frame_at(const Vec3& tip, const Mat3& directions) {
@@ -51,24 +49,18 @@ Frame frame_at(const Vec3& tip, const Mat3& directions) {
     return frame;
 }
 
-kinematics::ArmWay line(const Frame& from, const Frame& to) {
-    const Eigen::Quaterniond first(from.linear()), last(to.linear());
-    const Vec3 begin = from.translation(), end = to.translation();
-    return {[=](double share) {
-                return frame_at(begin + share * (end - begin), first.slerp(share, last).toRotationMatrix());
-            },
-            (end - begin).norm(),
-            0.0,
-            0};
-}
-
 } // namespace
+
+ArmPlay play_of(motion::Trajectory trajectory) {
+    const double duration = trajectory.duration();
+    return {[motion = std::move(trajectory)](double time) { return motion.at(time).position; }, duration};
+}
 
 void ArmBench::load(const std::string& name) {
     auto look = viewport::read_arm_look(project::arm_path(name, ".", assets_));
     name_ = name;
     look_ = std::move(look);
-    trajectory_.reset();
+    motion_.reset();
     trace_.reset();
     drop_goal();
     refusal_.clear();
@@ -105,7 +97,8 @@ void ArmBench::go_home() {
 void ArmBench::move_tip(const Vec3& tip) {
     stop();
     const Frame goal = kinematics::carried_tool(arm(), joints_, tip);
-    const kinematics::ArmHold hold = kinematics::hold_tool(arm(), goal, aim_of(arm(), 0.5 * pi), joints_);
+    const kinematics::ArmHold hold =
+        kinematics::hold_tool(arm(), goal, motion::aim_of(arm(), 0.5 * pi), joints_);
     refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
     if (refusal_.empty()) {
         place(hold.joints);
@@ -177,28 +170,97 @@ void ArmBench::go(ArmMove how) {
     if (chosen_ < 0) {
         throw Error("there is no solution to go to", {}, "set a goal that the arm reaches");
     }
-    const JointPositions& target = solutions_[static_cast<std::size_t>(chosen_)].joints;
-    motion::ArmMotion motion(arm(), joints_);
-    if (how == ArmMove::joints) {
-        motion.go_to(target);
-    } else {
-        const std::vector<kinematics::ArmWay> ways{line(tool(), kinematics::base_T_tool(arm(), target))};
-        kinematics::ArmPathSettings settings;
-        settings.aim = aim_of(arm(), 0.5 * pi);
-        motion.follow(ways, kinematics::follow_path(arm(), ways, joints_, settings, {}), {});
-    }
-    trajectory_.emplace(motion::plan(motion.program(), arm(), {}, {}));
+    const motion::ArmStop goal{
+        "The goal", solutions_[static_cast<std::size_t>(chosen_)].joints, how == ArmMove::straight, 1.0};
+    play(play_of(motion::plan(motion::tour(arm(), joints_, {goal}), arm(), {}, {})));
+}
+
+void ArmBench::stop() {
+    motion_.reset();
+    held_.reset();
+}
+
+void ArmBench::play(ArmPlay motion) {
+    motion_ = std::move(motion);
+    held_.reset();
     time_ = 0.0;
     refusal_.clear();
 }
 
-void ArmBench::stop() {
-    trajectory_.reset();
-    held_.reset();
+motion::Trajectory ArmBench::tour(const std::vector<project::TaughtPoint>& points) const {
+    constexpr double whole_percent = 100.0;
+    std::vector<motion::ArmStop> stops;
+    for (const project::TaughtPoint& point : points) {
+        JointPositions joints(std::ssize(point.joints_deg));
+        for (int n = 0; n < joints.size(); ++n) {
+            const double told = point.joints_deg[static_cast<std::size_t>(n)];
+            joints[n] = n < arm().joint_count() && !turns(arm(), n) ? told : from_degrees(told);
+        }
+        stops.push_back({point.name, std::move(joints), point.straight, point.speed_percent / whole_percent});
+    }
+    return motion::plan(motion::tour(arm(), joints_, stops), arm(), {}, {});
+}
+
+project::TaughtPoint ArmBench::taught(std::string name) const {
+    project::TaughtPoint point;
+    point.name = std::move(name);
+    for (int n = 0; n < joints_.size(); ++n) {
+        constexpr double steps = 1e4; // of a degree or mm
+        const double told = turns(arm(), n) ? to_degrees(joints_[n]) : joints_[n];
+        point.joints_deg.push_back(std::round(told * steps) / steps);
+    }
+    return point;
+}
+
+void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
+    if (!wish) {
+        if (path_wish_) {
+            path_.forget();
+            path_wish_.reset();
+        }
+        return;
+    }
+    const bool same = path_wish_ && path_wish_->program == wish->program &&
+                      path_wish_->machine == wish->machine && path_wish_->arm == wish->arm &&
+                      path_wish_->base_T_part.matrix() == wish->base_T_part.matrix();
+    if (!same) {
+        path_wish_ = std::move(wish);
+        path_wish_->joints = joints_;
+        path_wish_->planned = false;
+        path_.want(*path_wish_);
+    }
+}
+
+void ArmBench::want_path_motion() {
+    if (!path_wish_) {
+        throw Error("there is no path on the arm", {}, "show one first");
+    }
+    ArmPathWish wish = *path_wish_;
+    wish.joints = joints_;
+    wish.planned = wants_path_motion_ = true;
+    path_.want(std::move(wish));
+}
+
+std::shared_ptr<const ArmPathAnswer> ArmBench::take_path_motion() {
+    auto answer = path_.answer();
+    if (!wants_path_motion_ || !answer || !answer->wish.planned) {
+        return nullptr;
+    }
+    wants_path_motion_ = false;
+    return answer;
+}
+
+std::shared_ptr<const ArmPathAnswer> ArmBench::path() const {
+    return path_wish_ ? path_.answer() : nullptr;
+}
+
+void ArmBench::wait_idle() const {
+    program_.wait_idle();
+    path_.wait_idle();
 }
 
 void ArmBench::hold_jog(const JointPositions& rates) {
-    trajectory_.reset();
+    motion_.reset();
     held_ = rates;
 }
 
@@ -208,13 +270,17 @@ bool ArmBench::advance(double seconds) {
         set_joints(joints_ + seconds * rates);
         return true;
     }
-    if (!trajectory_) {
+    if (!motion_) {
         return false;
     }
-    time_ = std::min(time_ + seconds, trajectory_->duration());
-    place(trajectory_->at(time_).position);
-    if (!(time_ < trajectory_->duration())) {
-        trajectory_.reset();
+    time_ = std::min(time_ + seconds, motion_->duration);
+    JointPositions joints = joints_;
+    const JointPositions told = motion_->at(time_);
+    const Eigen::Index both = std::min(told.size(), joints.size());
+    joints.head(both) = told.head(both);
+    place(joints);
+    if (!(time_ < motion_->duration)) {
+        motion_.reset();
     }
     return true;
 }
@@ -252,6 +318,10 @@ viewport::ArmScene ArmBench::scene() const {
         scene.ghost = solutions_[static_cast<std::size_t>(chosen_)].joints;
     }
     scene.trace = trace_;
+    if (const auto found = path()) {
+        scene.track = found->track;
+        scene.part = path_wish_->base_T_part;
+    }
     return scene;
 }
 

@@ -5,10 +5,14 @@
 
 #include "core/kinematics/arm_inverse.h"
 #include "core/motion/trajectory.h"
+#include "core/project/arm_input.h"
+#include "ui/actions/arm_path_work.h"
+#include "ui/actions/motion_program_bench.h"
 #include "ui/viewport/arm_scene.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,10 +32,19 @@ enum class ArmMove : std::uint8_t {
     straight ///< the tip along a line
 };
 
+/// A motion of the drawn arm: its joints at each moment, s. Of fewer joints than the arm has the others stay.
+struct ArmPlay {
+    std::function<kinematics::JointPositions(double)> at;
+    double duration = 0.0;
+};
+
+[[nodiscard]] ArmPlay play_of(motion::Trajectory trajectory);
+
 class ArmBench {
 public:
-    /// `assets`: what ships with the program.
-    explicit ArmBench(std::filesystem::path assets) : assets_(std::move(assets)) {}
+    /// `assets`: what ships with the program. `wake`: from any thread, when something was worked out.
+    explicit ArmBench(std::filesystem::path assets, const std::function<void()>& wake = {})
+        : assets_(std::move(assets)), program_(wake), path_(work_out, wake) {}
 
     /// By its name or file, with the joints at home. Throws Error; the arm from before then stays.
     void load(const std::string& name);
@@ -73,12 +86,19 @@ public:
     /// Begins to move to the chosen solution. Throws Error with the reason where the arm cannot.
     void go(ArmMove how);
     void stop();
+    /// Begins a motion, wherever it begins.
+    void play(ArmPlay motion);
+    /// From where the joints stand through points that were taught. Throws Error with the name of the one
+    /// that the arm cannot go to.
+    [[nodiscard]] motion::Trajectory tour(const std::vector<project::TaughtPoint>& points) const;
+    /// What stands now, as a point to come back to.
+    [[nodiscard]] project::TaughtPoint taught(std::string name) const;
     /// Until the next advance() the joints move at these rates, as far as their limits: to be wanted in every
     /// frame, rad/s or mm/s.
     void hold_jog(const kinematics::JointPositions& rates);
-    [[nodiscard]] bool moving() const { return trajectory_.has_value() || held_.has_value(); }
+    [[nodiscard]] bool moving() const { return motion_.has_value() || held_.has_value(); }
     /// Of the motion, s; 0 without one.
-    [[nodiscard]] double duration() const { return trajectory_ ? trajectory_->duration() : 0.0; }
+    [[nodiscard]] double duration() const { return motion_ ? motion_->duration : 0.0; }
     [[nodiscard]] double time() const { return time_; }
     /// Lets `seconds` pass. True if anything changed.
     bool advance(double seconds);
@@ -86,6 +106,20 @@ public:
     void clear_trace() { trace_.reset(); }
     /// Where a connected arm stands; joints that it does not tell stay. Draws the trace.
     void follow(const kinematics::JointPositions& told);
+
+    [[nodiscard]] MotionProgramBench& program() { return program_; }
+    [[nodiscard]] const MotionProgramBench& program() const { return program_; }
+
+    /// A program on the part that stands there is looked at, in the background; none: nothing is. The joints
+    /// of the wish are those of now.
+    void look_at_path(std::optional<ArmPathWish> wish);
+    /// Works out the motion of the path that is looked at; what comes of it is told by take_path_motion().
+    void want_path_motion();
+    /// A motion that was wanted, once; or why there is none.
+    [[nodiscard]] std::shared_ptr<const ArmPathAnswer> take_path_motion();
+    /// The newest answer; null without a path.
+    [[nodiscard]] std::shared_ptr<const ArmPathAnswer> path() const;
+    void wait_idle() const;
 
     [[nodiscard]] viewport::ArmScene scene() const;
 
@@ -105,10 +139,14 @@ private:
     std::vector<ArmSolution> solutions_;
     std::string reason_;
     int chosen_ = -1;
-    std::optional<motion::Trajectory> trajectory_;
+    std::optional<ArmPlay> motion_;
     double time_ = 0.0;
     std::optional<kinematics::JointPositions> held_; ///< rates of a jog
     std::shared_ptr<const std::vector<Vec3>> trace_;
+    MotionProgramBench program_;
+    std::optional<ArmPathWish> path_wish_;
+    bool wants_path_motion_ = false;
+    ArmPathWork path_;
 };
 
 } // namespace millwright::actions

@@ -14,6 +14,7 @@ Catalogue::Catalogue() {
     add_controller_actions(actions_);
     add_processor_actions(actions_);
     add_arm_actions(actions_);
+    add_arm_teach_actions(actions_);
     add_plot_actions(actions_);
     add_dialog_actions(actions_);
 }

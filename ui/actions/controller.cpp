@@ -22,8 +22,8 @@ bool looks_same(const DriverStatus& a, const DriverStatus& b) {
     return a.state == b.state && a.activity == b.activity && same(a.position, b.position) &&
            same(a.work_offset, b.work_offset) && a.modes == b.modes && a.block == b.block &&
            a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
-           a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood && a.message == b.message &&
-           a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
+           a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
+           a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
            (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
 }
 
@@ -94,7 +94,7 @@ void Controller::disconnect() {
     enqueue([this] {
         drop();
         const std::scoped_lock lock(mutex_);
-        view_ = {LinkState::none, view_.choice, std::nullopt, {}, {}, {}, {}, {}};
+        view_ = {LinkState::none, view_.choice, std::nullopt, {}, {}, {}, {}, {}, {}};
     });
 }
 
@@ -126,7 +126,7 @@ void Controller::tell_in_background(std::function<void(machine::Driver&)> what) 
         const std::scoped_lock lock(mutex_);
         if (gone) {
             driver_.reset();
-            view_ = {LinkState::none, view_.choice, failure, {}, {}, {}, {}, {}};
+            view_ = {LinkState::none, view_.choice, failure, {}, {}, {}, {}, {}, {}};
         } else {
             view_.failure = failure;
         }
@@ -146,7 +146,7 @@ void Controller::try_connect(const machine::DriverChoice& choice,
         failure = error.diagnostic();
     }
     const std::scoped_lock lock(mutex_);
-    view_ = {failure ? LinkState::none : LinkState::connected, choice, failure, {}, {}, {}, {}, {}};
+    view_ = {failure ? LinkState::none : LinkState::connected, choice, failure, {}, {}, {}, {}, {}, {}};
     if (!failure) {
         driver_ = std::move(made);
         view_.status = driver_->status();
@@ -203,6 +203,7 @@ void Controller::watch() {
     DriverStatus status = driver->status();
     auto settings = driver->settings();
     auto offsets = driver->stored_offsets();
+    auto limits = driver->limits();
     machine::Capabilities can = driver->capabilities(); // a setting may change them
     bool changed = false;
     {
@@ -213,6 +214,7 @@ void Controller::watch() {
         view_.status = std::move(status);
         view_.settings = std::move(settings);
         view_.offsets = std::move(offsets);
+        view_.limits = std::move(limits);
     }
     if (changed) {
         wake_();

@@ -32,6 +32,7 @@ struct ControllerView {
     std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
     std::vector<machine::ControllerSetting> settings;
     std::vector<machine::StoredOffset> offsets;
+    machine::MachineLimits limits;
 
     [[nodiscard]] bool connected() const { return link == LinkState::connected; }
 };

@@ -29,6 +29,7 @@ struct HandSettings {
     int arm_joint = 0;     ///< that the keys move
     int arm_percent = 20;  ///< of the fastest jog of an arm
     bool arm_keys = false; ///< the keys of the thesis move the arm
+    bool arm_path = false; ///< the project's program is shown on the arm
     bool single_block = false;
     bool show_reports = false;         ///< in the console
     std::vector<std::string> commands; ///< typed before, oldest first

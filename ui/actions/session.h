@@ -23,7 +23,21 @@ enum class Workspace { design, grid, toolpath, program, machine, processor, plot
 inline constexpr int workspace_count = 8;
 
 /// What the lower pane shows.
-enum class LowerTab { plots, motion, listing, compare, console, offsets, settings, queue, jobs, log, motors };
+enum class LowerTab {
+    plots,
+    motion,
+    listing,
+    compare,
+    console,
+    offsets,
+    settings,
+    queue,
+    jobs,
+    log,
+    motors,
+    points,
+    motion_program
+};
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
 struct PaneSizes {
@@ -35,6 +49,7 @@ struct PaneSizes {
     float layers = 330.0F;    ///< the left one in the Plot & Picture workspace
     float bench = 210.0F;     ///< and the lower one
     float arm_jog = 300.0F;   ///< the left one in the Arm workspace
+    float arm_lower = 230.0F; ///< and the lower one
     float listing = 350.0F;   ///< the left pane in the Program and Machine workspaces
     bool outline_shown = true;
     bool inspector_shown = true;
@@ -58,7 +73,17 @@ struct FileView {
 };
 
 /// A file that is asked for, until the person has chosen or given up.
-enum class FileQuestion { none, open, save_as };
+enum class FileQuestion {
+    none,
+    open,
+    save_as,
+    open_points, ///< taught to the arm
+    save_points,
+    open_motion_program, ///< of the arm's card
+    save_motion_program,
+    play_motion_file, ///< of the thesis's kind: lines and arcs of the tool
+    load_card_settings
+};
 
 struct Session {
     Workspace workspace = Workspace::design;

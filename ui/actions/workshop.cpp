@@ -43,7 +43,7 @@ Workshop::Workshop(WorkshopOptions options)
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
     processor_ = std::make_unique<ProcessorBench>();
-    arm_ = std::make_unique<ArmBench>(options_.assets);
+    arm_ = std::make_unique<ArmBench>(options_.assets, wake);
     approach_ = std::make_unique<ApproachFinder>(wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     follow_project();
@@ -86,6 +86,7 @@ void Workshop::follow_project() {
     const auto folder = file.empty() ? std::filesystem::path{} : file.parent_path();
     project::Project design = history_.current();
     const project::PlotInput plot = std::exchange(design.plot, {}); // the plan has no use for it
+    design.arm = {};
     pipeline_->request(design, {folder, options_.assets});
     if (!(plot_->input() == plot)) {
         writes_plot_.reset();
@@ -180,23 +181,6 @@ bool Workshop::advance(double seconds) {
     return processed || playback.time < before || playback.time > before;
 }
 
-/// It has an arm once it is looked at; a connected one is drawn where it stands.
-bool Workshop::follow_arm(double seconds) {
-    if (session_.workspace == Workspace::arm && !arm_->loaded() && !arm_failed_) {
-        arm_failed_ = true; // said once
-        guarded([this] { arm_->load("motoman-l3"); });
-        arm_failed_ = !arm_->loaded();
-    }
-    if (!arm_->loaded()) {
-        return false;
-    }
-    const ControllerView controller = controller_->view();
-    if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
-        arm_->follow(controller.status.position);
-    }
-    return arm_->advance(seconds);
-}
-
 /// It has something to show once it is looked at.
 bool Workshop::follow_processor(double seconds) {
     if (session_.workspace == Workspace::processor && processor_->name().empty()) {
@@ -275,6 +259,7 @@ void Workshop::wait_idle() {
     follow_begin();
     approach_->wait_idle();
     job_recovery_->wait_idle();
+    arm_->wait_idle();
 }
 
 } // namespace millwright::actions

@@ -110,6 +110,19 @@ public:
     void end_step() { history_.close_step(); }
 
     [[nodiscard]] ArmBench& arm() { return *arm_; }
+    /// The drawn arm does it, or the connected one. Throws Error with the reason where it cannot.
+    void play_on_arm(const motion::Trajectory& motion);
+    /// Gives a program in the card's language to the connected card, which runs it at once. Throws Error.
+    void run_on_card(const std::vector<std::string>& lines);
+    /// Lines and arcs of the tool from where the arm stands. Throws Error with the line of what is wrong.
+    void play_motion_file(const std::filesystem::path& file);
+    /// Sends a file of settings to the card, and tells what is dangerous or refused in it. Throws Error.
+    void load_card_settings(const std::filesystem::path& file);
+    /// Points and programs of the arm as files of their own. Each throws Error and ends the question.
+    void open_points(const std::filesystem::path& file);
+    void save_points(const std::filesystem::path& file);
+    void open_motion_program(const std::filesystem::path& file);
+    void save_motion_program(const std::filesystem::path& file);
     [[nodiscard]] PlotBench& plot() { return *plot_; }
     /// Writes the program of the plot beside it as soon as there is one; `to_machine`: and opens it there.
     void write_plot(bool to_machine);
@@ -152,6 +165,7 @@ private:
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
     [[nodiscard]] bool follow_arm(double seconds);
+    void follow_arm_work();
     void guarded(const std::function<void()>& action);
 
     WorkshopOptions options_;
@@ -181,6 +195,7 @@ private:
     std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
     std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
     bool arm_failed_ = false;                     ///< the arm that ships could not be read
+    std::optional<int> settings_sent_;            ///< the card's answer to them is still to be told
     bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;                    ///< a job was running when it was last looked at
 };

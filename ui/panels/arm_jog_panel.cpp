@@ -216,7 +216,8 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       "By keys",
                       hand.arm_keys,
                       "1 to 5 choose a joint, + and - jog it while held, / stops, H homes, K takes the "
-                      "power, Q ends a program, : goes to the terminal, X gives the keys back")) {
+                      "power, Q ends a program, S sends the program, R runs it, I loads settings, : goes to "
+                      "the terminal, X gives the keys back")) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
     }
     if (hand.arm_keys) {
@@ -261,8 +262,12 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
         Key key;
         std::string_view action;
     };
-    constexpr std::array<Order, 3> orders{
-        {{Key::h, "machine.home"}, {Key::k, "machine.emergency_stop"}, {Key::q, "machine.stop"}}};
+    constexpr std::array<Order, 6> orders{{{Key::h, "machine.home"},
+                                           {Key::k, "machine.emergency_stop"},
+                                           {Key::q, "machine.stop"},
+                                           {Key::r, "arm.run_program"},
+                                           {Key::s, "arm.send_program"},
+                                           {Key::i, "arm.card_settings"}}};
     for (const Order& order : orders) {
         if (render::key_pressed(order.key) && catalogue_.find(order.action).permission(now).allowed) {
             ask.run(std::string(order.action));

@@ -1,7 +1,7 @@
 // Moving the arm by hand, held to run: by joints, or the tip along axes of the base or of the tool. What is
 // connected moves; without a machine the drawn arm does. Keys as in Saengsasri, Nittayachin 1996: 1 to 5
 // choose a joint, + and - jog it as long as they are held, / stops, H homes, K takes the power away, Q ends a
-// program, X gives the keys back, : goes to the terminal.
+// program, S sends one, R runs it, I loads settings, X gives the keys back, : goes to the terminal.
 #pragma once
 
 #include "ui/panels/connection_panel.h"

@@ -5,23 +5,87 @@
 #include "ui/actions/arm_bench.h"
 #include "ui/widgets/table.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace millwright::panels {
 
 namespace {
 
-std::string number(const kinematics::ArmJoint& joint, double value, int decimals) {
-    if (!std::isfinite(value)) {
-        return "\u2014";
-    }
-    const bool turns = joint.kind == kinematics::JointKind::revolute;
-    return fixed(turns ? to_degrees(value) : value, decimals);
+using kinematics::ArmJoint;
+using machine::MachineLimits;
+
+const std::string nothing = "\u2014";
+
+double shown(const ArmJoint& joint, double value) {
+    return joint.kind == kinematics::JointKind::revolute ? to_degrees(value) : value;
 }
+
+std::string number(const ArmJoint& joint, std::optional<double> value, int decimals) {
+    return value && std::isfinite(*value) ? fixed(shown(joint, *value), decimals) : nothing;
+}
+
+/// One joint as its file has it and, where a controller drives it, as that tells.
+class Row {
+public:
+    Row(const Workbench& now, int joint) : joint_(now.arm.arm().joint(joint)), at_(now.arm.joints()[joint]) {
+        const machine::DriverStatus& status = now.controller.status;
+        const auto n = static_cast<std::size_t>(joint);
+        if (!now.arm_connected() || joint >= status.velocity.size()) {
+            return;
+        }
+        velocity_ = status.velocity[joint];
+        motor_ = n < status.motors.size() ? std::optional(status.motors[n]) : std::nullopt;
+        limits_ =
+            n < now.controller.limits.axes.size() ? now.controller.limits.axes[n] : MachineLimits::Axis{};
+    }
+
+    [[nodiscard]] std::string cell(int column) const {
+        constexpr int volt_decimals = 3;
+        const auto volts = [](std::optional<double> value) {
+            return value ? fixed(*value, volt_decimals) : nothing;
+        };
+        switch (column) {
+        case 0:
+            return joint_.name + (viewport::near_limit(joint_, at_) ? " !" : "");
+        case 1:
+            return number(joint_, at_, 3);
+        case 2:
+            return travel();
+        case 3:
+            return number(joint_, velocity_, 3);
+        case 4:
+            return number(joint_, limits_.jog_speed, 1);
+        case 5:
+            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1);
+        case 6:
+            return number(joint_, limits_.acceleration ? limits_.acceleration : joint_.max_acceleration, 0);
+        case 7:
+            return volts(motor_ ? std::optional(motor_->output_V) : std::nullopt);
+        case 8:
+            return volts(limits_.output_V);
+        default:
+            return number(joint_, motor_ ? std::optional(motor_->following_error) : std::nullopt, 3);
+        }
+    }
+
+private:
+    /// The narrower of what the arm's file and the controller allow.
+    [[nodiscard]] std::string travel() const {
+        const double least = std::max(joint_.min, limits_.min.value_or(joint_.min));
+        const double most = std::min(joint_.max, limits_.max.value_or(joint_.max));
+        return number(joint_, least, 0) + " \u2026 " + number(joint_, most, 0);
+    }
+
+    const ArmJoint& joint_;
+    double at_;
+    std::optional<double> velocity_;
+    std::optional<machine::MotorReading> motor_;
+    MachineLimits::Axis limits_;
+};
 
 } // namespace
 
@@ -30,46 +94,22 @@ void arm_motors(Ui& ui, const Workbench& now) {
         ui.note("There is no arm.");
         return;
     }
-    constexpr std::array<widgets::Column, 8> columns{{{"Joint", {}, 0.7F},
-                                                      {"Position", "\u00b0", 1.0F, true},
-                                                      {"Velocity", "\u00b0/s", 1.0F, true},
-                                                      {"From", "\u00b0", 1.0F, true},
-                                                      {"To", "\u00b0", 1.0F, true},
-                                                      {"Fastest", "\u00b0/s", 1.0F, true},
-                                                      {"Acceleration", "\u00b0/s\u00b2", 1.1F, true},
-                                                      {"State", {}, 1.4F}}};
+    constexpr std::array<widgets::Column, 10> columns{{{"Joint", {}, 0.8F},
+                                                       {"Position", "\u00b0", 1.2F, true},
+                                                       {"Limits", "\u00b0", 1.5F, true},
+                                                       {"Speed", "\u00b0/s", 1.2F, true},
+                                                       {"Jog", "\u00b0/s", 1.0F, true},
+                                                       {"Max", "\u00b0/s", 1.0F, true},
+                                                       {"Max", "\u00b0/s\u00b2", 1.0F, true},
+                                                       {"Output", "V", 1.1F, true},
+                                                       {"Max", "V", 0.9F, true},
+                                                       {"Lag", "\u00b0", 1.0F, true}}};
     const kinematics::ArmModel& arm = now.arm.arm();
-    const auto& velocity = now.controller.status.velocity;
     widgets::TableView view;
     view.columns = columns;
     view.rows = arm.joint_count();
     view.row_id = [&](std::ptrdiff_t row) { return "joint_" + arm.joint(static_cast<int>(row)).name; };
-    view.cell = [&](std::ptrdiff_t row, int column) -> std::string {
-        const auto n = static_cast<int>(row);
-        const kinematics::ArmJoint& joint = arm.joint(n);
-        const bool driven = now.arm_connected() && n < velocity.size();
-        switch (column) {
-        case 0:
-            return joint.name;
-        case 1:
-            return number(joint, now.arm.joints()[n], 3);
-        case 2:
-            return driven ? number(joint, velocity[n], 3) : "\u2014";
-        case 3:
-            return number(joint, joint.min, 1);
-        case 4:
-            return number(joint, joint.max, 1);
-        case 5:
-            return number(joint, joint.max_velocity, 1);
-        case 6:
-            return number(joint, joint.max_acceleration, 0);
-        default:
-            return viewport::near_limit(joint, now.arm.joints()[n]) ? "near its limit"
-                   : driven                                         ? "driven"
-                   : now.arm_connected()                            ? "not driven"
-                                                                    : "drawn";
-        }
-    };
+    view.cell = [&](std::ptrdiff_t row, int column) { return Row(now, static_cast<int>(row)).cell(column); };
     (void)widgets::table(ui, "motors", view);
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/project/assets.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/arm_path_fields.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/slider.h"
@@ -63,6 +64,7 @@ void ArmPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     draw_joints(ui, now, ask);
     draw_goal(ui, now, ask);
+    arm_path_fields(ui, now, ask, catalogue_);
     draw_tool(ui, now);
 }
 

@@ -120,8 +120,10 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
                 ui.command_line("command",
                                 "MDI",
                                 now.session.hand.commands,
-                                "A line for the machine; Enter sends it, arrows bring back earlier ones",
-                                can_send(now))) {
+                                "A line for the machine; Enter sends it, arrows bring back earlier ones, Tab "
+                                "completes",
+                                can_send(now),
+                                now.controller.can.words)) {
             ask.tell([line = *line](machine::Driver& driver) { (void)driver.command(line); });
             ask.show([line = *line](actions::Session& session) {
                 auto& commands = session.hand.commands;

@@ -1,5 +1,7 @@
 #include "ui/panels/file_panel.h"
 
+#include "core/base/error.h"
+#include "ui/actions/workshop.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
 
@@ -20,6 +22,62 @@ using widgets::Permission;
 using widgets::Rank;
 
 constexpr std::string_view extension = ".json";
+
+/// What is asked for, and what becomes of the file.
+struct Question {
+    FileQuestion question;
+    std::string_view title;
+    bool opens;
+    std::string_view ending; ///< of what is listed and saved; empty: every file
+    std::string_view first;  ///< name to save to; empty: the project's
+    void (*answer)(actions::Workshop&, const fs::path&);
+};
+
+constexpr std::array<Question, 8> questions{
+    {{FileQuestion::open, "Open a project or a G-code file", true, extension, "", nullptr},
+     {FileQuestion::save_as, "Save the project as", false, extension, "", nullptr},
+     {FileQuestion::open_points,
+      "Open taught points",
+      true,
+      extension,
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_points(file); }},
+     {FileQuestion::save_points,
+      "Save the taught points as",
+      false,
+      extension,
+      "points.json",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_points(file); }},
+     {FileQuestion::open_motion_program,
+      "Open a motion program",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_motion_program(file); }},
+     {FileQuestion::save_motion_program,
+      "Save the motion program as",
+      false,
+      ".pmc",
+      "program.pmc",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_motion_program(file); }},
+     {FileQuestion::play_motion_file,
+      "Play a motion file",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.play_motion_file(file); }},
+     {FileQuestion::load_card_settings,
+      "Load settings of the card",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.load_card_settings(file); }}}};
+
+const Question& about(FileQuestion question) {
+    const auto* const found = std::ranges::find(questions, question, &Question::question);
+    expects(found != questions.end(), "a question about a file");
+    return *found;
+}
 constexpr std::array<std::string_view, 8> gcode_extensions{
     ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
 constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
@@ -47,7 +105,7 @@ Listed listed(const fs::path& folder, FileQuestion question) {
         }
         if (entry.is_directory(unreadable)) {
             result.folders.push_back(entry.path());
-        } else if (entry.path().extension() == extension ||
+        } else if (about(question).ending.empty() || entry.path().extension() == about(question).ending ||
                    (question == FileQuestion::open && is_gcode(entry.path()))) {
             result.files.push_back(entry.path());
         }
@@ -85,8 +143,9 @@ void FilePanel::begin(const Workbench& now) {
     asked_ = now.session.question;
     source_ = Source::folder;
     enter(starting_folder(now));
-    name_ = now.document.file.empty() ? now.project.name + std::string(extension)
-                                      : now.document.file.filename().string();
+    name_ = !about(asked_).first.empty() ? std::string(about(asked_).first)
+            : now.document.file.empty()  ? now.project.name + std::string(extension)
+                                         : now.document.file.filename().string();
 }
 
 void FilePanel::enter(const fs::path& folder) {
@@ -110,9 +169,8 @@ void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (asked_ != now.session.question) {
         begin(now);
     }
-    const bool opening = asked_ == FileQuestion::open;
-    const auto dialog = ui.dialog(
-        "files", opening ? "Open a project or a G-code file" : "Save the project as", ui.px(620.0F));
+    const bool opening = about(asked_).opens;
+    const auto dialog = ui.dialog("files", std::string(about(asked_).title), ui.px(620.0F));
     if (!dialog) {
         return;
     }
@@ -180,8 +238,8 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
     const fs::path entry = entries_[static_cast<std::size_t>(*row)];
     if (static_cast<std::size_t>(*row) < folders_) {
         enter(entry);
-    } else if (asked_ == FileQuestion::open && entry == chosen_) { // the second click of two
-        ask.open_file(entry);
+    } else if (about(asked_).opens && entry == chosen_) { // the second click of two
+        open(ask, entry);
     } else {
         chosen_ = entry;
         name_ = entry.filename().string();
@@ -190,7 +248,9 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
 
 void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
-    if (is_gcode(chosen_)) {
+    if (asked_ != FileQuestion::open) {
+        ui.note(chosen_.empty() ? " " : chosen_.filename().string());
+    } else if (is_gcode(chosen_)) {
         ui.note("A G-code program: it opens beside the project, in the Program workspace.");
     } else {
         preview_.draw(ui, chosen_);
@@ -201,17 +261,26 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto allowed = chosen_.empty() ? Permission::refused("Choose a file first.") : Permission{};
     const bool entered = ui.enter_pressed() && allowed.allowed;
     if (ui.button("open", "Open", allowed, {icons::folder, Rank::primary, -1.0F, "Enter"}) || entered) {
-        ask.open_file(chosen_);
+        open(ask, chosen_);
+    }
+}
+
+void FilePanel::open(ActionQueue& ask, const fs::path& file) const {
+    if (const auto answer = about(asked_).answer) {
+        ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
+    } else {
+        ask.open_file(file);
     }
 }
 
 fs::path FilePanel::file_to_save() const {
     fs::path file = folder_ / name_;
-    return file.has_extension() ? file : file.replace_extension(extension);
+    return file.has_extension() ? file : file.replace_extension(about(asked_).ending);
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (const auto typed = ui.text_field("name", "File name", name_, "Ends in .json")) {
+    if (const auto typed =
+            ui.text_field("name", "File name", name_, "Ends in " + std::string(about(asked_).ending))) {
         name_ = *typed;
     }
     const fs::path file = file_to_save();
@@ -226,7 +295,11 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
                   replaces ? "Replace" : "Save",
                   allowed,
                   {icons::save, replaces ? Rank::danger : Rank::primary, -1.0F, {}})) {
-        ask.save_file(file);
+        if (const auto answer = about(asked_).answer) {
+            ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
+        } else {
+            ask.save_file(file);
+        }
     }
 }
 

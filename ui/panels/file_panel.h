@@ -26,6 +26,7 @@ private:
     void show_recent(const Workbench& now);
     void draw_source(Ui& ui, const Workbench& now);
     void draw_entries(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void open(ActionQueue& ask, const std::filesystem::path& file) const;
     void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_save(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const;

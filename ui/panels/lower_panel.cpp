@@ -44,7 +44,9 @@ constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console",
                                       {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                       {LowerTab::log, {"log", "Log", icons::info}}}};
 
-constexpr std::array<Tab, 3> moving_arm{{{LowerTab::motors, {"motors", "Joints", icons::table}},
+constexpr std::array<Tab, 5> moving_arm{{{LowerTab::motors, {"motors", "Joints", icons::table}},
+                                         {LowerTab::points, {"points", "Points", icons::add}},
+                                         {LowerTab::motion_program, {"program", "Program", icons::program}},
                                          {LowerTab::console, {"console", "Terminal", icons::keyboard}},
                                          {LowerTab::log, {"log", "Log", icons::info}}}};
 
@@ -116,6 +118,10 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return draw_jobs(ui, now);
     case LowerTab::motors:
         return arm_motors(ui, now);
+    case LowerTab::points:
+        return points_.draw(ui, now, ask);
+    case LowerTab::motion_program:
+        return motion_program_.draw(ui, now, ask);
     case LowerTab::log:
         return draw_log(ui, now);
     }

@@ -1,10 +1,12 @@
 // The lower pane: plots over the path, the listing in step with the motion, results side by side, jobs, log.
 #pragma once
 
+#include "ui/panels/arm_points_panel.h"
 #include "ui/panels/console_panel.h"
 #include "ui/panels/controller_tables.h"
 #include "ui/panels/listing_panel.h"
 #include "ui/panels/motion_plots.h"
+#include "ui/panels/motion_program_panel.h"
 #include "ui/panels/panel.h"
 #include "ui/panels/queue_panel.h"
 
@@ -15,7 +17,8 @@ namespace millwright::panels {
 
 class LowerPanel final : public Panel {
 public:
-    explicit LowerPanel(const actions::Catalogue& catalogue) : queue_(catalogue) {}
+    explicit LowerPanel(const actions::Catalogue& catalogue)
+        : queue_(catalogue), points_(catalogue), motion_program_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -29,6 +32,8 @@ private:
     OffsetTable offsets_;
     SettingTable settings_;
     QueuePanel queue_;
+    ArmPointsPanel points_;
+    MotionProgramPanel motion_program_;
 };
 
 } // namespace millwright::panels

@@ -75,6 +75,16 @@ void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&&
     }
 }
 
+void move_part(const viewport::MoveArmPart& move, ActionQueue& ask) {
+    ask.edit(
+        "Place the path on the arm",
+        [at = move.at](project::Project& draft) { draft.arm.path.at_mm = at; },
+        "drag the path on the arm");
+    if (move.stage != viewport::DragStage::going_on) {
+        ask.end_step();
+    }
+}
+
 /// The results are of the surface that the project has now: after another project was opened, not at once.
 bool shows_the_project(const Workbench& now) {
     return now.plan && now.plan->plan.surface &&
@@ -142,6 +152,8 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
         drag_arm(now, ask, *turn, [n = turn->joint, to = turn->position](actions::ArmBench& arm) {
             arm.set_joint(n, to);
         });
+    } else if (const auto* part = std::get_if<viewport::MoveArmPart>(&event)) {
+        move_part(*part, ask);
     } else if (const auto* place = std::get_if<viewport::GoToPathPlace>(&event)) {
         go_to_path_place(place->place, now, ask);
     }

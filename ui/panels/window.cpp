@@ -57,8 +57,9 @@ float actions::PaneSizes::*lower_size(const actions::Session& session) {
     case Workspace::processor:
         return &actions::PaneSizes::processor;
     case Workspace::plot:
-    case Workspace::arm: // a table with as many rows as an arm has joints
         return &actions::PaneSizes::bench;
+    case Workspace::arm:
+        return &actions::PaneSizes::arm_lower;
     default:
         return &actions::PaneSizes::lower;
     }

@@ -84,7 +84,13 @@ pick_arm(const ArmScene& scene, const render::View& view, const glm::dvec2& pixe
     const kinematics::ArmModel& arm = scene.look->arm();
     const Vec3 tip = kinematics::base_T_tool(arm, scene.joints).translation();
     if (const auto seen = pixel_of(view, tip); seen && glm::length(*seen - pixel) <= within_px) {
-        return ArmGrip{-1, tip};
+        return ArmGrip{ArmGrip::tip, tip};
+    }
+    if (scene.part) {
+        const Vec3 zero = scene.part->translation();
+        if (const auto seen = pixel_of(view, zero); seen && glm::length(*seen - pixel) <= within_px) {
+            return ArmGrip{ArmGrip::part, zero};
+        }
     }
     if (!scene.look->file.bodies) {
         return std::nullopt;

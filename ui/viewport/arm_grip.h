@@ -8,18 +8,21 @@
 
 namespace millwright::viewport {
 
-/// What of an arm is under the mouse: the tip of its tool, or a body that a joint moves.
+/// What of an arm is under the mouse: the tip of its tool, the zero of the part before it, or a body that a
+/// joint moves.
 struct ArmGrip {
-    int joint = -1; ///< -1: the tip
+    static constexpr int tip = -1, part = -2;
+    int joint = tip; ///< or one of the above
     Vec3 at = Vec3::Zero();
 
-    [[nodiscard]] bool is_tip() const { return joint < 0; }
+    [[nodiscard]] bool is_tip() const { return joint == tip; }
+    [[nodiscard]] bool is_part() const { return joint == part; }
     /// Whether both look the same.
     friend bool operator==(const ArmGrip& a, const ArmGrip& b) { return a.joint == b.joint; }
 };
 
-/// The tip if it is not further than `within_px` from `pixel`, else the foremost body under it, unless that
-/// does not move.
+/// The tip if it is not further than `within_px` from `pixel`, else the part's zero, else the foremost body
+/// under it, unless that does not move.
 [[nodiscard]] std::optional<ArmGrip>
 pick_arm(const ArmScene& scene, const render::View& view, const glm::dvec2& pixel, double within_px);
 

@@ -61,7 +61,7 @@ void ArmHand::press(const ArmHandInput& input) {
     moved_ = false;
     pressed_ = pixel_of(input.pointer);
     before_ = input.scene.joints;
-    if (grip_->is_tip()) {
+    if (grip_->joint < 0) {
         drag_.emplace(std::vector<MovedControlPoint>{{.id = {}, .position = grip_->at}},
                       0,
                       Frame::Identity(),
@@ -72,6 +72,11 @@ void ArmHand::press(const ArmHandInput& input) {
     }
 }
 
+ViewEvent ArmHand::moved_to(const Vec3& place, DragStage stage) const {
+    return grip_->is_part() ? ViewEvent(MoveArmPart{place, stage})
+                            : ViewEvent(MoveArmTip{place, before_, stage});
+}
+
 void ArmHand::hold(const ArmHandInput& input, std::vector<ViewEvent>& events) {
     const glm::dvec2 pixel = pixel_of(input.pointer);
     if (!moved_ && glm::length(pixel - pressed_) <= still_px * input.view.content_scale) {
@@ -80,7 +85,7 @@ void ArmHand::hold(const ArmHandInput& input, std::vector<ViewEvent>& events) {
     moved_ = true;
     if (drag_) {
         drag_->move_to(input.view, pixel, input.keys);
-        events.emplace_back(MoveArmTip{drag_->points().front().position, before_, DragStage::going_on});
+        events.push_back(moved_to(drag_->points().front().position, DragStage::going_on));
     } else {
         const double position = joint_towards(input.scene, grip_->joint, local_, input.view, pixel);
         events.emplace_back(TurnArmJoint{grip_->joint, position, before_, DragStage::going_on});
@@ -89,7 +94,8 @@ void ArmHand::hold(const ArmHandInput& input, std::vector<ViewEvent>& events) {
 
 void ArmHand::finish(DragStage stage, std::vector<ViewEvent>& events) {
     if (moved_ && drag_) {
-        events.emplace_back(MoveArmTip{drag_->points().front().position, before_, stage});
+        const bool back = grip_->is_part() && stage == DragStage::cancelled;
+        events.push_back(moved_to(back ? grip_->at : drag_->points().front().position, stage));
     } else if (moved_) {
         events.emplace_back(TurnArmJoint{grip_->joint, before_[grip_->joint], before_, stage});
     }

@@ -36,6 +36,7 @@ private:
     void press(const ArmHandInput& input);
     void hold(const ArmHandInput& input, std::vector<ViewEvent>& events);
     void finish(DragStage stage, std::vector<ViewEvent>& events);
+    [[nodiscard]] ViewEvent moved_to(const Vec3& place, DragStage stage) const;
 
     std::optional<ArmGrip> grip_;
     bool held_ = false;

@@ -55,8 +55,19 @@ struct TurnArmJoint {
     DragStage stage = DragStage::going_on;
 };
 
-using ViewEvent =
-    std::variant<MoveControlPoints, SelectControlPoints, GoToMove, GoToPathPlace, MoveArmTip, TurnArmJoint>;
+/// The zero of the part before the arm is being dragged.
+struct MoveArmPart {
+    Vec3 at = Vec3::Zero(); ///< in the arm's base; when cancelled, where it began
+    DragStage stage = DragStage::going_on;
+};
+
+using ViewEvent = std::variant<MoveControlPoints,
+                               SelectControlPoints,
+                               GoToMove,
+                               GoToPathPlace,
+                               MoveArmTip,
+                               TurnArmJoint,
+                               MoveArmPart>;
 
 /// What the mouse points at, in workpiece coordinates.
 struct UnderMouse {

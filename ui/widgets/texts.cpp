@@ -1,3 +1,4 @@
+#include "ui/widgets/completion.h"
 #include "ui/widgets/internal/edit.h"
 #include "ui/widgets/ui.h"
 
@@ -47,12 +48,14 @@ std::optional<std::string> Ui::command_line(std::string_view id,
                                             std::string_view label,
                                             std::span<const std::string> history,
                                             std::string_view tip,
-                                            const Permission& permission) {
+                                            const Permission& permission,
+                                            std::span<const std::string_view> words) {
     EditBox box;
     box.path = path(id);
     box.tip = tip;
     box.font = look_.fonts.mono;
     box.permission = permission;
+    box.completed = [=](std::string_view text) { return completed(text, history, words); };
     box.enter_only = true;
     box.refusal = [](std::string_view) { return std::string(); };
     box.stepped = [lines = std::vector<std::string>(history.begin(), history.end())](

@@ -229,12 +229,14 @@ public:
                                           std::string_view tip = {},
                                           const Permission& permission = {});
     /// A line to be sent: Enter answers it and empties the field, leaving the field sends nothing. The arrow
-    /// keys bring back the lines of `history`, oldest first.
+    /// keys bring back the lines of `history`, oldest first; Tab completes from it and from `words`
+    /// (completion.h).
     std::optional<std::string> command_line(std::string_view id,
                                             std::string_view label,
                                             std::span<const std::string> history,
                                             std::string_view tip = {},
-                                            const Permission& permission = {});
+                                            const Permission& permission = {},
+                                            std::span<const std::string_view> words = {});
     /// In the mono font; refused text stays in the field with its reason below until it is right or Esc.
     std::optional<std::string> expression(std::string_view id,
                                           std::string_view label,

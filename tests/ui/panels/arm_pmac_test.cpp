@@ -1,7 +1,6 @@
 // The Arm workspace at an emulated PMAC over TCP, in real time.
 #include "core/base/units.h"
-#include "tests/ui/panels/person.h"
-#include "tests/ui/panels/pmac_bench.h"
+#include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
 
 #include <gtest/gtest.h>
@@ -13,69 +12,7 @@ namespace millwright::panels {
 namespace {
 
 using machine::DriverState;
-using test::Person;
-using test::PmacBench;
-using widgets::Point;
-using widgets::Rect;
-
-struct Bench {
-    Bench() : person({1280, 800}) {
-        person.workshop().run("view.arm");
-        person.workshop().session().hand.choice.kind = machine::DriverKind::pmac;
-        person.workshop().session().hand.choice.address = pmac.address();
-        person.workshop().session().hand.arm_percent = 100;
-        person.frames(4);
-    }
-    void connect() {
-        person.click("hand/connection/machine_connect");
-        ASSERT_TRUE(person.live_until([&] { return is(DriverState::idle); }));
-    }
-    [[nodiscard]] bool is(DriverState state) {
-        const auto machine = person.workshop().look().controller;
-        return machine.connected() && machine.status.state == state;
-    }
-    /// Whatever ended it, nothing moves any more and nobody says that it does.
-    [[nodiscard]] bool rests() {
-        const bool told = is(DriverState::idle) || is(DriverState::stopped) || is(DriverState::alarm);
-        return told && !pmac.moving();
-    }
-    void give_power() {
-        if (is(DriverState::alarm)) {
-            person.workshop().run("machine.reset");
-            (void)person.live_until([&] { return is(DriverState::idle); });
-        }
-        if (!pmac.powered()) {
-            person.click("hand/power/arm_enable");
-            (void)person.live_until([&] { return pmac.powered() || is(DriverState::alarm); });
-        }
-    }
-    void point_at(const char* path) {
-        const Rect rect = person.place(path);
-        person.hover({rect.x + 0.5F * rect.w, rect.y + 0.5F * rect.h});
-    }
-    /// Presses on a jog's button until the motor has gone some way, and goes on holding it. A computer that
-    /// is so busy that the card hears nothing for 50 ms makes the card end the jog: then once more.
-    void jog(const char* path, int motor) {
-        constexpr int tries = 20;
-        for (int n = 0; n < tries; ++n) {
-            give_power();
-            const double before = pmac.degrees(motor);
-            point_at(path);
-            person.hold_button(true);
-            const auto moved = [&] { return std::abs(pmac.degrees(motor) - before) > 0.3; };
-            (void)person.live_until([&] { return moved() || is(DriverState::alarm); });
-            if (moved() && is(DriverState::running)) {
-                return;
-            }
-            person.hold_button(false);
-            person.frames(2);
-        }
-        FAIL() << "no jog in " << tries << " tries: " << person.workshop().look().controller.status.message;
-    }
-
-    PmacBench pmac;
-    Person person;
-};
+using Bench = test::ArmAtPmac;
 
 TEST(ArmAtPmacU2, NothingMovesAndNoMotorHasPowerByConnecting) {
     Bench bench;

@@ -7,13 +7,38 @@
 #include "core/machine/emulators/pmac/pmac_emulator.h"
 #include "core/machine/links/tcp_server.h"
 
+#include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace millwright::test {
+
+/// A link whose plug can be pulled: nothing comes through, and neither side is told.
+class Plug final : public machine::Link {
+public:
+    explicit Plug(std::unique_ptr<machine::Link> inner) : inner_(std::move(inner)) {}
+
+    [[nodiscard]] std::string name() const override { return inner_->name(); }
+    void open() override { inner_->open(); }
+    void write(std::string_view bytes) override { inner_->write(out ? std::string_view() : bytes); }
+    [[nodiscard]] std::string read() override {
+        std::string bytes = inner_->read();
+        return out ? std::string() : bytes;
+    }
+    void wait(double seconds) override { inner_->wait(seconds); }
+    [[nodiscard]] std::optional<std::string> lost() const override { return inner_->lost(); }
+    void close() noexcept override { inner_->close(); }
+
+    std::atomic<bool> out = false;
+
+private:
+    std::unique_ptr<machine::Link> inner_;
+};
 
 class PmacBench {
 public:
@@ -24,11 +49,15 @@ public:
         address_ = "tcp:127.0.0.1:" + std::to_string(server->port());
         auto card = std::make_unique<machine::PmacEmulator>();
         card_ = card.get();
-        const std::string setup = "I100=1\rI200=1\rI300=1\rI400=1\r#1->120X\r#2->222Y\r#3->150Z\r#4->150A\r";
+        const std::string setup = "I100=1\rI200=1\rI300=1\rI400=1\r"
+                                  "I902=10\rI907=10\rI912=10\rI917=10\rI123=10\rI223=10\rI323=10\rI423=10\r"
+                                  "#1->120X\r#2->222Y\r#3->150Z\r#4->150A\r";
         card->receive(setup);
         (void)card->take_output();
         std::vector<std::unique_ptr<machine::Link>> links;
-        links.push_back(std::move(server));
+        auto plug = std::make_unique<Plug>(std::move(server));
+        plug_ = plug.get();
+        links.push_back(std::move(plug));
         server_ = std::make_unique<machine::EmulatorServer>(std::move(links), clock_, std::move(card));
     }
 
@@ -57,8 +86,13 @@ public:
     [[nodiscard]] double last_motion() {
         return ask([&] { return card_->last_motion(); });
     }
-    /// The cable is pulled.
-    void vanish() { server_.reset(); }
+    /// Card and cable are gone.
+    void vanish() {
+        plug_ = nullptr;
+        server_.reset();
+    }
+    /// The cable is pulled, or in again; the card lives on.
+    void pull_plug(bool out = true) { plug_->out = out; }
 
 private:
     template <class Question> std::invoke_result_t<Question> ask(Question&& question) {
@@ -68,6 +102,7 @@ private:
     machine::SteadyClock clock_;
     std::string address_;
     machine::PmacEmulator* card_ = nullptr; ///< lives in the server
+    Plug* plug_ = nullptr;                  ///< there, too
     std::unique_ptr<machine::EmulatorServer> server_;
 };
 

@@ -123,9 +123,13 @@ public:
             draw_ranges(canvas, scene.arm->joints);
         }
         draw_paths(scene, canvas);
+        const auto& grip = canvas.highlight.arm;
+        if (scene.layers.toolpath && scene.arm->part) {
+            draw_frame(canvas, *scene.arm->part, grip && grip->is_part());
+        }
         if (scene.layers.tool_frame) {
-            draw_tool_frame(
-                canvas, scene.arm->joints, canvas.highlight.arm && canvas.highlight.arm->is_tip());
+            draw_frame(
+                canvas, kinematics::base_T_tool(look_->arm(), scene.arm->joints), grip && grip->is_tip());
         }
     }
 
@@ -225,17 +229,16 @@ private:
         }
     }
 
-    void draw_tool_frame(const Canvas& canvas, const JointPositions& joints, bool held) const {
-        const Frame tool = kinematics::base_T_tool(look_->arm(), joints);
+    void draw_frame(const Canvas& canvas, const Frame& frame, bool held) const {
         const std::array colors{canvas.colors.axis_x, canvas.colors.axis_y, canvas.colors.axis_z};
         for (std::size_t k = 0; k < 3; ++k) {
             std::vector<render::LineVertex> axis;
             const Vec3 end =
-                tool * Vec3(frame_share * look_->reach * Vec3::Unit(static_cast<Eigen::Index>(k)));
-            append(axis, std::array{Vec3(tool.translation()), end});
+                frame * Vec3(frame_share * look_->reach * Vec3::Unit(static_cast<Eigen::Index>(k)));
+            append(axis, std::array{Vec3(frame.translation()), end});
             draw_over(canvas, axis, colors[k], 3.0F);
         }
-        const std::array<render::PointVertex, 1> tip{{{.position = render::to_float(tool.translation())}}};
+        const std::array<render::PointVertex, 1> tip{{{.position = render::to_float(frame.translation())}}};
         canvas.painter.points(render::PointBuffer(tip),
                               {.coloring = {.color = with_opacity(canvas.colors.handle, 1.0F)},
                                .size_px = held ? 17.0F : 13.0F,

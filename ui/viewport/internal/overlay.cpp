@@ -104,6 +104,9 @@ std::string arm_text(const ArmScene& scene, const ArmGrip& grip) {
         const Frame tool = kinematics::base_T_tool(scene.look->arm(), scene.joints);
         return coordinates(tool.translation()) + " mm";
     }
+    if (grip.is_part()) {
+        return "Path   " + (scene.part ? coordinates(scene.part->translation()) + " mm" : std::string());
+    }
     const kinematics::ArmJoint& joint = scene.look->arm().joint(grip.joint);
     const bool turns = joint.kind == kinematics::JointKind::revolute;
     const double position = scene.joints[grip.joint];

@@ -197,7 +197,7 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     }
 }
 
-/// The tip, and a place of each link by which it can be taken hold of.
+/// The tip, the zero of the part, and a place of each link by which it can be taken hold of.
 void ViewPane::record_arm(const Frame3D& frame, const Pane& pane) const {
     const ArmScene& scene = *frame.scene.arm;
     const auto record = [&](const std::string& id, const Vec3& point) {
@@ -213,6 +213,9 @@ void ViewPane::record_arm(const Frame3D& frame, const Pane& pane) const {
     const std::vector<Frame> joints = kinematics::base_T_joints(scene.look->arm(), scene.joints);
     const Vec3 tip = kinematics::base_T_tool(scene.look->arm(), scene.joints).translation();
     record("tip", tip);
+    if (scene.part) {
+        record("part", scene.part->translation());
+    }
     for (std::size_t n = 0; n < joints.size(); ++n) {
         const Vec3 end = n + 1 < joints.size() ? Vec3(joints[n + 1].translation()) : tip;
         record("link_" + scene.look->arm().joint(static_cast<int>(n)).name,

@@ -30,16 +30,24 @@ Parts parts(const Ui& ui, const EditBox& box) {
             .unit = {all.right() - pad - unit, all.y, unit, all.h}};
 }
 
-int on_history(ImGuiInputTextCallbackData* data) {
-    const auto& stepped = *static_cast<const decltype(EditBox::stepped)*>(data->UserData);
-    const ImGuiIO& io = ImGui::GetIO();
-    const double size = io.KeyShift ? 0.1 : io.KeyCtrl ? 10.0 : 1.0;
-    const double direction = data->EventKey == ImGuiKey_UpArrow ? 1.0 : -1.0;
-    const std::string text =
-        stepped({data->Buf, static_cast<std::size_t>(data->BufTextLen)}, direction * size);
+/// Up, down and Tab inside the box.
+int on_key(ImGuiInputTextCallbackData* data) {
+    const EditBox& box = *static_cast<const EditBox*>(data->UserData);
+    const std::string_view text(data->Buf, static_cast<std::size_t>(data->BufTextLen));
+    const bool completes = data->EventFlag == ImGuiInputTextFlags_CallbackCompletion;
+    std::string wanted;
+    if (completes) {
+        wanted = box.completed(text);
+    } else {
+        const ImGuiIO& io = ImGui::GetIO();
+        const double size = io.KeyShift ? 0.1 : io.KeyCtrl ? 10.0 : 1.0;
+        wanted = box.stepped(text, data->EventKey == ImGuiKey_UpArrow ? size : -size);
+    }
     data->DeleteChars(0, data->BufTextLen);
-    data->InsertChars(0, text.c_str());
-    data->SelectAll();
+    data->InsertChars(0, wanted.c_str());
+    if (!completes) {
+        data->SelectAll();
+    }
     return 0;
 }
 
@@ -65,14 +73,15 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
     ImGui::SetNextItemWidth(std::max(typing.w, 1.0F));
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue;
     ImGuiInputTextCallback callback = nullptr;
-    auto stepped = box.stepped;
-    if (stepped) {
-        flags |= ImGuiInputTextFlags_CallbackHistory;
-        callback = on_history;
+    EditBox answering = box; // ImGui wants what it gives back to be changeable
+    if (box.stepped || box.completed) {
+        flags |= box.stepped ? ImGuiInputTextFlags_CallbackHistory : 0;
+        flags |= box.completed ? ImGuiInputTextFlags_CallbackCompletion : 0;
+        callback = on_key;
     }
     Typed typed;
     const std::string id = "##" + box.path;
-    typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &stepped);
+    typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &answering);
     typed.activated = ImGui::IsItemActivated();
     typed.active = ImGui::IsItemActive();
     typed.left = ImGui::IsItemDeactivated();

@@ -20,6 +20,8 @@ struct EditBox {
     std::string_view tip = {};
     /// What the text shall become after `steps` presses of up (negative: down); none: the keys do nothing.
     std::function<std::string(std::string_view text, double steps)> stepped = {};
+    /// What Tab makes of the text; none: Tab goes to the next widget.
+    std::function<std::string(std::string_view text)> completed = {};
     /// "" if the text may be committed, else the sentence that says what is wrong with it.
     std::function<std::string(std::string_view)> refusal;
     /// Refused text stays in the box also when the keyboard goes elsewhere.

@@ -5,6 +5,7 @@
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -14,6 +15,15 @@ namespace millwright::machine {
 using pmac::PmacSession;
 
 namespace {
+
+/// On-line commands and words of buffers.
+constexpr std::array<std::string_view, 44> words{
+    "ABS",      "BLOCKSTART", "BLOCKSTOP", "CIRCLE1",     "CIRCLE2",  "CLEAR",     "CLOSE",      "CMD",
+    "DELAY",    "DELETE",     "DISABLE",   "DISABLE PLC", "DWELL",    "ENABLE",    "ENABLE PLC", "ENDIF",
+    "ENDWHILE", "ELSE",       "FRAX",      "GOSUB",       "GOTO",     "HM",        "HMZ",        "HOME",
+    "HOMEZ",    "INC",        "LINEAR",    "LIST",        "LIST PLC", "LIST PROG", "NORMAL",     "OPEN",
+    "OPEN PLC", "OPEN PROG",  "PSET",      "RAPID",       "RETURN",   "SEND",      "SIZE",       "STOP",
+    "TYPE",     "UNDEFINE",   "VERSION",   "WHILE"};
 
 PmacSettings checked(PmacSettings settings) {
     std::set<char> letters;
@@ -65,11 +75,18 @@ PmacSession& PmacDriver::talk() const {
 
 Capabilities PmacDriver::capabilities() const {
     Capabilities able;
-    able.plans = able.overrides = able.jog = able.home = able.command = true;
+    able.words = words;
+    able.plans = able.overrides = able.jog = able.power = able.home = able.command = true;
     for (const PmacAxis& axis : settings_.axes) {
         able.axes.push_back({axis.letter, kinematics::AxisKind::rotary});
     }
     return able;
+}
+
+MachineLimits PmacDriver::limits() const {
+    const std::scoped_lock lock(session_mutex());
+    const bool connected = talk().greeted() && talk().status().state != DriverState::disconnected;
+    return connected ? MachineLimits{talk().limits(), {}} : MachineLimits{};
 }
 
 void PmacDriver::start(Work work) {

@@ -29,14 +29,15 @@ public:
 
     [[nodiscard]] std::string name() const override { return "pmac"; }
     [[nodiscard]] Capabilities capabilities() const override;
+    /// By the card's I-variables, rad; axes with a motor's whole table.
+    [[nodiscard]] MachineLimits limits() const override;
     /// The listing's lines are those of a motion program, without OPEN and CLOSE.
     void start(Work work) override;
     /// On-line commands, and buffers from OPEN to CLOSE.
     int command(const std::string& lines) override;
-    /// The same, going on behind what is refused; the answer has a line for each refusal.
-    int load(const std::vector<std::string>& lines);
+    int load(const std::vector<std::string>& lines) override;
     /// Closes the loops of all motors where they stand. Throws Error unless at rest.
-    void enable();
+    void enable() override;
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;

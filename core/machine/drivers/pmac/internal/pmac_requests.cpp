@@ -182,6 +182,7 @@ void PmacSession::jog_axis(std::size_t n, double way_deg, double speed_deg_per_s
     constexpr double per_ms = 1000.0;
     const double speed = std::min(speed_deg_per_s, axis.jog_deg_per_s) * axis.counts_per_degree / per_ms;
     ask(fmt::format("I{}22={:.6f}", axis.motor, speed));
+    readings_.set_jog_speed(n, speed);
     ask(fmt::format("#{}J={:.0f}", axis.motor, motor.target));
 }
 

@@ -13,8 +13,9 @@ namespace millwright::machine::pmac {
 
 namespace {
 
-constexpr double poll_interval = 0.02; // s
-constexpr double greeting_pause = 0.1; // s: an answer in whatever mode the card is in
+constexpr double poll_interval = 0.02;    // s
+constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
+constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
 
 bool starts_with_word(const std::string& line, std::string_view word) {
     std::string tight;
@@ -84,6 +85,7 @@ void PmacSession::greet(double now) {
             ask(std::move(line), Kind::greet);
         }
         ask("I9=0", Kind::greet);
+        ask_ratings();
         ask(poll_line(), Kind::poll);
     }
 }
@@ -105,11 +107,20 @@ void PmacSession::tick(double now) {
     if (!talk_.idle()) {
         return;
     }
+    ask_something(now);
+}
+
+void PmacSession::ask_something(double now) {
     // A command and the question for its addresses belong together; else the report comes first.
-    const bool may_poll = queue_.empty() || queue_.front().kind == Kind::command;
-    if (may_poll && polled_ && now >= next_poll_ && !buffer_open_ && stage_ != Stage::greeting) {
-        sent_ = Request{poll_line(), Kind::poll};
+    const bool may_poll = (queue_.empty() || queue_.front().kind == Kind::command) && polled_ &&
+                          !buffer_open_ && stage_ != Stage::greeting;
+    if (may_poll && now >= next_poll_) {
+        sent_ = Request{poll_line(), Kind::poll, 0};
         next_poll_ = now + poll_interval;
+    } else if (std::string line = readings_.reading_line();
+               may_poll && queue_.empty() && now >= next_reading_ && !line.empty()) {
+        sent_ = Request{sign_of_life + std::move(line), Kind::reading, 0};
+        next_reading_ = now + reading_interval;
     } else if (!queue_.empty()) {
         sent_ = std::move(queue_.front());
         queue_.pop_front();
@@ -151,6 +162,12 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
     case Kind::poll:
         read_poll(lines, now);
         break;
+    case Kind::rating:
+        readings_.read_rating(request.axis, lines);
+        break;
+    case Kind::reading:
+        readings_.read(lines);
+        break;
     case Kind::greet:
         if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
             queue_.clear();
@@ -187,6 +204,10 @@ void PmacSession::refused(const Request& request, int error) {
     }
     const std::string why =
         fmt::format("'{}' is refused: ERR{:03}, {}", request.line, error, pmac_error(error));
+    if (request.kind == Kind::rating || request.kind == Kind::reading) {
+        readings_.give_up();
+        return;
+    }
     if (request.kind == Kind::command && command_goes_on_) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why;
         next_command();
@@ -240,6 +261,7 @@ void PmacSession::finish_command(CommandAnswer::State state) {
     answer_.state = state;
     if (stage_ == Stage::commanding) {
         finish(Stage::ready);
+        ask_ratings(); // it may have set some
     }
 }
 
@@ -250,6 +272,12 @@ std::string PmacSession::poll_line() const {
         line += fmt::format("#{}?P", axis.motor);
     }
     return line + fmt::format("&{}??P1000", settings_.system);
+}
+
+void PmacSession::ask_ratings() {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        queue_.push_back({readings_.rating_line(n), Kind::rating, n});
+    }
 }
 
 /// From now on the card stops by itself when it no longer hears us.

@@ -5,6 +5,7 @@
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/own_pause.h"
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
+#include "core/machine/drivers/pmac/internal/motor_readings.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
 
 #include <cstdint>
@@ -19,7 +20,8 @@ namespace millwright::machine::pmac {
 class PmacSession final : public internal::ControllerSession {
 public:
     explicit PmacSession(PmacSettings settings)
-        : settings_(std::move(settings)), talk_(settings_.patience), motors_(settings_.axes.size()) {}
+        : settings_(std::move(settings)), talk_(settings_.patience), readings_(settings_.axes),
+          motors_(settings_.axes.size()) {}
 
     void opened(double now) override;
     void lost(const std::string& why) override;
@@ -52,6 +54,8 @@ public:
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;
+    /// By the card's I-variables; what it has not told yet is missing.
+    [[nodiscard]] const std::vector<MachineLimits::Axis>& limits() const { return readings_.limits(); }
 
 private:
     enum class Stage {
@@ -67,11 +71,12 @@ private:
         stopped,
         alarm
     };
-    enum class Kind { greet, poll, step, run, program, command, address };
+    enum class Kind { greet, poll, rating, reading, step, run, program, command, address };
 
     struct Request {
         std::string line;
         Kind kind = Kind::step;
+        std::size_t axis = 0; ///< of a rating
     };
     struct MotorState {
         double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
@@ -86,13 +91,15 @@ private:
 
     // pmac_session.cpp: the conversation
     void greet(double now);
-    void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind}); }
+    void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     void next_command();
     void finish_command(CommandAnswer::State state);
     [[nodiscard]] std::string poll_line() const;
+    void ask_ratings();
+    void ask_something(double now);
     void arm();
 
     // pmac_watch.cpp: what the card tells
@@ -131,11 +138,12 @@ private:
     std::deque<Request> queue_;
     std::optional<Request> sent_;
     internal::OwnPause own_pause_;
-    double next_poll_ = 0.0, greet_at_ = 0.0;
+    double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0;
     std::size_t greet_step_ = 0;
     bool buffer_open_ = false; ///< nothing may be asked meanwhile
     bool polled_ = false;
 
+    MotorReadings readings_;
     std::vector<MotorState> motors_;
     double polled_at_ = 0.0;
     std::uint32_t system_1_ = 0, system_2_ = 0;

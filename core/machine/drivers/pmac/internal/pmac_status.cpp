@@ -70,6 +70,8 @@ DriverStatus PmacSession::status() const {
         status.position[n] = from_degrees(motors_[axis].counts / scale);
         status.velocity[n] = from_degrees(motors_[axis].speed / scale);
     }
+    status.powered = enabled();
+    status.motors = readings_.motors();
     status.overrides = overrides_;
     status.answer = answer_;
     status.executed_blocks = executed_;

@@ -1,4 +1,5 @@
 // What a round of answers says, and what follows from it.
+#include "core/machine/drivers/pmac/internal/card_numbers.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 
@@ -32,19 +33,12 @@ std::optional<Words> status_words(std::string_view text) {
     return whole ? std::optional(words) : std::nullopt;
 }
 
-std::optional<double> number(std::string_view text) {
-    double value = 0.0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
-    return whole && std::isfinite(value) && std::abs(value) < 1e12 ? std::optional(value) : std::nullopt;
-}
-
 } // namespace
 
 void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     const std::size_t expected = 2 + 2 * motors_.size();
     const auto system = lines.size() == expected ? status_words(lines[expected - 2]) : std::nullopt;
-    const auto mark = system ? number(lines.back()) : std::nullopt;
+    const auto mark = system ? card_number(lines.back()) : std::nullopt;
     if (!mark) {
         fail("the card's report is not what was asked for");
         return;
@@ -52,7 +46,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     const double since = now - polled_at_;
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const auto words = status_words(lines[2 * n]);
-        const auto counts = number(lines[2 * n + 1]);
+        const auto counts = card_number(lines[2 * n + 1]);
         if (!words || !counts) {
             fail("the card's report of a motor is not what was asked for");
             return;

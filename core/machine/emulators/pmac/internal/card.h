@@ -86,6 +86,7 @@ public:
     [[nodiscard]] std::uint32_t status_word_2(int motor) const;
 
 private:
+    [[nodiscard]] std::optional<std::uint32_t> output_word(int address) const;
     struct Plc {
         Program program{true};
         bool on = false;

@@ -33,6 +33,19 @@ bool Card::compare_output() const {
     return (word >> compare_on & 1U) != 0 && flag != inverted;
 }
 
+/// A converter's register, 16 bits with a sign above 8 that are 0; nothing if no motor has its output there.
+std::optional<std::uint32_t> Card::output_word(int address) const {
+    constexpr int output_address = 2, per_motor = 100, below = 8, first_register = 0xC000;
+    for (int n = 0; n < motors && address >= first_register; ++n) {
+        const auto told = static_cast<int>(i(per_motor * (n + 1) + output_address)) & 0xFFFF;
+        if (told == address) {
+            const auto bits = static_cast<std::int32_t>(std::lround(motor(n).output()));
+            return (static_cast<std::uint32_t>(bits) << below) & word_mask;
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<std::uint32_t> Card::read(char side, int address) const {
     constexpr int motor_step = 0x3C, status_step = 0xC0;
     if (const int n = channel_of_flags(address); side == 'X' && n >= 0) {
@@ -50,6 +63,9 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
         const double place = channels_[static_cast<std::size_t>(n)].encoder() * parts;
         return side == 'X' ? static_cast<std::uint32_t>(std::llround(std::fmod(place, 8e6))) & word_mask
                            : 0xC000U + 4U * static_cast<std::uint32_t>(n);
+    }
+    if (const auto output = side == 'Y' ? output_word(address) : std::nullopt) {
+        return output;
     }
     if (side == 'X' && address == 0) { // servo cycles
         return static_cast<std::uint32_t>(cycles_) & word_mask;

@@ -356,5 +356,60 @@ TEST(PmacDirectionF4, AJogAndAProgramGoTheSameWay) {
     }
 }
 
+TEST(PmacSessionU3, TellsWhatEachMotorMayDoByTheCardsOwnVariables) {
+    PmacWire wire;
+    (void)wire.session.command({"I216=40", "I217=0.25", "I213=22200", "I214=-11100", "I269=3276"}, false);
+    wire.pass(1.0);
+    const auto& limits = wire.session.limits();
+    ASSERT_EQ(limits.size(), 4U);
+    const auto& y = limits[1];
+    EXPECT_EQ(y.letter, 'Y');
+    EXPECT_NEAR(to_degrees(y.speed.value()), 40e3 / 222.0, 1e-9);
+    EXPECT_NEAR(to_degrees(y.acceleration.value()), 0.25e6 / 222.0, 1e-9);
+    EXPECT_NEAR(to_degrees(y.max.value()), 100.0, 1e-9);
+    EXPECT_NEAR(to_degrees(y.min.value()), -50.0, 1e-9);
+    EXPECT_NEAR(y.output_V.value(), 0.99976, 1e-5);
+    EXPECT_NEAR(to_degrees(y.jog_speed.value()), 32e3 / 222.0, 1e-9); // the factory's
+    EXPECT_FALSE(limits[0].max.has_value());                          // 0 switches it off
+}
+
+TEST(PmacSessionU3, TellsFollowingErrorAndOutputTenTimesASecond) {
+    PmacWire wire;
+    (void)wire.session.command({"I130=500", "I131=0"}, false); // a soft motor lags
+    wire.pass(0.5);
+    wire.session.jog(jog_of(0, 20.0, 5.0), wire.now);
+    wire.pass(1.0); // at speed
+    const double before = wire.session.status().motors.at(0).following_error;
+    EXPECT_NEAR(
+        before, from_degrees((wire.card.command(1) - wire.card.position(1)) / 120.0), from_degrees(0.02));
+    EXPECT_GT(before, from_degrees(0.1));
+    EXPECT_NEAR(wire.session.status().motors.at(0).output_V, wire.card.output(1) * 10.0 / 32768.0, 0.02);
+    EXPECT_GT(wire.card.output(1), 0.0);
+    int changes = 0;
+    double last = before;
+    const double from = wire.now;
+    while (wire.now < from + 1.0) { // to and fro, so that it changes all the time
+        const double way = std::fmod(wire.now - from, 0.4) < 0.2 ? -5.0 : 5.0;
+        wire.session.jog(jog_of(0, way, 5.0, 0.5), wire.now);
+        wire.pass(0.02);
+        const double now = wire.session.status().motors.at(0).following_error;
+        changes += std::abs(now - last) > 0.0 ? 1 : 0;
+        last = now;
+    }
+    EXPECT_GE(changes, 9);
+}
+
+TEST(PmacSessionU3, ACardThatKnowsNoConverterIsAskedNoMore) {
+    MotorReadings readings(test::wire_settings().axes);
+    EXPECT_EQ(readings.reading_line(), ""); // nothing is known of its outputs
+    for (std::size_t n = 0; n < 4; ++n) {
+        readings.read_rating(n, {"$C003", "0", "0", "32", "0.5", "32", "20480"});
+    }
+    EXPECT_THAT(readings.reading_line(), HasSubstr("#4FRY$C003"));
+    readings.read({"1", "garbled"});
+    EXPECT_EQ(readings.reading_line(), "");
+    EXPECT_TRUE(readings.motors().empty());
+}
+
 } // namespace
 } // namespace millwright::machine::pmac

@@ -1,0 +1,103 @@
+#include "core/machine/drivers/pmac/internal/motor_readings.h"
+
+#include "core/base/units.h"
+#include "core/machine/drivers/pmac/internal/card_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace millwright::machine::pmac {
+
+namespace {
+
+constexpr double volt_per_bit = 10.0 / 32768.0;
+constexpr double ms = 1e-3;
+/// Of each motor: output address, software limits, greatest velocity and acceleration, jog speed, clamp.
+constexpr std::array<int, 7> asked{2, 13, 14, 16, 17, 22, 69};
+
+} // namespace
+
+MotorReadings::MotorReadings(std::vector<PmacAxis> axes)
+    : axes_(std::move(axes)), outputs_(axes_.size(), -1) {
+    for (const PmacAxis& axis : axes_) {
+        MachineLimits::Axis limits;
+        limits.letter = axis.letter;
+        limits_.push_back(limits);
+    }
+}
+
+double MotorReadings::radians(std::size_t axis, double counts) const {
+    return from_degrees(counts / axes_[axis].counts_per_degree);
+}
+
+std::string MotorReadings::rating_line(std::size_t axis) const {
+    std::string line;
+    for (const int variable : asked) {
+        line += fmt::format("I{}{:02}", axes_[axis].motor, variable);
+    }
+    return line;
+}
+
+void MotorReadings::read_rating(std::size_t axis, const std::vector<std::string>& lines) {
+    std::array<double, asked.size()> values{};
+    if (lines.size() != asked.size()) {
+        return give_up();
+    }
+    for (std::size_t n = 0; n < asked.size(); ++n) {
+        const auto value = card_number(lines[n]);
+        if (!value) {
+            return give_up();
+        }
+        values[n] = *value;
+    }
+    const auto& [address, high, low, velocity, acceleration, jog, clamp] = values;
+    outputs_[axis] = static_cast<int>(std::clamp(address, 0.0, 1e7)) & 0xFFFF; // bit 16: sign and magnitude
+    MachineLimits::Axis& limits = limits_[axis];
+    const auto limit = [&](double counts) { // 0: switched off
+        return std::abs(counts) > 0.0 ? std::optional(radians(axis, counts)) : std::nullopt;
+    };
+    limits.max = limit(high);
+    limits.min = limit(low);
+    limits.speed = radians(axis, velocity / ms);
+    limits.acceleration = radians(axis, acceleration / (ms * ms));
+    limits.jog_speed = radians(axis, jog / ms);
+    limits.output_V = clamp * volt_per_bit;
+}
+
+std::string MotorReadings::reading_line() const {
+    if (!told_ || std::ranges::find(outputs_, -1) != outputs_.end()) {
+        return {};
+    }
+    std::string line;
+    for (std::size_t n = 0; n < axes_.size(); ++n) {
+        line += fmt::format("#{}FRY${:X}", axes_[n].motor, outputs_[n]);
+    }
+    return line;
+}
+
+void MotorReadings::read(const std::vector<std::string>& lines) {
+    if (lines.size() != 2 * axes_.size()) {
+        return give_up();
+    }
+    std::vector<MotorReading> motors(axes_.size());
+    for (std::size_t n = 0; n < axes_.size(); ++n) {
+        const auto error = card_number(lines[2 * n]), word = card_number(lines[2 * n + 1]);
+        if (!error || !word || *word < 0.0 || *word > 0xFFFFFF) {
+            return give_up();
+        }
+        constexpr int below = 8;
+        const auto bits = static_cast<std::int16_t>(static_cast<std::uint32_t>(*word) >> below);
+        motors[n] = {radians(n, *error), bits * volt_per_bit};
+    }
+    motors_ = std::move(motors);
+}
+
+void MotorReadings::set_jog_speed(std::size_t axis, double counts_per_ms) {
+    limits_[axis].jog_speed = radians(axis, counts_per_ms / ms);
+}
+
+} // namespace millwright::machine::pmac

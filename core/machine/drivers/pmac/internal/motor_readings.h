@@ -1,0 +1,42 @@
+// What a PMAC tells of each motor beyond position and status: how far it lags, what its amplifier is told,
+// and by which I-variables it may move.
+#pragma once
+
+#include "core/machine/driver.h"
+#include "core/machine/drivers/pmac/pmac_settings.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::machine::pmac {
+
+class MotorReadings {
+public:
+    explicit MotorReadings(std::vector<PmacAxis> axes);
+
+    /// Asks for Ix02, Ix13, Ix14, Ix16, Ix17, Ix22 and Ix69 of an axis.
+    [[nodiscard]] std::string rating_line(std::size_t axis) const;
+    void read_rating(std::size_t axis, const std::vector<std::string>& lines);
+    /// Asks for what changes; empty until every rating is known.
+    [[nodiscard]] std::string reading_line() const;
+    void read(const std::vector<std::string>& lines);
+    /// The card understands no such question, or answers otherwise: it is not asked again.
+    void give_up() { told_ = false; }
+    /// Ix22 in counts/ms, as it was sent.
+    void set_jog_speed(std::size_t axis, double counts_per_ms);
+
+    /// In the order of the axes; empty as long as nothing was told.
+    [[nodiscard]] const std::vector<MotorReading>& motors() const { return motors_; }
+    [[nodiscard]] const std::vector<MachineLimits::Axis>& limits() const { return limits_; }
+
+private:
+    [[nodiscard]] double radians(std::size_t axis, double counts) const;
+
+    std::vector<PmacAxis> axes_;
+    std::vector<int> outputs_;                ///< addresses of the converters; -1: not told yet
+    std::vector<MachineLimits::Axis> limits_; ///< rad, s
+    std::vector<MotorReading> motors_;
+    bool told_ = true;
+};
+
+} // namespace millwright::machine::pmac

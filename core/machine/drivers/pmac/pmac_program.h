@@ -1,0 +1,20 @@
+// A planned motion in the card's own language: where the motors are, at even steps of time. The card goes
+// straight between them and rounds each corner within half a step, so it is off the plan by no more than
+// acceleration * step^2 / 8.
+#pragma once
+
+#include "core/machine/drivers/pmac/pmac_settings.h"
+#include "core/motion/trajectory.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::machine {
+
+/// Lines for PmacDriver::start(). The axes of `settings` are the first of the trajectory, in its order.
+/// `step`: s, > 0. Throws Error where an axis that the card does not drive would have to move, and where
+/// there would be more lines than a card holds.
+[[nodiscard]] std::vector<std::string>
+pmac_program(const motion::Trajectory& motion, const PmacSettings& settings, double step = 0.05);
+
+} // namespace millwright::machine

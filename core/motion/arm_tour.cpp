@@ -1,0 +1,86 @@
+#include "core/motion/arm_tour.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::motion {
+
+using kinematics::ArmModel;
+using kinematics::JointPositions;
+
+namespace {
+
+/// As long as the slowest joint takes at that share of its speed, s.
+double joint_time(const ArmModel& arm, const JointPositions& way, double share) {
+    double longest = 0.0;
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        longest = std::max(longest, std::abs(way[n]) / (share * arm.joint(n).max_velocity));
+    }
+    return longest;
+}
+
+void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
+    constexpr double quarter_turn = 0.5 * pi;
+    const std::vector<kinematics::ArmWay> ways{straight_way(kinematics::base_T_tool(arm, motion.joints()),
+                                                            kinematics::base_T_tool(arm, stop.joints),
+                                                            stop.share * tour_speed)};
+    kinematics::ArmPathSettings settings;
+    settings.aim = aim_of(arm, quarter_turn);
+    motion.follow(ways, kinematics::follow_path(arm, ways, motion.joints(), settings, {}), {});
+    const double turn = (motion.joints() - stop.joints).cwiseAbs().maxCoeff();
+    constexpr double same_branch = 0.01; // rad or mm
+    if (turn > same_branch) {
+        throw Error("a line leads there with the arm bent the other way", {}, "go there by joints");
+    }
+}
+
+} // namespace
+
+kinematics::ArmAim aim_of(const ArmModel& arm, double most_tilt) {
+    constexpr int free_roll = 5;
+    return {arm.joint_count() <= free_roll ? kinematics::ArmDemand::tip_and_axis
+                                           : kinematics::ArmDemand::frame,
+            most_tilt};
+}
+
+kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed) {
+    const Eigen::Quaterniond first(from.linear()), last(to.linear());
+    const Vec3 begin = from.translation(), end = to.translation();
+    const double length = (end - begin).norm();
+    const auto at = [=](double share) {
+        Frame frame = Frame::Identity();
+        frame.translation() = begin + share * (end - begin);
+        frame.linear() = first.slerp(share, last).toRotationMatrix();
+        return frame;
+    };
+    return {at, length, speed > 0.0 ? length / speed : 0.0, 0};
+}
+
+gcode::Program tour(const ArmModel& arm, const JointPositions& start, const std::vector<ArmStop>& stops) {
+    ArmMotion motion(arm, start);
+    for (const ArmStop& stop : stops) {
+        expects(stop.share > 0.0 && stop.share <= 1.0, "a share of the speed is more than 0 and at most 1");
+        try {
+            if (stop.joints.size() != arm.joint_count()) {
+                throw Error(fmt::format("it was taught to an arm with {} joints", stop.joints.size()));
+            }
+            if (stop.straight) {
+                go_straight(motion, arm, stop);
+            } else {
+                motion.go_to(stop.joints, joint_time(arm, stop.joints - motion.joints(), stop.share));
+            }
+        } catch (const Error& error) {
+            const Diagnostic& found = error.diagnostic();
+            throw Error(fmt::format("'{}' cannot be gone to: {}", stop.name, found.message), {}, found.hint);
+        }
+    }
+    return motion.program();
+}
+
+} // namespace millwright::motion

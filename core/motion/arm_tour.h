@@ -1,0 +1,37 @@
+// Points taught to an arm, gone to one after another: the motion between them as one program of its joints.
+// Lengths mm, angles rad.
+#pragma once
+
+#include "core/motion/arm_motion.h"
+
+#include <string>
+#include <vector>
+
+namespace millwright::motion {
+
+/// Of the tip along lines at full share: the reduced speed of ISO 10218-1 for an arm beside a person, mm/s.
+inline constexpr double tour_speed = 250.0;
+
+struct ArmStop {
+    std::string name; ///< for diagnostics
+    kinematics::JointPositions joints;
+    bool straight = false; ///< the tip along a line, the tool turning evenly; else joint by joint
+    double share = 1.0;    ///< of tour_speed, or of the joints' greatest speeds; 0 < share <= 1
+};
+
+/// From `start` through all stops. Throws Error with the name of the stop that the arm cannot go to.
+[[nodiscard]] gcode::Program tour(const kinematics::ArmModel& arm,
+                                  const kinematics::JointPositions& start,
+                                  const std::vector<ArmStop>& stops);
+gcode::Program
+tour(kinematics::ArmModel&&, const kinematics::JointPositions&, const std::vector<ArmStop>&) = delete;
+
+/// The tip's straight way between two frames of the tool, which turns evenly. `speed`: mm/s; 0: as fast as
+/// the joints can.
+[[nodiscard]] kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed);
+
+/// What an arm is asked to keep on a way of its tool: with five joints or less the roll about the tool is
+/// free.
+[[nodiscard]] kinematics::ArmAim aim_of(const kinematics::ArmModel& arm, double most_tilt);
+
+} // namespace millwright::motion

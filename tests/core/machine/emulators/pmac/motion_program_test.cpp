@@ -1,0 +1,123 @@
+// S6, S7: programs of the card simulated without one, and motions turned into programs.
+#include "core/machine/emulators/pmac/motion_program.h"
+
+#include "core/base/units.h"
+#include "core/kinematics/arm_file.h"
+#include "core/kinematics/arm_simulation.h"
+#include "core/machine/drivers/pmac/pmac_program.h"
+#include "core/motion/arm_tour.h"
+#include "core/motion/planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+
+MotionSimulation run(std::string_view text, std::vector<double> start = {}) {
+    MotionSimulationSettings settings;
+    settings.card = arm_settings();
+    settings.start_deg = std::move(start);
+    return simulate_motion_program(text, "moves.pmc", settings, {});
+}
+
+TEST(MotionProgramS7, TheThesisProgramTakesItsTimeToItsAngles) {
+    const MotionSimulation found = run("INC\nTA20\nTS10\nLINEAR\nFRAX(X,Y,Z,A)\nX10 Y10 Z10 A10 F0.5\n");
+    ASSERT_TRUE(found.faults.empty()) << to_text(found.faults.front());
+    EXPECT_NEAR(found.duration, 40.02, 0.1);
+    for (const double degrees : found.records.back().degrees) {
+        EXPECT_NEAR(degrees, 10.0, 0.01);
+    }
+}
+
+TEST(MotionProgramS7, BeginsWhereTheArmStands) {
+    const MotionSimulation found = run("ABS LINEAR TM500 X20", {15.0, -30.0, 5.0, 1.0});
+    ASSERT_TRUE(found.faults.empty());
+    EXPECT_NEAR(found.records.front().degrees[1], -30.0, 0.01);
+    EXPECT_NEAR(found.records.back().degrees[0], 20.0, 0.01);
+    EXPECT_NEAR(found.records.back().degrees[1], -30.0, 0.01);
+}
+
+std::vector<int> faulty_lines(std::string_view text) {
+    std::vector<int> lines;
+    for (const Diagnostic& fault : motion_program_faults(text, "moves.pmc")) {
+        lines.push_back(fault.place.line);
+    }
+    return lines;
+}
+
+TEST(MotionProgramS7, TellsTheLineOfEveryFault) {
+    EXPECT_EQ(faulty_lines("LINEAR\nX10 ; fine\nGO THERE\n\nX1Y\n"), (std::vector{3, 5}));
+    EXPECT_EQ(faulty_lines("WHILE(P1<3)\nP1=P1+1\n"), (std::vector{1}));
+    EXPECT_EQ(faulty_lines("X1\nENDIF\n"), (std::vector{2}));
+    EXPECT_EQ(faulty_lines("IF(P1=1)\nX1\nELSE\nX2\nENDIF\n"), (std::vector<int>{}));
+    EXPECT_EQ(faulty_lines(""), (std::vector<int>{}));
+    EXPECT_THAT(motion_program_faults("OPEN PROG 1\nX1", "m").at(0).hint, HasSubstr("by itself"));
+}
+
+TEST(MotionProgramS7, AProgramWithoutEndIsToldSo) {
+    MotionSimulationSettings settings;
+    settings.card = arm_settings();
+    settings.longest = 3.0;
+    const MotionSimulation found =
+        simulate_motion_program("LINEAR\nINC\nTM100\nWHILE(1=1)\nX1\nX-1\nENDWHILE\n", "m", settings, {});
+    ASSERT_EQ(found.faults.size(), 1U);
+    EXPECT_THAT(found.faults.front().message, HasSubstr("does it end"));
+}
+
+std::vector<motion::ArmStop> to(const kinematics::JointPositions& joints, double share) {
+    std::vector<motion::ArmStop> stops(1);
+    stops.front().joints = joints;
+    stops.front().share = share;
+    return stops;
+}
+
+TEST(MotionProgramS6, APlannedMotionEndsAtItsCountsAndStaysOnTheWay) {
+    const kinematics::ArmModel arm = kinematics::read_arm("assets/arms/motoman-l3.json").arm;
+    const kinematics::JointPositions home = kinematics::arm_home();
+    kinematics::JointPositions end = home;
+    end.head(4) += (kinematics::JointPositions(4) << 0.4, 0.2, -0.3, 0.1).finished();
+    const motion::Trajectory plan = motion::plan(motion::tour(arm, home, to(end, 0.5)), arm, {}, {});
+    std::string text;
+    for (const std::string& line : pmac_program(plan, arm_settings())) {
+        text += line + "\n";
+    }
+    std::vector<double> start;
+    for (int n = 0; n < 4; ++n) {
+        start.push_back(to_degrees(home[n]));
+    }
+    const MotionSimulation found = run(text, start);
+    ASSERT_TRUE(found.faults.empty()) << to_text(found.faults.front());
+    for (std::size_t n = 0; n < 4; ++n) {
+        const double scale = arm_settings().axes[n].counts_per_degree;
+        EXPECT_NEAR(
+            found.records.back().degrees[n], to_degrees(end[static_cast<Eigen::Index>(n)]), 1.0 / scale);
+    }
+    EXPECT_NEAR(found.duration, plan.duration(), 0.2);
+    for (const MotionRecord& record : found.records) { // straight in joint space
+        const double share = (record.degrees[0] - to_degrees(home[0])) / to_degrees(0.4);
+        EXPECT_NEAR(record.degrees[2], to_degrees(home[2] - 0.3 * share), 0.05);
+    }
+}
+
+TEST(MotionProgramS6, AJointThatTheCardDoesNotDriveIsRefused) {
+    const kinematics::ArmModel arm = kinematics::read_arm("assets/arms/motoman-l3.json").arm;
+    kinematics::JointPositions end = kinematics::arm_home();
+    end[4] += 0.5;
+    const motion::Trajectory plan =
+        motion::plan(motion::tour(arm, kinematics::arm_home(), to(end, 1.0)), arm, {}, {});
+    try {
+        (void)pmac_program(plan, arm_settings());
+        FAIL() << "joint 5 has no motor";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("joint 5"));
+    }
+}
+
+} // namespace
+} // namespace millwright::machine

@@ -1,0 +1,200 @@
+// C6, S7 and the path on the arm: points taught, programs written, a project's program placed before the arm,
+// by mouse and keys at the drawn arm.
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/project/taught_points.h"
+#include "tests/ui/panels/person.h"
+#include "ui/actions/arm_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using kinematics::JointPositions;
+using test::Person;
+using widgets::Point;
+using widgets::Rect;
+
+class ArmTeaching : public ::testing::Test {
+protected:
+    ArmTeaching() : person_({1280, 800}) {
+        person_.workshop().run("view.arm");
+        person_.frames(4);
+    }
+    void tab(const char* name) {
+        person_.click(std::string("lower/tabs/") + name);
+        person_.frames(2);
+    }
+    [[nodiscard]] actions::ArmBench& arm() { return person_.workshop().arm(); }
+    [[nodiscard]] const std::vector<project::TaughtPoint>& points() { return person_.project().arm.points; }
+    void turn_joint(int joint, double degrees) {
+        JointPositions joints = arm().joints();
+        joints[joint] += from_degrees(degrees);
+        arm().set_joints(joints);
+        person_.frames(2);
+    }
+    void teach_three() {
+        tab("points");
+        for (const double turn : {15.0, 20.0, -50.0}) {
+            turn_joint(0, turn);
+            turn_joint(1, 0.3 * turn);
+            person_.click("lower/arm_teach");
+        }
+    }
+    void until_it_rests() {
+        ASSERT_TRUE(person_.live_until([&] { return !arm().moving(); }, 60.0));
+    }
+
+    Person person_;
+};
+
+TEST_F(ArmTeaching, PointsAreRecordedNamedOrderedAndTakenBack) {
+    teach_three();
+    ASSERT_EQ(points().size(), 3U);
+    EXPECT_EQ(points()[1].name, "Point 2");
+    EXPECT_NEAR(points()[1].joints_deg[0], 35.0, 1e-3);
+    person_.click("lower/points/point_3");
+    person_.fill_in("lower/name", "Above the vice");
+    EXPECT_EQ(points()[2].name, "Above the vice");
+    person_.click("lower/way/line");
+    EXPECT_TRUE(points()[2].straight);
+    person_.fill_in("lower/speed", "25");
+    EXPECT_NEAR(points()[2].speed_percent, 25.0, 1e-12);
+    person_.click("lower/up");
+    EXPECT_EQ(points()[1].name, "Above the vice");
+    person_.keep("arm-points");
+    person_.workshop().run("edit.undo");
+    EXPECT_EQ(points()[2].name, "Above the vice");
+    for (int n = 0; n < 3; ++n) { // speed, way, name
+        person_.workshop().run("edit.undo");
+    }
+    EXPECT_EQ(points()[2].name, "Point 3");
+    person_.frames(2);
+    person_.click("lower/remove");
+    EXPECT_EQ(points().size(), 2U);
+}
+
+TEST_F(ArmTeaching, ANameThatIsTakenIsRefusedAndNothingIsLost) {
+    teach_three();
+    person_.click("lower/points/point_2");
+    person_.fill_in("lower/name", "Point 1");
+    EXPECT_EQ(points()[1].name, "Point 2");
+    EXPECT_EQ(points().size(), 3U);
+}
+
+TEST_F(ArmTeaching, PlayingGoesThroughThePointsToTheLast) {
+    teach_three();
+    const double passed = points()[1].joints_deg[0];
+    turn_joint(0, -40.0);
+    person_.click("lower/arm_play_points");
+    ASSERT_TRUE(arm().moving());
+    double nearest = 360.0;
+    ASSERT_TRUE(person_.live_until(
+        [&] {
+            nearest = std::min(nearest, std::abs(to_degrees(arm().joints()[0]) - passed));
+            return !arm().moving();
+        },
+        60.0));
+    EXPECT_LT(nearest, 5.0); // a slow computer draws few frames
+    for (Eigen::Index n = 0; n < 5; ++n) {
+        EXPECT_NEAR(to_degrees(arm().joints()[n]), points()[2].joints_deg[static_cast<std::size_t>(n)], 1e-3);
+    }
+}
+
+TEST_F(ArmTeaching, PointsAreSavedAndOpenedAsAFile) {
+    teach_three();
+    const auto taught = points();
+    const auto file = person_.folder() / "points.json";
+    person_.workshop().save_points(file);
+    person_.workshop().edit("Clear", [](project::Project& draft) { draft.arm.points.clear(); }, {});
+    person_.workshop().open_points(file);
+    EXPECT_EQ(points(), taught);
+    EXPECT_EQ(project::read_taught_points(file), taught);
+    person_.workshop().run("arm.save_points");
+    person_.frames(3);
+    EXPECT_TRUE(person_.sees("dialogs/files/save"));
+    person_.press_key(render::Key::escape);
+    person_.frames(2);
+    person_.workshop().run("arm.open_points");
+    person_.frames(3);
+    EXPECT_TRUE(person_.sees("dialogs/files/open"));
+}
+
+TEST_F(ArmTeaching, AProgramIsWrittenWithItsFaultsByLineAndSimulated) {
+    tab("program");
+    EXPECT_FALSE(person_.refusal("lower/arm_simulate").empty());
+    person_.click("lower/text");
+    person_.type("ABS LINEAR\nTM800 TA100\nX30 Y-80\nGO AWAY");
+    EXPECT_EQ(person_.project().arm.program, "ABS LINEAR\nTM800 TA100\nX30 Y-80\nGO AWAY");
+    person_.frames(2);
+    ASSERT_EQ(arm().program().faults().size(), 1U);
+    EXPECT_EQ(arm().program().faults().front().place.line, 4);
+    EXPECT_FALSE(person_.refusal("lower/arm_simulate").empty());
+    person_.keep("arm-program-fault");
+    for (int n = 0; n < 7; ++n) {
+        person_.press_key(render::Key::backspace);
+    }
+    person_.frames(2);
+    EXPECT_TRUE(arm().program().faults().empty());
+    person_.click("lower/arm_simulate");
+    ASSERT_TRUE(person_.live_until([&] { return arm().moving(); }));
+    until_it_rests();
+    EXPECT_NEAR(to_degrees(arm().joints()[0]), 30.0, 0.05);
+    EXPECT_NEAR(to_degrees(arm().joints()[1]), -80.0, 0.05);
+    person_.keep("arm-program");
+    person_.workshop().run("edit.undo");
+    EXPECT_TRUE(person_.project().arm.program.size() < 30U);
+}
+
+class ArmPath : public ArmTeaching {
+protected:
+    ArmPath() {
+        person_.wait_idle();
+        person_.click("inspector/path/shown");
+        place({900.0, -50.0, 300.0});
+    }
+    void place(const Vec3& at) {
+        person_.workshop().edit("Place", [&](project::Project& draft) { draft.arm.path.at_mm = at; }, {});
+        person_.frames(2);
+        arm().wait_idle();
+        person_.frames(2);
+    }
+};
+
+TEST_F(ArmPath, AProjectsProgramIsGreenWhereTheArmReachesIt) {
+    ASSERT_TRUE(arm().path());
+    ASSERT_TRUE(arm().path()->track) << arm().path()->why;
+    const double near = arm().path()->reach.reached / arm().path()->reach.length;
+    person_.keep("arm-path");
+    place({1420.0, 0.0, 100.0}); // over the border
+    const double border = arm().path()->reach.reached / arm().path()->reach.length;
+    person_.keep("arm-path-border");
+    place({3000.0, 0.0, 0.0});
+    EXPECT_NEAR(arm().path()->reach.reached, 0.0, 1e-9);
+    EXPECT_GT(near, border);
+    EXPECT_GT(border, 0.0);
+    EXPECT_LT(border, 1.0);
+    EXPECT_FALSE(person_.refusal("inspector/path/arm_send_path").empty());
+}
+
+TEST_F(ArmPath, ItsZeroIsDraggedInTheViewInOneStepOfUndo) {
+    const Vec3 before = person_.project().arm.path.at_mm;
+    const Rect handle = person_.place("view/part");
+    const Point from{handle.x + 0.5F * handle.w, handle.y + 0.5F * handle.h};
+    person_.drag(from, {from.x + 60.0F, from.y + 20.0F});
+    const Vec3 after = person_.project().arm.path.at_mm;
+    EXPECT_GT((after - before).norm(), 30.0);
+    arm().wait_idle();
+    person_.frames(2);
+    ASSERT_TRUE(arm().path());
+    EXPECT_LT((arm().path()->wish.base_T_part.translation() - after).norm(), 1e-9);
+    person_.workshop().run("edit.undo");
+    EXPECT_LT((person_.project().arm.path.at_mm - before).norm(), 1e-9);
+}
+
+} // namespace
+} // namespace millwright::panels

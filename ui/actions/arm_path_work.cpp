@@ -1,0 +1,72 @@
+#include "ui/actions/arm_path_work.h"
+
+#include "core/base/units.h"
+#include "core/gcode/arm_ways.h"
+#include "core/motion/arm_motion.h"
+#include "core/motion/arm_tour.h"
+#include "core/motion/planner.h"
+
+namespace millwright::actions {
+
+namespace {
+
+// Coarser than for the motion itself: what a person sees while the part is dragged.
+constexpr double shown_tolerance = 0.2, shown_axis_tolerance = 0.01, shown_step = 20.0;
+constexpr double quarter_turn = 0.5 * pi;
+
+kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
+    kinematics::ArmPathSettings settings;
+    settings.aim = motion::aim_of(wish.arm->arm(), quarter_turn);
+    if (!wish.planned) {
+        settings.tip_tolerance = shown_tolerance;
+        settings.axis_tolerance = shown_axis_tolerance;
+        settings.longest_step = shown_step;
+    }
+    return settings;
+}
+
+std::shared_ptr<const viewport::ArmTrack> track_of(const kinematics::ArmPath& path,
+                                                   const std::vector<kinematics::ArmWay>& ways) {
+    auto track = std::make_shared<viewport::ArmTrack>();
+    for (const kinematics::ArmPathPoint& point : path.points) {
+        track->tips.emplace_back(ways[static_cast<std::size_t>(point.way)].at(point.share).translation());
+        track->troubles.push_back(point.trouble);
+    }
+    return track;
+}
+
+void find(ArmPathAnswer& answer, const Progress& progress) {
+    const ArmPathWish& wish = answer.wish;
+    const kinematics::ArmModel& arm = wish.arm->arm();
+    const auto ways = gcode::arm_ways(wish.program, wish.machine, wish.base_T_part);
+    if (ways.empty()) {
+        throw Error("the program moves nothing");
+    }
+    const kinematics::ArmPath path =
+        kinematics::follow_path_well(arm, ways, wish.joints, settings_of(wish), progress);
+    answer.track = track_of(path, ways);
+    answer.reach = kinematics::reach_of(path, ways);
+    if (wish.planned) {
+        motion::ArmMotion motion(arm, wish.joints);
+        motion.follow(ways, path, {});
+        answer.motion =
+            std::make_shared<const motion::Trajectory>(motion::plan(motion.program(), arm, {}, progress));
+    }
+}
+
+} // namespace
+
+ArmPathAnswer work_out(const ArmPathWish& wish, const Progress& progress) {
+    ArmPathAnswer answer{wish, nullptr, {}, nullptr, {}};
+    try {
+        find(answer, progress);
+    } catch (const Error& error) {
+        const Diagnostic& found = error.diagnostic();
+        answer.why =
+            (found.place.line > 0 ? "line " + std::to_string(found.place.line) + ": " : std::string()) +
+            found.message;
+    }
+    return answer;
+}
+
+} // namespace millwright::actions

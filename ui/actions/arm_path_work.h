@@ -1,0 +1,39 @@
+// A program of the project on the arm: where its tool would go with the part standing somewhere in front of
+// the arm, how far the arm reaches, and the motion. Lengths mm, angles rad.
+#pragma once
+
+#include "core/gcode/program.h"
+#include "core/kinematics/arm_reach.h"
+#include "core/motion/trajectory.h"
+#include "ui/actions/latest_work.h"
+#include "ui/viewport/arm_scene.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::actions {
+
+struct ArmPathWish {
+    std::shared_ptr<const gcode::Program> program;
+    std::shared_ptr<const kinematics::MachineModel> machine; ///< that the program is for
+    std::shared_ptr<const viewport::ArmLook> arm;
+    Frame base_T_part = Frame::Identity();
+    kinematics::JointPositions joints; ///< where the arm stands
+    bool planned = false;              ///< its motion is wanted, too
+};
+
+struct ArmPathAnswer {
+    ArmPathWish wish;
+    std::shared_ptr<const viewport::ArmTrack> track;
+    kinematics::ArmReach reach;
+    std::shared_ptr<const motion::Trajectory> motion; ///< where it was wanted and the arm can go all of it
+    std::string why;                                  ///< there is no track, or no motion; else empty
+};
+
+/// Throws Cancelled alone: what is wrong stands in the answer.
+[[nodiscard]] ArmPathAnswer work_out(const ArmPathWish& wish, const Progress& progress);
+
+using ArmPathWork = LatestWork<ArmPathWish, ArmPathAnswer>;
+
+} // namespace millwright::actions

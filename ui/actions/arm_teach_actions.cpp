@@ -1,0 +1,216 @@
+// Points that a person teaches the arm, motion programs of its card, and the project's path on it.
+#include "core/base/units.h"
+#include "core/project/taught_points.h"
+#include "ui/actions/arm_bench.h"
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using machine::DriverState;
+using widgets::Permission;
+
+Permission in_workspace(const Workbench& now) {
+    return now.session.workspace == Workspace::arm && now.arm.loaded()
+               ? Permission{}
+               : Permission::refused("In the Arm workspace (Shift+F6) only.");
+}
+
+/// The drawn arm may always play; a connected one at rest, with power, where its position is known.
+Permission can_play(const Workbench& now) {
+    if (const Permission there = in_workspace(now); !there.allowed || !now.arm_connected()) {
+        return there;
+    }
+    const machine::DriverStatus& status = now.controller.status;
+    if (status.state != DriverState::idle && status.state != DriverState::stopped) {
+        return Permission::refused(status.state == DriverState::alarm ? "There is an alarm."
+                                                                      : "The arm is moving.");
+    }
+    return status.powered ? Permission{} : Permission::refused("The motors have no power.");
+}
+
+Permission can_play_points(const Workbench& now) {
+    const Permission able = can_play(now);
+    return able.allowed && now.project.arm.points.empty() ? Permission::refused("No point was taught yet.")
+                                                          : able;
+}
+
+Permission sound_program(const Workbench& now) {
+    if (now.project.arm.program.find_first_not_of(" \t\r\n") == std::string::npos) {
+        return Permission::refused("There is no program yet: write one under Program.");
+    }
+    return now.arm.program().faults().empty() ? Permission{}
+                                              : Permission::refused("The program has faults: see its lines.");
+}
+
+Permission can_simulate(const Workbench& now) {
+    if (const Permission there = in_workspace(now); !there.allowed) {
+        return there;
+    }
+    return now.arm.program().busy() ? Permission::refused("It is being simulated.") : sound_program(now);
+}
+
+Permission can_run(const Workbench& now) {
+    if (!now.arm_connected()) {
+        return Permission::refused("No PMAC is connected: simulate it.");
+    }
+    const Permission able = can_play(now);
+    return able.allowed ? sound_program(now) : able;
+}
+
+Permission takes_lines(const Workbench& now) {
+    if (!now.arm_connected()) {
+        return Permission::refused("No PMAC is connected.");
+    }
+    const DriverState state = now.controller.status.state;
+    return state == DriverState::idle || state == DriverState::stopped
+               ? Permission{}
+               : Permission::refused(state == DriverState::alarm ? "There is an alarm."
+                                                                 : "The arm is moving.");
+}
+
+Permission can_send(const Workbench& now) {
+    const Permission able = takes_lines(now);
+    return able.allowed ? sound_program(now) : able;
+}
+
+Permission can_send_path(const Workbench& now) {
+    const Permission able = can_play(now);
+    if (!able.allowed) {
+        return able;
+    }
+    const auto path = now.arm.path();
+    if (!path || !path->track) {
+        return Permission::refused("There is no path on the arm: show one first.");
+    }
+    return path->reach.holes.empty()
+               ? Permission{}
+               : Permission::refused("The arm does not reach all of it: " + path->reach.holes.front().why +
+                                     ".");
+}
+
+void record(Hands& hands) {
+    const ArmBench& arm = hands.workshop.arm();
+    hands.workshop.edit("Teach a point",
+                        [&](project::Project& draft) {
+                            draft.arm.points.push_back(
+                                arm.taught(project::free_point_name(draft.arm.points)));
+                        },
+                        {});
+}
+
+void simulate(Hands& hands) {
+    ArmBench& arm = hands.workshop.arm();
+    std::vector<double> start;
+    for (const double joint : arm.joints()) {
+        start.push_back(to_degrees(joint));
+    }
+    arm.program().follow(hands.now.project.arm.program);
+    arm.program().simulate(std::move(start));
+}
+
+/// Into the card's buffer without running it.
+void send(Hands& hands) {
+    std::string text = "CLOSE\nOPEN PROG 1\nCLEAR\n";
+    for (const std::string& line : hands.workshop.arm().program().lines()) {
+        text += line + "\n";
+    }
+    text += "CLOSE";
+    hands.workshop.controller().tell([&](machine::Driver& driver) { (void)driver.command(text); });
+}
+
+template <FileQuestion question> void ask_for(Hands& hands) {
+    hands.session.question = question;
+}
+
+} // namespace
+
+void add_arm_teach_actions(Actions& actions) {
+    constexpr std::string_view menu = "Arm";
+    add(actions,
+        {"arm.teach", menu, "Teach this point", "Keeps where the arm stands now.", "Ctrl+T", icons::add},
+        in_workspace,
+        record);
+    add(actions,
+        {"arm.play_points",
+         menu,
+         "Play the points",
+         "Through all taught points: the drawn arm, or the connected one.",
+         "",
+         icons::play},
+        can_play_points,
+        [](Hands& hands) {
+            hands.workshop.play_on_arm(hands.workshop.arm().tour(hands.now.project.arm.points));
+        });
+    add(actions,
+        {"arm.open_points", menu, "Open points", "In place of the present ones.", "", icons::folder},
+        in_workspace,
+        ask_for<FileQuestion::open_points>);
+    add(actions,
+        {"arm.save_points", menu, "Save points", "As a file of their own.", "", icons::save},
+        in_workspace,
+        ask_for<FileQuestion::save_points>);
+    add(actions,
+        {"arm.simulate",
+         menu,
+         "Simulate the program",
+         "The text as it stands, on an emulated card; the drawn arm does it.",
+         "",
+         icons::play},
+        can_simulate,
+        simulate);
+    add(actions,
+        {"arm.send_program",
+         menu,
+         "Send the program",
+         "Into the card's PROG 1; nothing moves.",
+         "",
+         icons::plug},
+        can_send,
+        send);
+    add(actions,
+        {"arm.run_program", menu, "Run the program", "Sends it to the card and runs it.", "", icons::play},
+        can_run,
+        [](Hands& hands) { hands.workshop.run_on_card(hands.workshop.arm().program().lines()); });
+    add(actions,
+        {"arm.open_program", menu, "Open a program", "In place of the present text.", "", icons::folder},
+        in_workspace,
+        ask_for<FileQuestion::open_motion_program>);
+    add(actions,
+        {"arm.save_program", menu, "Save the program", "As a file of its own.", "", icons::save},
+        in_workspace,
+        ask_for<FileQuestion::save_motion_program>);
+    add(actions,
+        {"arm.play_file",
+         menu,
+         "Play a motion file",
+         "Lines and arcs of the tool from where it stands: the drawn arm, or the connected one.",
+         "",
+         icons::file},
+        can_play,
+        ask_for<FileQuestion::play_motion_file>);
+    add(actions,
+        {"arm.card_settings",
+         menu,
+         "Load settings of the card",
+         "A file as pmac.ini; protections that it switches off are told.",
+         "",
+         icons::settings},
+        takes_lines,
+        ask_for<FileQuestion::load_card_settings>);
+    add(actions,
+        {"arm.send_path",
+         menu,
+         "Go the path",
+         "The project's program where its part stands: the drawn arm, or the connected one.",
+         "",
+         icons::toolpath},
+        can_send_path,
+        [](Hands& hands) { hands.workshop.arm().want_path_motion(); });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,63 @@
+#include "ui/actions/motion_program_bench.h"
+
+#include "core/machine/drivers/pmac/pmac_settings.h"
+
+namespace millwright::actions {
+
+namespace {
+
+const std::filesystem::path named = "program";
+
+} // namespace
+
+MotionProgramBench::MotionProgramBench(std::function<void()> wake) : work_(run, std::move(wake)) {}
+
+MotionProgramBench::Answer MotionProgramBench::run(const Wish& wish, const Progress& progress) {
+    machine::MotionSimulationSettings settings;
+    settings.card = machine::arm_settings();
+    settings.start_deg = wish.start_deg;
+    return {wish.text,
+            std::make_shared<const machine::MotionSimulation>(
+                machine::simulate_motion_program(wish.text, named, settings, progress))};
+}
+
+void MotionProgramBench::follow(const std::string& text) {
+    if (text == text_) {
+        return;
+    }
+    text_ = text;
+    faults_ = machine::motion_program_faults(text_, named);
+}
+
+void MotionProgramBench::simulate(std::vector<double> start_deg) {
+    (void)lines();
+    work_.want({text_, std::move(start_deg)});
+}
+
+std::shared_ptr<const machine::MotionSimulation> MotionProgramBench::take() {
+    auto answer = work_.answer();
+    if (!answer || answer == taken_) {
+        return nullptr;
+    }
+    taken_ = answer;
+    if (answer->text == text_) {
+        faults_ = answer->simulation->faults;
+    }
+    return answer->simulation;
+}
+
+std::vector<std::string> MotionProgramBench::lines() const {
+    if (!faults_.empty()) {
+        throw Error(faults_.front());
+    }
+    std::vector<std::string> lines;
+    for (const machine::MotionLine& line : machine::motion_lines(text_, named)) {
+        lines.push_back(line.text);
+    }
+    if (lines.empty()) {
+        throw Error("there is no line in the program");
+    }
+    return lines;
+}
+
+} // namespace millwright::actions

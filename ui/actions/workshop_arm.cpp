@@ -1,0 +1,183 @@
+// The part of the workshop that deals with the arm: what it shows, plays, and gives to its card.
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_motion_ways.h"
+#include "core/machine/drivers/pmac/pmac_file.h"
+#include "core/machine/drivers/pmac/pmac_program.h"
+#include "core/motion/arm_tour.h"
+#include "core/motion/planner.h"
+#include "core/project/taught_points.h"
+#include "ui/actions/arm_bench.h"
+#include "ui/actions/workshop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What an arm on the bench makes of what the card's motors would do.
+ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
+    const double duration = simulation->records.back().time;
+    const auto at = [records = std::move(simulation)](double time) {
+        const auto& all = records->records;
+        const auto next = std::ranges::lower_bound(all, time, {}, &machine::MotionRecord::time);
+        const machine::MotionRecord& after = next == all.end() ? all.back() : *next;
+        const machine::MotionRecord& before = next == all.begin() ? after : *(next - 1);
+        const double span = after.time - before.time;
+        const double share = span > 0.0 ? std::clamp((time - before.time) / span, 0.0, 1.0) : 1.0;
+        kinematics::JointPositions joints(std::ssize(after.degrees));
+        for (Eigen::Index n = 0; n < joints.size(); ++n) {
+            const auto axis = static_cast<std::size_t>(n);
+            joints[n] = from_degrees(std::lerp(before.degrees[axis], after.degrees[axis], share));
+        }
+        return joints;
+    };
+    return {at, duration};
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+} // namespace
+
+/// It has an arm once it is looked at; a connected one is drawn where it stands.
+bool Workshop::follow_arm(double seconds) {
+    if (session_.workspace == Workspace::arm && !arm_->loaded() && !arm_failed_) {
+        arm_failed_ = true; // said once
+        guarded([this] { arm_->load("motoman-l3"); });
+        arm_failed_ = !arm_->loaded();
+    }
+    if (!arm_->loaded()) {
+        return false;
+    }
+    follow_arm_work();
+    const ControllerView controller = controller_->view();
+    if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
+        arm_->follow(controller.status.position);
+    }
+    return arm_->advance(seconds);
+}
+
+/// What was asked of the background: faults of the text, its simulation, the path on the arm.
+void Workshop::follow_arm_work() {
+    const Workbench now = look();
+    arm_->program().follow(now.project.arm.program);
+    if (const auto simulation = arm_->program().take()) {
+        if (simulation->records.size() > 1 && !now.arm_connected()) {
+            arm_->play(play_of(simulation));
+        }
+        if (!simulation->faults.empty()) {
+            tell(session_, widgets::Severity::warning, to_text(simulation->faults.front()));
+        }
+    }
+    const auto machine = now.machine();
+    const bool shown =
+        session_.hand.arm_path && session_.workspace == Workspace::arm && machine && now.program();
+    arm_->look_at_path(shown ? std::optional(ArmPathWish{now.program(),
+                                                         machine,
+                                                         arm_->look(),
+                                                         project::base_T_path(now.project.arm.path),
+                                                         arm_->joints(),
+                                                         false})
+                             : std::nullopt);
+    if (const auto answer = arm_->take_path_motion()) {
+        guarded([&] {
+            if (!answer->motion) {
+                throw Error("the arm cannot go this path: " + answer->why);
+            }
+            play_on_arm(*answer->motion);
+        });
+    }
+    const machine::CommandAnswer& answer = now.controller.status.answer;
+    if (settings_sent_ && now.controller.connected() && answer.number == *settings_sent_ &&
+        answer.state != machine::CommandAnswer::State::pending) {
+        settings_sent_.reset();
+        answer.text.empty()
+            ? tell(session_, widgets::Severity::info, "The card took all settings.")
+            : tell(session_, widgets::Severity::warning, "The card refused settings: " + answer.text);
+    }
+}
+
+void Workshop::play_on_arm(const motion::Trajectory& motion) {
+    if (look().arm_connected()) {
+        run_on_card(machine::pmac_program(motion, machine::arm_settings()));
+    } else {
+        arm_->play(play_of(motion));
+    }
+}
+
+void Workshop::play_motion_file(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    constexpr double quarter_turn = 0.5 * pi;
+    const kinematics::ArmModel& arm = arm_->arm();
+    const auto blocks = kinematics::parse_arm_motion(read_file(file), file);
+    const auto ways = kinematics::ways_of(arm, blocks, arm_->joints(), file);
+    kinematics::ArmPathSettings settings;
+    settings.aim = motion::aim_of(arm, quarter_turn);
+    motion::ArmMotion motion(arm, arm_->joints());
+    motion.follow(ways, kinematics::follow_path(arm, ways, arm_->joints(), settings, {}), file);
+    play_on_arm(motion::plan(motion.program(), arm, {}, {}));
+}
+
+void Workshop::run_on_card(const std::vector<std::string>& lines) {
+    auto listing = std::make_shared<gcode::Listing>();
+    for (const std::string& line : lines) {
+        listing->text += line + "\n";
+    }
+    controller_->tell([&](machine::Driver& driver) { driver.start({nullptr, nullptr, std::move(listing)}); });
+}
+
+void Workshop::load_card_settings(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    const machine::PmacFile found = machine::read_pmac_file(read_file(file), file);
+    for (const Diagnostic& warning : found.warnings) {
+        tell(session_,
+             widgets::Severity::warning,
+             warning.message,
+             to_text(Diagnostic{warning.place, {}, {}}));
+    }
+    std::vector<std::string> lines;
+    for (const machine::PmacFile::Line& line : found.lines) {
+        lines.push_back(line.text);
+    }
+    controller_->tell([&](machine::Driver& driver) { settings_sent_ = driver.load(lines); });
+    tell(session_,
+         widgets::Severity::info,
+         counted(lines.size(), "line") + " of " + file.filename().string() + " sent, with " +
+             counted(found.warnings.size(), "warning") + ".");
+}
+
+void Workshop::open_points(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    edit("Open taught points",
+         [points = project::read_taught_points(file)](project::Project& draft) { draft.arm.points = points; },
+         {});
+}
+
+void Workshop::save_points(const fs::path& file) {
+    project::write_taught_points(history_.current().arm.points, file);
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::info, "Saved " + file.filename().string() + ".");
+}
+
+void Workshop::open_motion_program(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    edit("Open a motion program",
+         [text = read_file(file)](project::Project& draft) { draft.arm.program = text; },
+         {});
+}
+
+void Workshop::save_motion_program(const fs::path& file) {
+    write_file(file, history_.current().arm.program);
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::info, "Saved " + file.filename().string() + ".");
+}
+
+} // namespace millwright::actions

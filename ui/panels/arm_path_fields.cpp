@@ -1,0 +1,83 @@
+#include "ui/panels/arm_path_fields.h"
+
+#include "core/base/text.h"
+#include "ui/actions/arm_bench.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::panels {
+
+namespace {
+
+void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const project::PathPlace& place = now.project.arm.path;
+    const widgets::FieldInfo at{
+        "at", "At", "mm", "Where the program's zero stands in the arm's base", -1e5, 1e5, {}, 1};
+    if (const auto v = ui.vec3("at", "At", {place.at_mm.x(), place.at_mm.y(), place.at_mm.z()}, at)) {
+        ask.edit(
+            "Place the path on the arm",
+            [to = Vec3((*v)[0], (*v)[1], (*v)[2])](project::Project& draft) { draft.arm.path.at_mm = to; });
+    }
+    const widgets::FieldInfo turned{
+        "turned", "Turned", "\u00b0", "About the base's X, then Y, then Z", -360.0, 360.0, {}, 1};
+    const Vec3& t = place.turned_deg;
+    if (const auto v = ui.vec3("turned", "Turned", {t.x(), t.y(), t.z()}, turned)) {
+        ask.edit("Turn the path on the arm", [to = Vec3((*v)[0], (*v)[1], (*v)[2])](project::Project& draft) {
+            draft.arm.path.turned_deg = to;
+        });
+    }
+}
+
+void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
+    if (!path.track) {
+        (void)widgets::banner(ui, "why", {widgets::Severity::warning, path.why + ".", {}});
+        return;
+    }
+    const kinematics::ArmReach& reach = path.reach;
+    const double percent = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
+    ui.value("reached", "Reached", fixed(percent, 1), fmt::format("% of {} mm", fixed(reach.length, 0)));
+    constexpr std::size_t most_shown = 3;
+    for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
+        const kinematics::ArmHole& hole = reach.holes[n];
+        const std::string place = hole.first_line == 0 ? "" : fmt::format("Line {}: ", hole.first_line);
+        ui.note(fmt::format("{}{} mm, {}.", place, fixed(hole.length, 1), hole.why));
+    }
+    if (reach.holes.size() > most_shown) {
+        ui.note(fmt::format("{} more stretches out of reach.", reach.holes.size() - most_shown));
+    }
+}
+
+} // namespace
+
+void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+    const auto section = ui.section("path", "Path on the arm");
+    if (!section) {
+        return;
+    }
+    const bool shown = now.session.hand.arm_path;
+    const auto can_show = now.program() ? widgets::Permission{}
+                                        : widgets::Permission::refused("The project has no program yet.");
+    if (const auto on = ui.toggle("shown",
+                                  "Show the program",
+                                  shown,
+                                  "The project's program, green where the arm reaches it and red where not",
+                                  can_show)) {
+        ask.show([on = *on](actions::Session& session) { session.hand.arm_path = on; });
+    }
+    if (!shown || !now.program()) {
+        return;
+    }
+    place_fields(ui, now, ask);
+    if (const auto path = now.arm.path()) {
+        reach_text(ui, *path);
+    } else {
+        ui.note("Being worked out \u2026");
+    }
+    action_button(ui, now, ask, catalogue, "arm.send_path");
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,19 @@
+// The motion program of the arm's card: written, looked through line by line, simulated, sent and run.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+namespace millwright::panels {
+
+class MotionProgramPanel final : public Panel {
+public:
+    /// `catalogue` must outlive it.
+    explicit MotionProgramPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    const actions::Catalogue& catalogue_;
+};
+
+} // namespace millwright::panels

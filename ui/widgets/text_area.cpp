@@ -1,0 +1,120 @@
+#include "ui/widgets/text_area.h"
+
+#include "ui/widgets/internal/draw.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+
+namespace millwright::widgets {
+
+namespace {
+
+/// Where the caret is, while the text is being written.
+struct Caret {
+    int line = -1; ///< from 0
+};
+
+int on_caret(ImGuiInputTextCallbackData* data) {
+    auto& caret = *static_cast<Caret*>(data->UserData);
+    caret.line = static_cast<int>(std::count(data->Buf, data->Buf + data->CursorPos, '\n'));
+    return 0;
+}
+
+int line_count(std::string_view text) {
+    return static_cast<int>(std::ranges::count(text, '\n')) + 1;
+}
+
+/// Line numbers at the left, in the danger colour where something is wrong.
+void draw_gutter(Ui& ui, const Rect& whole, float gutter, float top, float step, const TextAreaView& view) {
+    const ImFont* font = ui.look().fonts.mono;
+    const ImGuiIO& io = ImGui::GetIO();
+    const int lines = line_count(view.text);
+    const int first = std::max(0, static_cast<int>((whole.y - top) / step));
+    for (int n = first; n < lines; ++n) {
+        const Rect row{whole.x, top + static_cast<float>(n) * step, whole.w, step};
+        if (row.y > whole.bottom()) {
+            return;
+        }
+        const std::string fault = view.fault ? view.fault(n + 1) : std::string();
+        const Colour colour = fault.empty() ? faded(ui.colours().muted, 0.75) : ui.colours().danger;
+        draw_text(ui,
+                  font,
+                  {row.x, row.y, gutter - ui.px(10.0F), row.h},
+                  colour,
+                  std::to_string(n + 1),
+                  Align::right);
+        if (fault.empty()) {
+            continue;
+        }
+        fill({row.x, row.y, ui.px(3.0F), row.h}, ui.colours().danger);
+        if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) &&
+            row.contains({io.MousePos.x, io.MousePos.y})) {
+            offer_tip(ui, ui.path("line_" + std::to_string(n + 1)), row, fault);
+        }
+    }
+}
+
+void bring_caret_into_sight(const Caret& caret, float step, float height) {
+    const float top = static_cast<float>(caret.line) * step;
+    if (top < ImGui::GetScrollY()) {
+        ImGui::SetScrollY(top);
+    } else if (top + 2.0F * step > ImGui::GetScrollY() + height) {
+        ImGui::SetScrollY(top + 2.0F * step - height);
+    }
+}
+
+} // namespace
+
+TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) {
+    const std::string path = ui.path(id);
+    const Slot slot(ui, 0.0F, view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(48.0F)));
+    const Rect& whole = slot.rect();
+    fill(whole, ui.colours().field, ui.px(4.0F));
+    const float gutter = ui.px(46.0F);
+    TextAreaAnswer answer;
+    ImGui::SetCursorScreenPos(upper_left(whole));
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, 0U);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0F, 0.0F});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+    ImFont* font = ui.look().fonts.mono;
+    ImGui::PushFont(font);
+    if (ImGui::BeginChild(path.c_str(), {whole.w, whole.h}, false)) {
+        const float step = ImGui::GetTextLineHeight();
+        const float needed = step * static_cast<float>(line_count(view.text) + 1);
+        const float top = ImGui::GetCursorScreenPos().y;
+        draw_gutter(ui, whole, gutter, top, step, view);
+        ImGui::SetCursorScreenPos({whole.x + gutter, top});
+        std::string text(view.text);
+        Caret caret;
+        const bool changed =
+            ImGui::InputTextMultiline(("##" + path).c_str(),
+                                      &text,
+                                      {whole.w - gutter - ui.px(14.0F), std::max(needed, whole.h - 2.0F)},
+                                      ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo,
+                                      on_caret,
+                                      &caret);
+        answer.left = ImGui::IsItemDeactivated();
+        const bool typing = ImGui::IsItemActive();
+        if (changed && text != view.text) {
+            answer.text = std::move(text);
+        }
+        if (typing && caret.line >= 0 && answer.text) {
+            bring_caret_into_sight(caret, step, whole.h);
+        }
+        outline(whole,
+                typing ? ui.colours().accent : ui.colours().line,
+                ui.px(4.0F),
+                typing ? ui.px(1.5F) : 1.0F);
+    }
+    ImGui::EndChild();
+    ImGui::PopFont();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor(2);
+    record_at(ui, path, whole);
+    return answer;
+}
+
+} // namespace millwright::widgets
