@@ -28,6 +28,8 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                      choice.trust_position,
                      "The machine stands where the controller says: somebody has looked");
     command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
+    command.add_flag("--power", choice.power, "Give the motors power: somebody has looked; of a PMAC");
+    command.add_flag("--home", choice.home, "Find the machine's zero by its switches first");
     command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
     command.add_flag("--single-block", choice.single_block, "Rest after each block, from the first on");
     return *command
@@ -69,9 +71,36 @@ void Controller::connect() {
         driver_->set_single_block(true);
     }
     const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver_.get());
-    const std::string name = grbl != nullptr ? "Grbl " + grbl->readout().version : "LinuxCNC";
+    const std::string name = grbl != nullptr            ? "Grbl " + grbl->readout().version
+                             : choice_.driver == "pmac" ? "a PMAC"
+                                                        : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
     std::fflush(stdout);
+    prepare();
+}
+
+/// What a person said may be done before the job.
+void Controller::prepare() {
+    const auto wait_while = [this](const auto& waits) {
+        for (constexpr double glance = 0.02; waits(driver_->status());) {
+            clock_.wait(glance);
+        }
+        if (const machine::DriverStatus now = driver_->status(); now.state == machine::DriverState::alarm) {
+            throw Error(now.message);
+        }
+    };
+    if (choice_.power) {
+        driver_->enable();
+        wait_while([](const machine::DriverStatus& now) {
+            return !now.powered && now.state != machine::DriverState::alarm;
+        });
+    }
+    if (choice_.home) {
+        driver_->home();
+        wait_while([](const machine::DriverStatus& now) {
+            return now.activity == machine::Activity::homing || now.state == machine::DriverState::running;
+        });
+    }
 }
 
 void Controller::settle_position() {
@@ -88,6 +117,9 @@ void Controller::settle_position() {
 
 void Controller::show_warnings(const machine::Job& job) const {
     const machine::Capabilities able = driver_->capabilities();
+    if (!able.dialect) {
+        return;
+    }
     const machine::Survey found =
         machine::survey(job.listing->text,
                         job.project,

@@ -19,7 +19,7 @@ class Option;
 namespace millwright::app {
 
 /// Which controller, and what the options --port, --one-by-one, --unlock, --trust-position, --keys,
-/// --optional-stop and --single-block say.
+/// --optional-stop, --single-block, --power and --home say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
@@ -30,6 +30,8 @@ struct ControllerChoice {
     bool optional_stop = false;
     bool single_block = false; ///< from the first block on
     std::string axes = "XYZ";  ///< of a LinuxCNC
+    bool power = false;        ///< a person has looked: the motors may have power
+    bool home = false;         ///< find the zero of every axis first
 };
 
 /// Adds these to `command`; returns --port.
@@ -56,6 +58,7 @@ public:
 
 private:
     void settle_position();
+    void prepare();
     void show_warnings(const machine::Job& job) const;
 
     ControllerChoice choice_;

@@ -2,6 +2,7 @@
 // the person who turns the view waits for it. In memory, so no display is needed.
 #include "core/geometry/mesh.h"
 #include "core/geometry/presets.h"
+#include "core/kinematics/arm_simulation.h"
 #include "core/project/assets.h"
 #include "core/project/plan.h"
 #include "core/project/project_file.h"
@@ -16,7 +17,10 @@
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
+#include <cmath>
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 namespace millwright::viewport {
 namespace {
@@ -131,6 +135,79 @@ void view(benchmark::State& state) {
     state.SetLabel(std::string(id(kind)));
 }
 
+std::size_t triangle_count(const ArmLook& look) {
+    std::size_t count = 0;
+    for (const geometry::SolidBody& body : look.bodies) {
+        for (const geometry::SolidMesh& mesh : body.meshes) {
+            count += mesh.triangles.size();
+        }
+    }
+    return count;
+}
+
+/// Cuts each triangle into three until there are `wanted`.
+void refine(ArmLook& look, std::size_t wanted) {
+    std::size_t count = triangle_count(look);
+    while (count < wanted) {
+        for (geometry::SolidBody& body : look.bodies) {
+            for (geometry::SolidMesh& mesh : body.meshes) {
+                const std::size_t before = mesh.triangles.size();
+                for (std::size_t n = 0; n < before && count < wanted; ++n, count += 2) {
+                    const auto [a, b, c] = mesh.triangles[n];
+                    const auto at = [](const auto& list, int k) { return list[static_cast<std::size_t>(k)]; };
+                    const auto middle = static_cast<int>(mesh.positions.size());
+                    const Vec3 place =
+                        (at(mesh.positions, a) + at(mesh.positions, b) + at(mesh.positions, c)) / 3.0;
+                    const Vec3 normal = at(mesh.normals, a);
+                    mesh.positions.push_back(place);
+                    mesh.normals.push_back(normal);
+                    mesh.triangles[n] = {a, b, middle};
+                    mesh.triangles.push_back({b, c, middle});
+                    mesh.triangles.push_back({c, a, middle});
+                }
+            }
+        }
+    }
+}
+
+/// The arm of 100,000 triangles with a path and a trace of 10,000 points, its base turning.
+void arm(benchmark::State& state) {
+    const render::OffscreenContext context(pane);
+    const auto look = std::make_shared<ArmLook>(
+        *read_arm_look(project::arm_path("motoman-l3", ".", project::assets_folder())));
+    refine(*look, 100'000);
+    constexpr int points = 10'000;
+    auto track = std::make_shared<ArmTrack>();
+    for (int n = 0; n < points; ++n) {
+        const double share = static_cast<double>(n) / points;
+        track->tips.emplace_back(700.0 + 200.0 * std::cos(400.0 * share), 400.0 * (share - 0.5), 300.0);
+        track->troubles.push_back(n % 100 < 90 ? kinematics::ArmTrouble::none
+                                               : kinematics::ArmTrouble::out_of_reach);
+    }
+    Scene scene;
+    scene.layers = layers_of_arm();
+    scene.arm = ArmScene{};
+    scene.arm->look = look;
+    scene.arm->joints = kinematics::arm_home();
+    scene.arm->track = track;
+    scene.arm->trace = std::make_shared<const std::vector<Vec3>>(track->tips);
+    SceneView drawn;
+    drawn.update(scene);
+    const render::Camera camera = render::Camera().fitted(drawn.outline(), render::aspect(pane));
+    const render::ViewColors colors = render::view_colors(render::Theme::dark);
+    render::ViewTarget target(static_cast<int>(state.range(0)));
+    int frame = 0;
+    for (auto _ : state) {
+        scene.arm->joints[0] = 0.001 * ++frame;
+        drawn.update(scene);
+        target.begin(pane);
+        drawn.draw(turned(camera, frame).view(pane, drawn.depth_range()), colors, {});
+        target.end();
+        glFinish();
+    }
+    state.counters["triangles"] = static_cast<double>(triangle_count(*look));
+}
+
 BENCHMARK(mesh)
     ->ArgNames({"samples", "lit", "by_value", "cells"})
     ->ArgsProduct({{1, 4}, {unlit, lit}, {plain, by_value}, {cells_of_7k, cells_of_100k}})
@@ -145,6 +222,8 @@ BENCHMARK(background)
     ->UseRealTime()
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(arm)->ArgName("samples")->Arg(1)->Arg(4)->UseRealTime()->MeasureProcessCPUTime()->Unit(
+    benchmark::kMillisecond);
 BENCHMARK(view)
     ->ArgNames({"samples", "kind"})
     ->ArgsProduct({{1, 4}, {0, 1, 2, 3, 4}})

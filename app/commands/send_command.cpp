@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
+#include "core/machine/emulators/pmac/motion_program.h"
 #include "core/machine/file_job.h"
 #include "core/machine/run_from_line.h"
 #include "core/project/assets.h"
@@ -87,6 +88,9 @@ void say_what_is_by_hand(const machine::Job& job) {
 
 /// `job` from the line that was asked for, with the time.
 machine::Job ready(machine::Job job, const Options& options, int from_line) {
+    if (from_line > 1 && options.machine.driver == "pmac") {
+        throw Error("a motion program begins with its first line: what a line does depends on those above");
+    }
     if (from_line > 1) {
         machine::RunFromSettings settings;
         settings.dialect = options.machine.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
@@ -97,13 +101,19 @@ machine::Job ready(machine::Job job, const Options& options, int from_line) {
     return job;
 }
 
+/// Of a PMAC in its own language, else G-code.
+machine::Job text_of(const Options& options, const std::string& file) {
+    return options.machine.driver == "pmac" ? machine::motion_program_job(read_file(file), file)
+                                            : machine::text_job(read_file(file), file);
+}
+
 /// To a controller that plans for itself.
 int send_text(const Options& options) {
     const Interrupt interrupt;
     Controller controller(options.machine.controller);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job = ready(machine::text_job(read_file(file), file), options, from_line);
+        machine::Job job = ready(text_of(options, file), options, from_line);
         controller.check(job);
         return job;
     };
@@ -148,10 +158,12 @@ int send(const Options& options) {
 void add_send_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand("send", "Send files to a machine");
-    add_series_options(command, options->series, "G-code files; where a machine is named also path files");
+    add_series_options(command,
+                       options->series,
+                       "G-code files; where a machine is named also path files; of a PMAC motion programs");
     command.add_option("--driver", options->machine.driver, "Kind of controller, or machine to run on")
         ->required()
-        ->check(CLI::IsMember({"grbl", "linuxcnc", "stream", "records", "virtual"}));
+        ->check(CLI::IsMember({"grbl", "linuxcnc", "pmac", "stream", "records", "virtual"}));
     command
         .add_option(
             "--machine", options->model, "Shipped machine or machine file, for virtual, stream and records")

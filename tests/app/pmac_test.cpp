@@ -47,6 +47,29 @@ TEST_F(Pmac, IsToldFromSomethingElse) {
     EXPECT_EQ(run({"pmac", "--port", port}).exit_code, 1);
 }
 
+TEST_F(Pmac, AMotionProgramIsLookedThroughBeforeAnybodyIsAsked) {
+    const std::string file = (scratch / "moves.pmc").string();
+    write_content(file, "LINEAR ; straight\nTM500\nX10 Y-5\nDRILL\n");
+    const Ended ended = run({"send", file, "--driver", "pmac", "--port", (scratch / "none").string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("moves.pmc:4"));
+    EXPECT_THAT(ended.err, HasSubstr("'DRILL' is no line of a motion program"));
+    const Ended later =
+        run({"send", file, "--from-line", "2", "--driver", "pmac", "--port", (scratch / "none").string()});
+    EXPECT_EQ(later.exit_code, 1);
+}
+
+TEST_F(Pmac, AMotionProgramNeedsPowerThatAPersonGave) {
+    const std::string file = (scratch / "moves.pmc").string();
+    write_content(file, "LINEAR\nTM500\nX10\n");
+    Emulator emulator(port, {}, "pmac");
+    const Ended ended =
+        run({"send", file, "--driver", "pmac", "--port", port, "--log", (scratch / "logs").string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("no power"));
+    EXPECT_THAT(run({"pmac", "#1P", "--port", port}).out, testing::ContainsRegex("^-?0(\\.[0-9])?\n"));
+}
+
 TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     Emulator emulator(port, {"--arm"}, "pmac");
     ASSERT_EQ(run({"pmac", "I900=1", "--port", port}).exit_code, 0); // as its encoder is wired

@@ -128,7 +128,7 @@ void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
     const auto labels = ui.label_share(0.34F);
     ui.value("tip",
              "Tip",
-             fmt::format("{}  {}  {}", fixed(tip.x(), 2), fixed(tip.y(), 2), fixed(tip.z(), 2)),
+             fmt::format("{}  {}  {}", fixed(tip.x(), 1), fixed(tip.y(), 1), fixed(tip.z(), 1)),
              "mm");
     ui.value("axis",
              "Axis",

@@ -187,6 +187,20 @@ std::vector<Diagnostic> motion_program_faults(std::string_view text, const std::
     return faults;
 }
 
+Job motion_program_job(std::string_view text, const std::filesystem::path& named) {
+    if (const auto faults = motion_program_faults(text, named); !faults.empty()) {
+        throw Error(faults.front());
+    }
+    std::string lines; // at their places, so that a fault has the line of the file
+    int line = 1;
+    for (const MotionLine& one : motion_lines(text, named)) {
+        lines.append(static_cast<std::size_t>(one.number - line), '\n');
+        lines += one.text;
+        line = one.number;
+    }
+    return text_job(std::move(lines), named);
+}
+
 MotionSimulation simulate_motion_program(std::string_view text,
                                          const std::filesystem::path& named,
                                          const MotionSimulationSettings& settings,

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
+#include "core/machine/job.h"
 
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,10 @@ struct MotionLine {
 /// What the card would refuse, in the order of the lines; empty if it takes all of them.
 [[nodiscard]] std::vector<Diagnostic> motion_program_faults(std::string_view text,
                                                             const std::filesystem::path& named);
+
+/// A job of a motion program, each of its lines a block, comments left out. Throws Error with the first
+/// fault.
+[[nodiscard]] Job motion_program_job(std::string_view text, const std::filesystem::path& named);
 
 struct MotionRecord {
     double time = 0.0;             ///< s since the start
