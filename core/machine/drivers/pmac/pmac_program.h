@@ -1,6 +1,6 @@
 // A planned motion in the card's own language: where the motors are, at even steps of time. The card goes
 // straight between them and rounds each corner within half a step, so it is off the plan by no more than
-// acceleration * step^2 / 8.
+// acceleration * step^2 / 8. Where its own limits (Ix16, Ix17) are lower it goes the same way more slowly.
 #pragma once
 
 #include "core/machine/drivers/pmac/pmac_settings.h"

@@ -83,7 +83,7 @@ TEST(MotionProgramS6, APlannedMotionEndsAtItsCountsAndStaysOnTheWay) {
     kinematics::JointPositions end = home;
     end.head(4) += (kinematics::JointPositions(4) << 0.4, 0.2, -0.3, 0.1).finished();
     const motion::Trajectory plan = motion::plan(motion::tour(arm, home, to(end, 0.5)), arm, {}, {});
-    std::string text;
+    std::string text = "I117=1 I217=1 I317=1 I417=1\n"; // as much acceleration as the plan takes
     for (const std::string& line : pmac_program(plan, arm_settings())) {
         text += line + "\n";
     }
