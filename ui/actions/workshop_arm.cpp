@@ -41,6 +41,15 @@ ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
     return {at, duration};
 }
 
+/// While a motion was worked out the arm may have been moved.
+void expect_start(const motion::Trajectory& motion, const kinematics::JointPositions& joints) {
+    constexpr double near_deg = 0.5;
+    const double away = (motion.at(0.0).position - joints).cwiseAbs().maxCoeff();
+    if (away > from_degrees(near_deg)) {
+        throw Error("the arm no longer stands where this motion begins", {}, "ask for it again");
+    }
+}
+
 std::string counted(std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -107,6 +116,7 @@ void Workshop::follow_arm_work() {
 
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
     if (look().arm_connected()) {
+        expect_start(motion, arm_->joints());
         run_on_card(machine::pmac_program(motion, machine::arm_settings()));
     } else {
         arm_->play(play_of(motion));
