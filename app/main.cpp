@@ -5,6 +5,7 @@
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
 #include "app/commands/jobs_command.h"
+#include "app/commands/machine_command.h"
 #include "app/commands/picture_command.h"
 #include "app/commands/plan_command.h"
 #include "app/commands/plot_command.h"
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
     add_ports_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
+    add_machine_command(app, chosen);
     add_arm_command(app, chosen);
     add_cordic_command(app, chosen);
     add_plot_command(app, chosen);

@@ -7,7 +7,9 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/report.h"
+#include "core/project/sequenced_evaluation.h"
 #include "core/project/settings.h"
+#include "core/toolpath/shortest_sequence.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/picture.h"
 
@@ -15,18 +17,37 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace millwright::app {
 
 namespace {
 
+using toolpath::SequencingGoal;
+
 struct Options {
     std::string project;
     std::string out;
     PostChoice post;
+    std::string sequencing; ///< empty: as it is
+    double largest_step_deg = 0.0;
 };
+
+struct Goal {
+    std::string_view name;
+    SequencingGoal goal;
+};
+constexpr std::array goals{Goal{"nearest", SequencingGoal::nearest},
+                           Goal{"travel", SequencingGoal::travel},
+                           Goal{"error", SequencingGoal::error},
+                           Goal{"time", SequencingGoal::time}};
 
 void print_figures(std::string_view name, const project::Evaluation& evaluation) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
@@ -58,11 +79,66 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                clock_time(plan.trajectory->duration()));
 }
 
+std::optional<SequencingGoal> goal_named(std::string_view name) {
+    const auto found = std::ranges::find(goals, name, &Goal::name);
+    return found == goals.end() ? std::nullopt : std::optional(found->goal);
+}
+
+/// What the command line says of the rotary axes; nothing where it leaves them.
+std::optional<toolpath::SequencingSettings> sequencing_of(const Options& options,
+                                                          const project::ProgramInput& program) {
+    if (options.sequencing.empty() && !(options.largest_step_deg > 0.0)) {
+        return std::nullopt;
+    }
+    toolpath::SequencingSettings settings;
+    settings.goal = goal_named(options.sequencing).value_or(SequencingGoal::nearest);
+    settings.largest_step = from_degrees(options.largest_step_deg);
+    settings.feed = from_mm_per_min(program.feed_mm_per_min);
+    settings.links_cut = program.link == project::LinkInput::on_surface;
+    return settings;
+}
+
+void print_path(std::string_view name, const project::Workpiece& workpiece, const project::Evaluation& of) {
+    const double step =
+        toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
+               name,
+               of.toolpath.points.size(),
+               fixed(of.closest.max, 4),
+               fixed(of.closest.mean, 4),
+               fixed(to_degrees(of.axes.rotary_travel), 1),
+               fixed(to_degrees(step), 2));
+}
+
+/// The path of the chosen grid anew; prints it beside what it was.
+void sequence(project::Plan& plan,
+              const project::Project& project,
+              const Options& options,
+              const toolpath::SequencingSettings& settings,
+              const std::stop_token& stop) {
+    const auto before = plan.evaluation(project.grid.method);
+    project::sequence_program(plan, project, settings, Progress({}, stop));
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
+               "sequence",
+               "points",
+               "max mm",
+               "mean mm",
+               "rotation deg",
+               "in a cut deg");
+    print_path("before", *plan.workpiece, *before);
+    print_path(options.sequencing.empty() ? "nearest" : options.sequencing,
+               *plan.workpiece,
+               *plan.evaluation(project.grid.method));
+}
+
 int plan(const Options& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     make_folder(options.out);
-    const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
+    project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
+    if (const auto settings = sequencing_of(options, opened.project.program)) {
+        sequence(plan, opened.project, options, *settings, interrupt.token());
+    }
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     constexpr render::PixelSize preview_size{1280, 800};
@@ -88,6 +164,18 @@ void add_plan_command(CLI::App& app, Command& chosen) {
     command.add_option("--out", options->out, "Folder for program, report.json and preview.png")
         ->required()
         ->type_name("DIR");
+    std::vector<std::string> names;
+    for (const Goal& goal : goals) {
+        names.emplace_back(goal.name);
+    }
+    command.add_option("--sequencing", options->sequencing, "How the rotary axes are chosen along the path")
+        ->check(CLI::IsMember(names));
+    constexpr double least_step_deg = 0.01;
+    command
+        .add_option("--largest-step",
+                    options->largest_step_deg,
+                    "Add points where a rotary axis turns by more degrees in a move")
+        ->check(CLI::Range(least_step_deg, 180.0));
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }

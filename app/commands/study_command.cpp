@@ -1,5 +1,7 @@
 #include "app/commands/study_command.h"
 
+#include "app/commands/study_fewest.h"
+#include "app/commands/study_set_up.h"
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
@@ -180,6 +182,8 @@ int kinematic_error(const Options& options) {
 void add_study_command(CLI::App& app, Command& chosen) {
     CLI::App& group = *app.add_subcommand("study", "Compare methods over surfaces and machines");
     group.require_subcommand(1);
+    add_study_fewest_command(group, chosen);
+    add_study_set_up_command(group, chosen);
     const auto options = std::make_shared<Options>();
     CLI::App& command =
         *group.add_subcommand("kinematic-error", "The error of each way to make the grid, side by side");

@@ -3,7 +3,8 @@
 #include "core/base/error.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/grid/redistribution.h"
-#include "core/toolpath/set_up_search.h"
+#include "core/project/sequenced_evaluation.h"
+#include "core/project/set_up_study.h"
 
 #include <utility>
 
@@ -40,24 +41,11 @@ StudyFigures figures_of(const Evaluation& evaluation, const Workpiece& workpiece
             workpiece.machine.description().workpiece_offset};
 }
 
-/// The part about its own middle on the table, as far as it may be shifted.
-toolpath::SetUpSearchSettings shifts_of(const Workpiece& workpiece) {
-    const Vec3 reach(60.0, 60.0, 80.0);
-    Vec3 middle = -workpiece.patch.control_box().center();
-    middle.z() = workpiece.machine.description().workpiece_offset.z();
-    return {.least = middle - reach, .most = middle + reach};
-}
-
 Workpiece in_best_set_up(Workpiece workpiece, const Progress& progress) {
-    constexpr int nodes = 20; // the error's mean knows the best place from any grid
-    const toolpath::SetUpCost cost(workpiece.patch,
-                                   workpiece.machine,
-                                   workpiece.flipped,
-                                   grid::Grid::uniform(nodes, nodes),
-                                   workpiece.direction,
-                                   toolpath::SetUpGoal::error);
-    const auto found = toolpath::search_set_up(cost, shifts_of(workpiece), progress);
-    workpiece.machine = workpiece.machine.with_workpiece_offset(found.best.offset);
+    const SetUpStudySettings settings;
+    const auto found =
+        toolpath::search_set_up(set_up_cost(workpiece, settings), set_up_box(workpiece, settings), progress);
+    workpiece.machine = workpiece.machine.with_workpiece_offset(toolpath::offset_of(found.best.place));
     return workpiece;
 }
 
@@ -77,6 +65,14 @@ public:
                       improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress),
                       progress);
     }
+    /// The chain's grid, and the same with its branches and turns chosen for the least error of the path.
+    [[nodiscard]] std::array<StudyRow, 2>
+    chain_rows(StudyMethod chain, StudyMethod sequenced, const Progress& progress) const {
+        constexpr double making = 0.9; // share of the chain
+        const Evaluation found = improved_evaluation(
+            GridMethod::chain, input_, workpiece_, uniform_, Effort::full, progress.part(0.0, making));
+        return {row_of(chain, found, progress), sequenced_row(sequenced, found, progress.part(making, 1.0))};
+    }
     [[nodiscard]] StudyRow redistribution_row(const Progress& progress) const {
         const toolpath::KinematicError error = workpiece_.error_model();
         grid::Redistribution improver(error, uniform_.outcome.grid, input_.direction);
@@ -91,6 +87,17 @@ public:
     }
 
 private:
+    [[nodiscard]] StudyRow
+    sequenced_row(StudyMethod method, const Evaluation& nearest, const Progress& progress) const {
+        const toolpath::SequencingSettings least_error{.goal = toolpath::SequencingGoal::error};
+        const Evaluation found = evaluate(workpiece_, nearest.outcome, least_error, report_samples, progress);
+        if (!is_worse(found, nearest, workpiece_.machine)) {
+            return row_of(method, found, progress);
+        }
+        StudyRow kept = row_of(method, nearest, progress);
+        kept.note = "No sequence is better in every figure than the nearest branch; it is kept.";
+        return kept;
+    }
     [[nodiscard]] StudyRow
     row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
         return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
@@ -131,10 +138,14 @@ std::string_view label(StudyMethod method) {
         return "tracks";
     case StudyMethod::chain:
         return "chain";
+    case StudyMethod::sequencing:
+        return "chain + sequence";
     case StudyMethod::set_up:
         return "set-up";
     case StudyMethod::set_up_chain:
         return "set-up + chain";
+    case StudyMethod::everything:
+        return "all three";
     }
     return {};
 }
@@ -161,11 +172,14 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
             there.improved_row(StudyMethod::elliptic, GridMethod::elliptic, progress.part(0.02, 0.06)));
         rows.push_back(there.harmonic_row(progress.part(0.06, 0.1)));
         rows.push_back(there.improved_row(StudyMethod::tracks, GridMethod::tracks, progress.part(0.1, 0.15)));
-        rows.push_back(there.improved_row(StudyMethod::chain, GridMethod::chain, progress.part(0.15, 0.5)));
+        const auto by_chain =
+            there.chain_rows(StudyMethod::chain, StudyMethod::sequencing, progress.part(0.15, 0.5));
+        rows.insert(rows.end(), by_chain.begin(), by_chain.end());
         const Bench best(of, in_best_set_up(workpiece, progress.part(0.5, 0.6)), project.grid, progress);
         rows.push_back(best.uniform_row(StudyMethod::set_up, progress));
-        rows.push_back(
-            best.improved_row(StudyMethod::set_up_chain, GridMethod::chain, progress.part(0.6, 1.0)));
+        const auto there_too =
+            best.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress.part(0.6, 1.0));
+        rows.insert(rows.end(), there_too.begin(), there_too.end());
         return rows;
     } catch (const Error& error) {
         return out_of_reach_rows(of, error.diagnostic().message);

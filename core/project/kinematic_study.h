@@ -18,8 +18,10 @@ enum class StudyMethod {
     harmonic,       ///< the harmonic map with sliding boundary
     tracks,         ///< the track optimiser: shortest path a track
     chain,          ///< the whole chain
+    sequencing,     ///< the same grid, branches and turns chosen for the least error of the whole path
     set_up,         ///< equal parameter steps, the part where the error is least
     set_up_chain,   ///< the whole chain there
+    everything,     ///< and branches and turns chosen as above
 };
 inline constexpr std::array every_study_method{StudyMethod::uniform,
                                                StudyMethod::redistribution,
@@ -27,8 +29,10 @@ inline constexpr std::array every_study_method{StudyMethod::uniform,
                                                StudyMethod::harmonic,
                                                StudyMethod::tracks,
                                                StudyMethod::chain,
+                                               StudyMethod::sequencing,
                                                StudyMethod::set_up,
-                                               StudyMethod::set_up_chain};
+                                               StudyMethod::set_up_chain,
+                                               StudyMethod::everything};
 /// For people, and in the files.
 [[nodiscard]] std::string_view label(StudyMethod method);
 

@@ -5,6 +5,7 @@
 #include "core/project/internal/json_text.h"
 #include "core/project/settings.h"
 #include "core/project/version.h"
+#include "core/toolpath/shortest_sequence.h"
 
 #include <cmath>
 #include <string_view>
@@ -80,6 +81,8 @@ Json errors(const Plan& plan, GridMethod method) {
     json["path_length_mm"] = rounded(evaluation.path_length);
     json["estimated_time_s"] = time ? Json(rounded(*time)) : Json();
     json["rotary_travel_deg"] = rounded(to_degrees(evaluation.axes.rotary_travel));
+    json["largest_rotary_step_deg"] = rounded(to_degrees(toolpath::largest_rotary_step(
+        plan.workpiece->machine, evaluation.toolpath, evaluation.axes, toolpath::MoveKind::track)));
     json["status"] = status_id(evaluation.outcome.status);
     json["rounds"] = evaluation.outcome.rounds;
     json["iterations"] = evaluation.outcome.iterations;

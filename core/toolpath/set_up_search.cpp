@@ -8,11 +8,14 @@
 #include "core/toolpath/sequencing.h"
 #include "core/toolpath/zigzag.h"
 
+#include <Eigen/Geometry>
 #include <nlopt.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -23,22 +26,38 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check(const SetUpSearchSettings& settings) {
-    expects(is_finite(settings.least) && is_finite(settings.most), "the box of a set-up is finite");
-    expects((settings.least.array() < settings.most.array()).all(), "the box of a set-up has a volume");
+    const auto least = settings.least.array();
+    const auto most = settings.most.array();
+    expects(least.allFinite() && most.allFinite(), "the box of a set-up is finite");
+    expects((least.head<3>() < most.head<3>()).all() && least[3] <= most[3],
+            "the box of a set-up has a volume");
     expects(settings.places >= 1 && settings.places <= 50, "1 to 50 places are looked at along each axis");
+    expects(settings.turns >= 1 && settings.turns <= 50, "1 to 50 turns are looked at");
     expects(settings.descent >= 0 && settings.descent <= 100'000, "a descent has 0 to 100 000 evaluations");
 }
 
+bool turns(const SetUpSearchSettings& settings) {
+    return settings.least[3] < settings.most[3];
+}
+
+/// How many places are looked at along each parameter.
+Eigen::Array4i counts_of(const SetUpSearchSettings& settings) {
+    return {settings.places, settings.places, settings.places, turns(settings) ? settings.turns : 1};
+}
+
 /// Evenly inside the box, half a step from its sides.
-std::vector<Vec3> lattice(const SetUpSearchSettings& settings) {
-    const Vec3 step = (settings.most - settings.least) / settings.places;
-    std::vector<Vec3> found;
-    for (int i = 0; i < settings.places; ++i) {
-        for (int j = 0; j < settings.places; ++j) {
-            for (int k = 0; k < settings.places; ++k) {
-                found.push_back(settings.least + step.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
-            }
+std::vector<SetUpPlace> lattice(const SetUpSearchSettings& settings) {
+    const Eigen::Array4i counts = counts_of(settings);
+    const Eigen::Array4d step = (settings.most - settings.least).array() / counts.cast<double>();
+    std::vector<SetUpPlace> found;
+    for (int n = 0; n < counts.prod(); ++n) {
+        int rest = n;
+        Eigen::Array4d at;
+        for (int k = 3; k >= 0; --k) {
+            at[k] = rest % counts[k] + 0.5;
+            rest /= counts[k];
         }
+        found.emplace_back(settings.least.array() + step * at);
     }
     return found;
 }
@@ -61,9 +80,10 @@ int descend(const SetUpCost& cost,
             SetUp& best,
             const Progress& progress) {
     constexpr double out_of_reach = 1e30; // a simplex compares numbers
-    constexpr double settled_mm = 1e-3;
+    constexpr double settled = 1e-3;      // mm, and a thousandth of a degree or so
+    const int dimensions = turns(settings) ? 4 : 3;
     int evaluations = 0;
-    nlopt::opt simplex(nlopt::LN_NELDERMEAD, 3);
+    nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(dimensions));
     const nlopt::vfunc value = [](const std::vector<double>& at, std::vector<double>&, void* data) {
         return (*static_cast<const std::function<double(const std::vector<double>&)>*>(data))(at);
     };
@@ -71,24 +91,27 @@ int descend(const SetUpCost& cost,
         if (progress.cancelled()) {
             throw nlopt::forced_stop(); // the only way out through the library; thrown again below
         }
-        const Vec3 offset(at[0], at[1], at[2]);
-        const double found = cost.at(offset, Progress());
+        SetUpPlace place = best.place;
+        std::copy(at.begin(), at.end(), place.begin());
+        const double found = cost.at(place, Progress());
         ++evaluations;
         progress.report(static_cast<double>(evaluations) / settings.descent);
         if (found < best.cost) {
-            best = {offset, found};
+            best = {place, found};
         }
         return std::min(found, out_of_reach);
     };
+    const auto numbers = [&](const SetUpPlace& place) {
+        return std::vector<double>(place.data(), place.data() + dimensions);
+    };
     simplex.set_min_objective(value, &measured);
-    simplex.set_lower_bounds({settings.least.x(), settings.least.y(), settings.least.z()});
-    simplex.set_upper_bounds({settings.most.x(), settings.most.y(), settings.most.z()});
-    const Vec3 step = (settings.most - settings.least) / (2.0 * settings.places);
-    simplex.set_initial_step({step.x(), step.y(), step.z()});
+    simplex.set_lower_bounds(numbers(settings.least));
+    simplex.set_upper_bounds(numbers(settings.most));
+    const Eigen::Array4d half_steps = 2.0 * counts_of(settings).cast<double>();
+    simplex.set_initial_step(numbers((settings.most - settings.least).array() / half_steps));
     simplex.set_maxeval(settings.descent);
-    simplex.set_xtol_abs(settled_mm);
-    const Vec3 from = best.offset.cwiseMax(settings.least).cwiseMin(settings.most);
-    std::vector<double> at{from.x(), from.y(), from.z()};
+    simplex.set_xtol_abs(settled);
+    std::vector<double> at = numbers(best.place.cwiseMax(settings.least).cwiseMin(settings.most));
     double reached = 0.0;
     try {
         simplex.optimize(at, reached);
@@ -110,19 +133,36 @@ SetUpCost::SetUpCost(geometry::BezierPatch patch,
     : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), grid_(std::move(grid)),
       direction_(direction), goal_(goal) {}
 
-double SetUpCost::at(const Vec3& offset, const Progress& progress) const {
+geometry::ControlNet turned(geometry::ControlNet net, double turn) {
+    const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+    for (Vec3& point : net.points) {
+        point = rotation * point;
+    }
+    return net;
+}
+
+SetUpPlace SetUpCost::start() const {
+    SetUpPlace place = SetUpPlace::Zero();
+    place.head<3>() = machine_.description().workpiece_offset;
+    return place;
+}
+
+double SetUpCost::at(const SetUpPlace& place, const Progress& progress) const {
     progress.check();
-    const kinematics::MachineModel machine = machine_.with_workpiece_offset(offset);
+    const kinematics::MachineModel machine = machine_.with_workpiece_offset(offset_of(place));
+    const bool is_turned = !exactly_equal(place[3], 0.0);
+    const geometry::BezierPatch patch =
+        is_turned ? geometry::BezierPatch(turned(patch_.net(), place[3])) : patch_;
     try {
         const AxisPath axes =
-            sequence(machine, on_machine(machine, zigzag(patch_, grid_, direction_, flipped_)));
+            sequence(machine, on_machine(machine, zigzag(patch, grid_, direction_, flipped_)));
         if (goal_ == SetUpGoal::travel) {
             return linear_travel(machine, axes);
         }
     } catch (const Error&) { // a pose that cannot be reached
         return infinity;
     }
-    const KinematicError error(patch_, machine, flipped_);
+    const KinematicError error(patch, machine, flipped_);
     return grid::summary(measure(error, grid_, direction_, grid::coarse, progress)).mean;
 }
 
@@ -130,16 +170,16 @@ SetUpSearch
 search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const Progress& progress) {
     check(settings);
     SetUpSearch found;
-    found.start = {cost.offset(), cost.at(cost.offset(), progress)};
+    found.start = {cost.start(), cost.at(cost.start(), progress)};
     found.best = found.start;
     found.evaluations = 1;
-    const std::vector<Vec3> places = lattice(settings);
+    const std::vector<SetUpPlace> places = lattice(settings);
     const double scan = static_cast<double>(places.size());
     const double share = scan / (scan + settings.descent);
-    for (const Vec3& offset : places) {
-        const double here = cost.at(offset, progress);
+    for (const SetUpPlace& place : places) {
+        const double here = cost.at(place, progress);
         if (here < found.best.cost) {
-            found.best = {offset, here};
+            found.best = {place, here};
         }
         progress.report(share * found.evaluations / scan, "Searching the set-up");
         ++found.evaluations;
@@ -151,30 +191,33 @@ search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const 
 }
 
 SetUpMap set_up_map(const SetUpCost& cost,
-                    const Vec3& offset,
-                    int across,
-                    int up,
+                    const SetUpPlace& through,
+                    SetUpParameter across,
+                    SetUpParameter up,
                     int places,
                     const SetUpSearchSettings& settings,
                     const Progress& progress) {
     check(settings);
-    expects(across >= 0 && across < 3 && up >= 0 && up < 3 && across != up, "a map is over two of a, b, c");
+    const bool of_turn = across == SetUpParameter::turn || up == SetUpParameter::turn;
+    expects(across != up && (!of_turn || turns(settings)), "a map is over two parameters that have room");
     expects(places >= 2 && places <= 500, "a map has 2 to 500 places each way");
+    const auto column = static_cast<Eigen::Index>(across);
+    const auto row = static_cast<Eigen::Index>(up);
     SetUpMap map{across, up, {}, {}, {}};
     for (int n = 0; n < places; ++n) {
         const double t = static_cast<double>(n) / (places - 1);
-        map.x.push_back(mix(settings.least[across], settings.most[across], t));
-        map.y.push_back(mix(settings.least[up], settings.most[up], t));
+        map.x.push_back(mix(settings.least[column], settings.most[column], t));
+        map.y.push_back(mix(settings.least[row], settings.most[row], t));
     }
-    for (const double y : map.y) {
-        for (const double x : map.x) {
-            Vec3 here = offset;
-            here[across] = x;
-            here[up] = y;
-            map.costs.push_back(cost.at(here, progress));
-            progress.report(static_cast<double>(map.costs.size()) / (places * places), "Mapping the set-up");
-        }
-    }
+    map.costs.resize(map.x.size() * map.y.size());
+    std::atomic<int> done = 0;
+    parallel_for(std::ssize(map.costs), 1, [&](std::ptrdiff_t n) {
+        SetUpPlace here = through;
+        here[column] = map.x[static_cast<std::size_t>(n) % map.x.size()];
+        here[row] = map.y[static_cast<std::size_t>(n) / map.x.size()];
+        map.costs[static_cast<std::size_t>(n)] = cost.at(here, progress.part(0.0, 0.0));
+        progress.report(static_cast<double>(++done) / (places * places), "Mapping the set-up");
+    });
     return map;
 }
 

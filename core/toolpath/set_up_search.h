@@ -16,7 +16,19 @@ enum class SetUpGoal {
     travel ///< way of the linear axes over the whole path, mm
 };
 
-/// What a path over a grid costs as a function of the workpiece's offset on the table (a, b, c).
+/// The numbers of a place on the table: the workpiece's offset (a, b, c), mm, and how far the part is turned
+/// about the vertical through its own origin before, rad, counter-clockwise seen from above.
+enum class SetUpParameter { a, b, c, turn };
+using SetUpPlace = Eigen::Vector4d;
+
+[[nodiscard]] inline Vec3 offset_of(const SetUpPlace& place) {
+    return place.head<3>();
+}
+
+/// `net` turned about z through its origin, rad.
+[[nodiscard]] geometry::ControlNet turned(geometry::ControlNet net, double turn);
+
+/// What a path over a grid costs as a function of where the workpiece is on the table.
 class SetUpCost {
 public:
     SetUpCost(geometry::BezierPatch patch,
@@ -27,8 +39,9 @@ public:
               SetUpGoal goal);
 
     /// mm; infinity where a pose cannot be reached inside the axes' limits. Throws Cancelled.
-    [[nodiscard]] double at(const Vec3& offset, const Progress& progress) const;
-    [[nodiscard]] Vec3 offset() const { return machine_.description().workpiece_offset; }
+    [[nodiscard]] double at(const SetUpPlace& place, const Progress& progress) const;
+    /// As the machine has it, not turned.
+    [[nodiscard]] SetUpPlace start() const;
 
 private:
     geometry::BezierPatch patch_;
@@ -41,15 +54,16 @@ private:
 
 /// Values outside their range throw Defect.
 struct SetUpSearchSettings {
-    Vec3 least{-100.0, -100.0, -100.0}; ///< of the offset, mm
-    Vec3 most{100.0, 100.0, 100.0};     ///< above `least`
-    int places = 5;                     ///< along each of a, b, c that are looked at first, 1 to 50
-    int descent = 120;                  ///< further evaluations at most, 0 to 100 000
+    SetUpPlace least{-100.0, -100.0, -100.0, 0.0};
+    SetUpPlace most{100.0, 100.0, 100.0, 0.0}; ///< above `least`; an equal turn is not searched
+    int places = 5;                            ///< along each of a, b, c that are looked at first, 1 to 50
+    int turns = 4;                             ///< the same of the turn where it is searched
+    int descent = 120;                         ///< further evaluations at most, 0 to 100 000
 };
 
 struct SetUp {
-    Vec3 offset = Vec3::Zero(); ///< mm
-    double cost = 0.0;          ///< mm
+    SetUpPlace place = SetUpPlace::Zero();
+    double cost = 0.0; ///< mm
 };
 
 struct SetUpSearch {
@@ -63,21 +77,22 @@ struct SetUpSearch {
 [[nodiscard]] SetUpSearch
 search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const Progress& progress);
 
-/// The cost over two of a, b, c (0, 1, 2), the third as in `offset`.
+/// The cost over two of the parameters, the others as in a place.
 struct SetUpMap {
-    int across = 0;            ///< which of them the columns are
-    int up = 1;                ///< which the rows are
-    std::vector<double> x;     ///< of the columns, mm
-    std::vector<double> y;     ///< of the rows, mm
-    std::vector<double> costs; ///< row by row, infinity where out of reach
+    SetUpParameter across = SetUpParameter::a; ///< which of them the columns are
+    SetUpParameter up = SetUpParameter::b;     ///< which the rows are
+    std::vector<double> x;                     ///< of the columns, mm or rad
+    std::vector<double> y;                     ///< of the rows, mm or rad
+    std::vector<double> costs;                 ///< row by row, infinity where out of reach
 };
 
-/// `places` each way, 2 to 500, evenly from `settings.least` to `settings.most`. Throws Cancelled; Defect if
-/// `across` is `up` or they are none of a, b, c.
+/// `places` each way, 2 to 500, evenly from `settings.least` to `settings.most`. Parallel over places; the
+/// same bytes on any number of threads. Throws Cancelled; Defect if `across` is `up`, or is a turn that has
+/// no room.
 [[nodiscard]] SetUpMap set_up_map(const SetUpCost& cost,
-                                  const Vec3& offset,
-                                  int across,
-                                  int up,
+                                  const SetUpPlace& through,
+                                  SetUpParameter across,
+                                  SetUpParameter up,
                                   int places,
                                   const SetUpSearchSettings& settings,
                                   const Progress& progress);

@@ -67,32 +67,39 @@ std::vector<Places> off_the_pole(const MachineModel& machine, const Toolpath& pa
     return layers;
 }
 
-/// Fills the layers on the pole with the free angles of the layers next to them.
+bool cuts(const Toolpath& path, std::size_t n) {
+    return n > 0 && n < path.points.size() && path.points[n].reached_by == MoveKind::track;
+}
+
+/// One past the last point of those on the pole from n on, on the same track.
+std::size_t end_of_poles(const MachineModel& machine, const Toolpath& path, std::size_t n) {
+    do {
+        ++n;
+    } while (cuts(path, n) && kinematics::at_pole(machine, path.points[n].pose.axis));
+    return n;
+}
+
+/// Fills the layers on the pole with the free angles of the layers next to them on the track, so that the way
+/// to the track turns the axis and no cut; a track all on the pole takes zero.
 void add_poles(const MachineModel& machine, const Toolpath& path, std::vector<Places>& layers) {
-    const std::size_t count = layers.size();
-    Places before;
-    for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t n = 0; n < layers.size(); ++n) {
         if (!kinematics::at_pole(machine, path.points[n].pose.axis)) {
-            before = layers[n];
             continue;
         }
-        std::size_t next = n;
-        while (next < count && kinematics::at_pole(machine, path.points[next].pose.axis)) {
-            ++next;
-        }
-        Places references = before;
-        if (next < count) {
-            references.insert(references.end(), layers[next].begin(), layers[next].end());
+        const std::size_t end = end_of_poles(machine, path, n);
+        Places references = cuts(path, n) ? layers[n - 1] : Places();
+        if (cuts(path, end)) {
+            references.insert(references.end(), layers[end].begin(), layers[end].end());
         }
         if (references.empty()) {
             references.push_back(AxisPositions::Zero(machine.axis_count()));
         }
-        for (std::size_t k = n; k < next; ++k) {
+        for (std::size_t k = n; k < end; ++k) {
             for (const AxisPositions& reference : references) {
                 add_places(machine, path.points[k], reference, layers[k]);
             }
         }
-        n = next - 1;
+        n = end - 1;
     }
 }
 

@@ -15,8 +15,8 @@ namespace millwright::toolpath {
 
 /// Of each path point all axis positions that reach it inside the limits. Axes without limits are given in
 /// the turn nearest to zero alone: what a move to them costs does not depend on it. On a pole, where one
-/// angle is free, with the angles of the nearest points off it before and after. Throws Error as `sequence`
-/// does.
+/// angle is free, with the angles of the nearest points off it before and after on the same track, zero if
+/// there are none: the way to a track turns the axis, no cut. Throws Error as `sequence` does.
 [[nodiscard]] std::vector<std::vector<kinematics::AxisPositions>>
 feasible_rotations(const kinematics::MachineModel& machine, const Toolpath& toolpath);
 

@@ -75,10 +75,12 @@ struct Turned {
     std::vector<double> sum{0.0}; ///< rad
 };
 
-/// Follows the axes in steps of `fine` at most, unless they turn on the spot.
-Turned turned_along(const Move& move, const MachineModel& machine, AxisPositions from, double fine) {
+/// Follows the axes in steps of `fine` where they turn smoothly. A turn by more than `on_the_spot` in the
+/// shortest step does not count: points would not divide it.
+Turned turned_along(
+    const Move& move, const MachineModel& machine, AxisPositions from, double fine, double on_the_spot) {
     constexpr double longest = 1.0 / 8.0;
-    constexpr double shortest = 1.0 / (1 << 20);
+    constexpr double shortest = 1.0 / (1 << 14);
     Turned turned;
     double step = longest;
     while (turned.t.back() < 1.0) {
@@ -90,7 +92,7 @@ Turned turned_along(const Move& move, const MachineModel& machine, AxisPositions
             continue;
         }
         turned.t.push_back(t);
-        turned.sum.push_back(turned.sum.back() + travel);
+        turned.sum.push_back(turned.sum.back() + (travel > on_the_spot ? 0.0 : travel));
         from = std::move(to);
         step = std::min(longest, 2.0 * step);
     }
@@ -111,7 +113,7 @@ std::vector<PathPoint> points_between(const Move& move,
                                       const AxisPositions& from,
                                       double largest_step) {
     constexpr double fineness = 16.0; // of the following, which blurs each end of a share by one step of it
-    const Turned turned = turned_along(move, machine, from, largest_step / fineness);
+    const Turned turned = turned_along(move, machine, from, largest_step / fineness, largest_step);
     const double share = largest_step * (1.0 - 2.0 / fineness);
     const int moves = static_cast<int>(std::ceil(turned.sum.back() / share));
     std::vector<PathPoint> points;

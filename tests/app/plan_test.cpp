@@ -30,6 +30,21 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     }
 }
 
+TEST(PlanCommand, ChoosesTheRotaryAxesForTheWholePath) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "two-bell");
+    const Ended ended =
+        run({"plan", project, "--out", scratch / "out", "--sequencing", "travel", "--largest-step", "15"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nbefore "));
+    EXPECT_THAT(ended.out, HasSubstr("\ntravel "));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
+    EXPECT_LE(report.at("error").at("optimised").at("largest_rotary_step_deg"), 15.0);
+    EXPECT_GT(report.at("error").at("uniform").at("largest_rotary_step_deg"), 15.0);
+    EXPECT_GT(report.at("points"), 36);
+    EXPECT_NE(run({"plan", project, "--out", scratch / "out", "--sequencing", "luck"}).exit_code, 0);
+}
+
 TEST(PlanCommand, WritesOverNoProjectInItsFolder) {
     const ScratchFolder scratch;
     const fs::path project = scratch / "report.json";

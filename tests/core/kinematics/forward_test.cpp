@@ -56,6 +56,7 @@ std::vector<MachineModel> machines() {
             test::machine("ac-table"),
             test::machine("bc-table-head"),
             test::machine("ca-head"),
+            test::machine("tilted-c-table"),
             head_head_machine()};
 }
 

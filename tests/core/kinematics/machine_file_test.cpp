@@ -55,8 +55,10 @@ TEST(MachineFile, ReadsTheJerkWhereThereIsOne) {
 TEST(MachineFile, EveryShippedMachineReads) {
     int count = 0;
     for (const auto& entry : fs::directory_iterator("assets/machines")) {
-        EXPECT_NO_THROW((void)read_machine(entry.path())) << entry.path();
-        ++count;
+        if (entry.path().extension() == ".json") {
+            EXPECT_NO_THROW((void)read_machine(entry.path())) << entry.path();
+            ++count;
+        }
     }
     EXPECT_GE(count, 4);
 }

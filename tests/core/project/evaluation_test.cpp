@@ -4,6 +4,8 @@
 #include "core/base/units.h"
 #include "core/geometry/presets.h"
 #include "core/kinematics/rotary_tilt.h"
+#include "core/project/sequenced_evaluation.h"
+#include "core/toolpath/shortest_sequence.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>
@@ -117,6 +119,30 @@ TEST(Evaluation, FaultyAnglesLeaveTheNormal) {
     EXPECT_GT(evaluate(workpiece, uniform(20, 20), 3, Progress()).closest.axis_mean, from_degrees(10.0));
     workpiece.machine = test::machine("ac-table");
     EXPECT_THROW((void)evaluate(workpiece, uniform(20, 20), 3, Progress()), Error);
+}
+
+TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
+    using toolpath::MoveKind;
+    using toolpath::SequencingGoal;
+    Workpiece workpiece = dome_on("rotary-tilt-listing");
+    const auto with = [&](const toolpath::SequencingSettings& settings) {
+        return evaluate(workpiece, uniform(12, 12), settings, 8, Progress());
+    };
+    const auto step = [&](const Evaluation& of) {
+        return toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, MoveKind::track);
+    };
+    const Evaluation nearest = evaluate(workpiece, uniform(12, 12), 8, Progress());
+    EXPECT_EQ(with({}).closest.mean, nearest.closest.mean);
+    const Evaluation travel = with({.goal = SequencingGoal::travel});
+    EXPECT_LE(travel.axes.rotary_travel, nearest.axes.rotary_travel * (1.0 + 1e-9));
+    const Evaluation error = with({.goal = SequencingGoal::error});
+    EXPECT_LT(error.closest.mean, nearest.closest.mean);
+    const Evaluation finer = with({.goal = SequencingGoal::error, .largest_step = from_degrees(10.0)});
+    EXPECT_GT(finer.toolpath.points.size(), error.toolpath.points.size());
+    EXPECT_LT(finer.closest.max, 0.5 * error.closest.max);
+    EXPECT_LT(step(finer), step(error));
+    workpiece.angle_mode = kinematics::AngleMode::faulty_text;
+    EXPECT_THROW((void)with({}), Error);
 }
 
 TEST(Evaluation, APartOutOfReachIsAnError) {

@@ -111,9 +111,10 @@ private:
 
 class EachMachine : public ::testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(ShortestSequence,
-                         EachMachine,
-                         ::testing::Values("rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head"));
+INSTANTIATE_TEST_SUITE_P(
+    ShortestSequence,
+    EachMachine,
+    ::testing::Values("rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head", "tilted-c-table"));
 
 TEST_P(EachMachine, ReachesEveryPoseInsideTheLimits) {
     const MachineModel machine = test::machine(GetParam());
@@ -209,6 +210,16 @@ TEST(ShortestSequence, WindsAnEndlessAxisOnAndOn) {
     EXPECT_NEAR(best.rotary_travel, from_degrees(900.0), 1e-9);
     const int C = machine.axis_index('C');
     EXPECT_NEAR(std::abs(best.positions.back()[C] - best.positions.front()[C]), from_degrees(900.0), 1e-9);
+}
+
+TEST(ShortestSequence, TurnsTheFreeAxisOnTheWayToATrackThatBeginsOnAPole) {
+    const MachineModel machine = test::machine("ac-table");
+    const Toolpath path = path_on("two-bell", 12, 6); // the corners are poles
+    for (const StepCosts& costs : {travel_costs(machine), time_costs(machine, path, feed)}) {
+        const AxisPath axes = shortest_sequence(machine, path, costs, 1.0, {});
+        const int C = machine.axis_index('C');
+        EXPECT_NEAR(axes.positions[0][C], axes.positions[1][C], 1e-9) << "the first point is one";
+    }
 }
 
 TEST(ShortestSequence, DoesNotTurnTheFreeAxisOnThePole) {

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/toolpath/error_field.h"
+#include "core/toolpath/sequenced_path.h"
 #include "core/toolpath/shortest_sequence.h"
 #include "core/toolpath/zigzag.h"
 #include "tests/support/paths.h"
@@ -45,6 +46,17 @@ TEST(SmallRotations, KeepTheLimitAndCutTheWorstMoves) {
                     << name;
             }
         }
+    }
+}
+
+TEST(SmallRotations, HoldOnATableWhoseBranchesTurnDifferently) {
+    const MachineModel machine = test::machine("tilted-c-table");
+    for (const SequencingGoal goal : {SequencingGoal::nearest, SequencingGoal::travel}) {
+        const SequencingSettings settings{.goal = goal, .largest_step = from_degrees(15.0)};
+        const SequencedPath found =
+            sequenced(test::patch("two-bell"), machine, path_on("two-bell", 20, 8), settings, {});
+        EXPECT_LE(largest_rotary_step(machine, found.toolpath, found.axes, MoveKind::track),
+                  settings.largest_step);
     }
 }
 

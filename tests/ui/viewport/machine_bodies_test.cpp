@@ -23,7 +23,8 @@ AxisPositions some_positions(const MachineModel& machine) {
 }
 
 TEST(BodyPoses, CarryEachBodysCentreWithItsAxis) {
-    for (const char* name : {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head"}) {
+    for (const char* name :
+         {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head", "tilted-c-table"}) {
         const MachineModel machine = test::machine(name);
         const AxisPositions positions = some_positions(machine);
         const std::vector<Frame> poses = body_poses(machine, positions);
@@ -37,7 +38,8 @@ TEST(BodyPoses, CarryEachBodysCentreWithItsAxis) {
 }
 
 TEST(BodyPoses, TurnACylindersHeightWithItsAxis) {
-    for (const char* name : {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head"}) {
+    for (const char* name :
+         {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head", "tilted-c-table"}) {
         const MachineModel machine = test::machine(name);
         const AxisPositions positions = some_positions(machine);
         const std::vector<Frame> poses = body_poses(machine, positions);
@@ -63,7 +65,8 @@ TEST(BodyPoses, PutTheTableUnderTheWorkpieceWhateverTheAxes) {
 }
 
 TEST(Cutter, IsOneBodyWithItsEndAtTheToolsTip) {
-    for (const char* name : {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head"}) {
+    for (const char* name :
+         {"rotary-tilt-listing", "ac-table", "bc-table-head", "ca-head", "tilted-c-table"}) {
         const MachineModel machine = test::machine(name);
         int cutters = 0;
         for (const MachineBody& body : machine.description().bodies) {

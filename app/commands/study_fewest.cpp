@@ -1,0 +1,86 @@
+#include "app/commands/study_fewest.h"
+
+#include "app/interrupt.h"
+#include "app/outputs.h"
+#include "app/progress_printer.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/project/assets.h"
+#include "core/project/fewest_points_study.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    project::FewestPointsCase of;
+    std::vector<double> tolerances{0.5, 0.2, 0.1, 0.05};
+    std::string out; ///< empty: no file
+};
+
+std::string text_of(const std::optional<int>& count) {
+    return count ? fmt::format("{}", *count) : std::string("-");
+}
+
+void print(const project::FewestPointsRow& row) {
+    const std::string ratio =
+        row.uniform && row.fewest
+            ? fixed(static_cast<double>(*row.uniform) / static_cast<double>(*row.fewest), 2)
+            : std::string("-");
+    fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12}\n",
+               shortest(row.tolerance),
+               text_of(row.uniform),
+               text_of(row.fewest),
+               ratio,
+               row.fewest ? fixed(row.largest, 5) : std::string("-"));
+}
+
+int fewest_points(const Options& options) {
+    const Interrupt interrupt;
+    const project::Folders folders{{}, project::assets_folder()};
+    if (!options.out.empty()) {
+        make_folder(options.out);
+    }
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const auto rows = project::fewest_points(options.of, options.tolerances, folders, progress);
+    printer.finish();
+    fmt::print("{} on {}, {} tracks\n", options.of.surface, options.of.machine, options.of.tracks);
+    fmt::print(
+        "{:>12} {:>10} {:>10} {:>8} {:>12}\n", "tolerance mm", "uniform", "fewest", "ratio", "largest mm");
+    for (const project::FewestPointsRow& row : rows) {
+        print(row);
+    }
+    if (!options.out.empty()) {
+        write_outputs(options.out, {{"fewest-points.csv", project::fewest_points_csv(options.of, rows)}});
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_study_fewest_command(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *group.add_subcommand("fewest-points",
+                                              "The fewest points of tracks for an error, beside equal steps");
+    command.add_option("--surface", options->of.surface, "Preset of the surface")->capture_default_str();
+    command.add_option("--machine", options->of.machine, "Shipped machine")->capture_default_str();
+    command.add_option("--tracks", options->of.tracks, "Over v = 0.02 ... 0.98")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--tolerance", options->tolerances, "Largest distance from the surface curve, mm")
+        ->check(CLI::Range(1e-4, 1e3));
+    command.add_option("--out", options->out, "Folder for fewest-points.csv")->type_name("DIR");
+    command.callback([&chosen, options] { chosen = [options] { return fewest_points(*options); }; });
+}
+
+} // namespace millwright::app

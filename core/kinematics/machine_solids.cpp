@@ -1,0 +1,81 @@
+#include "core/kinematics/machine_solids.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace millwright::kinematics {
+
+namespace {
+
+using geometry::Circle;
+using geometry::Extent;
+using geometry::SolidMesh;
+
+const Vec3 paint(0.86, 0.87, 0.88), graphite(0.27, 0.29, 0.32), steel(0.60, 0.64, 0.68),
+    carbide(0.78, 0.60, 0.33);
+
+constexpr double widest_edge = 3.0; // mm
+constexpr double widest_corner = 12.0;
+
+/// What stands is dark, what an axis of the table carries is steel, the head is painted; slender things of
+/// the head are the cutter.
+Vec3 color_of(const MachineModel& machine, const MachineBody& body) {
+    if (body.carried_by == '\0') {
+        return graphite;
+    }
+    const MachineAxis& carrier = machine.axis(machine.axis_index(body.carried_by));
+    if (carrier.side == AxisSide::table) {
+        return carrier.kind == AxisKind::rotary ? steel : graphite;
+    }
+    constexpr double slender = 0.5; // of width to height
+    const bool is_cutter =
+        body.shape == MachineBody::Shape::cylinder && body.size.x() < slender * body.size.z();
+    return is_cutter && (body.center - machine.description().tool_tip).norm() < body.size.z() ? carbide
+                                                                                              : paint;
+}
+
+std::vector<Circle> corners_of(const Vec3& size, double radius) {
+    const double x = 0.5 * size.x() - radius;
+    const double y = 0.5 * size.y() - radius;
+    return {{Vec2(x, y), radius}, {Vec2(-x, y), radius}, {Vec2(-x, -y), radius}, {Vec2(x, -y), radius}};
+}
+
+SolidMesh solid_of(const MachineModel& machine, const MachineBody& body) {
+    const double half = 0.5 * body.size.z();
+    const double edge = std::min(widest_edge, 0.1 * body.size.minCoeff());
+    const Extent extent{-half, half, edge};
+    Frame m_T_b = Frame::Identity();
+    m_T_b.translation() = body.center;
+    if (body.shape == MachineBody::Shape::cylinder) {
+        m_T_b.linear() = frame_along(body.direction);
+        const std::array circle{Circle{Vec2::Zero(), 0.5 * body.size.x()}};
+        return moved(hull_of(circle, extent, color_of(machine, body)), m_T_b);
+    }
+    const double corner = std::min(widest_corner, 0.3 * std::min(body.size.x(), body.size.y()));
+    return moved(hull_of(corners_of(body.size, corner), extent, color_of(machine, body)), m_T_b);
+}
+
+geometry::PlacedBody carried_by(const MachineModel& machine, char carrier) {
+    geometry::PlacedBody placed;
+    placed.body.name = carrier == '\0' ? std::string("base") : std::string("axis ") + carrier;
+    for (const MachineBody& body : machine.description().bodies) {
+        if (body.carried_by == carrier) {
+            placed.body.meshes.push_back(solid_of(machine, body));
+        }
+    }
+    return placed;
+}
+
+} // namespace
+
+std::vector<geometry::PlacedBody> machine_solids(const MachineModel& machine) {
+    std::vector<geometry::PlacedBody> solids{carried_by(machine, '\0')};
+    for (const MachineAxis& axis : machine.axes()) {
+        solids.push_back(carried_by(machine, axis.letter));
+    }
+    std::erase_if(solids, [](const geometry::PlacedBody& placed) { return placed.body.meshes.empty(); });
+    return solids;
+}
+
+} // namespace millwright::kinematics

@@ -1,0 +1,55 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(StudyCommand, CountsTheFewestPoints) {
+    const ScratchFolder scratch;
+    const Ended ended =
+        run({"study", "fewest-points", "--tracks", "2", "--tolerance", "0.5", "--out", scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("two-bell on ac-table, 2 tracks\n"));
+    EXPECT_THAT(content_of(scratch / "out/fewest-points.csv"), HasSubstr("\ntwo-bell,ac-table,2,0.5,"));
+    EXPECT_NE(run({"study", "fewest-points", "--tolerance", "0"}).exit_code, 0);
+    EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
+}
+
+TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
+    const ScratchFolder scratch;
+    const auto project = small_project(scratch.path(), "dome");
+    const std::string accepted = scratch / "there.json";
+    const Ended ended = run({"study",
+                             "set-up",
+                             project,
+                             "--out",
+                             scratch / "out",
+                             "--places",
+                             "5",
+                             "--nodes",
+                             "6",
+                             "--up",
+                             "c",
+                             "--accept",
+                             accepted});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nstart "));
+    EXPECT_THAT(ended.out, HasSubstr("\nbest "));
+    EXPECT_THAT(content_of(scratch / "out/set-up.csv"), StartsWith("a_mm,c_mm,cost_mm\n"));
+    EXPECT_THAT(content_of(scratch / "out/set-up.png"), StartsWith("\x89PNG"));
+    const auto json = nlohmann::json::parse(content_of(accepted));
+    EXPECT_TRUE(json.at("machine").contains("workpiece_offset"));
+    const Ended same = run({"study", "set-up", project, "--out", scratch / "out", "--across", "b"});
+    EXPECT_EQ(same.exit_code, 1);
+    EXPECT_THAT(same.err, HasSubstr("are the same"));
+}
+
+} // namespace
+} // namespace millwright::test

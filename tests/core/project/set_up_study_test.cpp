@@ -1,0 +1,72 @@
+#include "core/project/set_up_study.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace millwright::project {
+namespace {
+
+using toolpath::SetUpParameter;
+
+const Folders folders{{}, "assets"};
+
+SetUpStudySettings small_settings() {
+    SetUpStudySettings settings;
+    settings.places = 5;
+    settings.nodes = 6;
+    return settings;
+}
+
+TEST(SetUpStudy, TheBestIsNotWorseThanAnyPlaceOfTheMap) {
+    Project project = project_from_preset("dome");
+    const Workpiece workpiece = workpiece_of(project, folders);
+    const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
+    EXPECT_LT(study.search.best.cost, 0.7 * study.search.start.cost);
+    ASSERT_EQ(study.map.costs.size(), 25U);
+    EXPECT_LE(study.search.best.cost, *std::ranges::min_element(study.map.costs) * 1.02);
+}
+
+TEST(SetUpStudy, AProjectWithThePartThereCostsWhatWasFound) {
+    Project project = project_from_preset("two-bell");
+    project.machine.file = "ca-head";
+    SetUpStudySettings settings = small_settings();
+    settings.turn_reach = 1.0;
+    settings.across = SetUpParameter::turn;
+    const Workpiece workpiece = workpiece_of(project, folders);
+    toolpath::SetUpPlace place = set_up_cost(workpiece, settings).start();
+    place += toolpath::SetUpPlace(5.0, -3.0, 2.0, 0.6);
+    const Project there = with_set_up(project, place);
+    EXPECT_EQ(there.machine.workpiece_offset.value(), toolpath::offset_of(place));
+    EXPECT_NE(there.surface.patches, project.surface.patches);
+    EXPECT_TRUE(faults_of(there).empty());
+    const toolpath::SetUpCost cost = set_up_cost(workpiece_of(there, folders), settings);
+    EXPECT_NEAR(
+        cost.at(cost.start(), Progress()), set_up_cost(workpiece, settings).at(place, Progress()), 1e-9);
+}
+
+TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {
+    toolpath::SetUpMap map{
+        SetUpParameter::turn, SetUpParameter::c, {0.0, 1.5707963267948966}, {10.0, 20.0}, {}};
+    map.costs = {1.0, 2.0, 3.0, std::numeric_limits<double>::infinity()};
+    EXPECT_EQ(set_up_csv(map),
+              "turn_deg,c_mm,cost_mm\n"
+              "0.0000,10.0000,1.000000\n90.0000,10.0000,2.000000\n"
+              "0.0000,20.0000,3.000000\n90.0000,20.0000,\n");
+}
+
+TEST(SetUpStudy, RefusesWhatMakesNoSenseAndCanBeCancelled) {
+    const Workpiece workpiece = workpiece_of(project_from_preset("dome"), folders);
+    SetUpStudySettings same = small_settings();
+    same.up = same.across;
+    EXPECT_THROW((void)set_up_study(workpiece, same, Progress()), Defect);
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)set_up_study(workpiece, small_settings(), Progress({}, stop.get_token())), Cancelled);
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,75 @@
+#include "ui/widgets/heat_map.h"
+
+#include "core/base/error.h"
+#include "tests/ui/stage/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace millwright::widgets {
+namespace {
+
+using test::Stage;
+
+constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+
+class HeatMap : public testing::Test {
+protected:
+    std::vector<double> x{0.0, 1.0, 2.0};
+    std::vector<double> y{10.0, 20.0};
+    std::vector<double> values{1.0, 2.0, 3.0, 4.0, 5.0, std::numeric_limits<double>::infinity()};
+    std::vector<double> asked;
+    std::optional<MapPlace> clicked;
+    Stage stage{[this](Ui& ui) {
+        const auto pane = ui.pane("maps", whole);
+        HeatMapView view;
+        view.x = x;
+        view.y = y;
+        view.values = values;
+        view.height = 300.0F;
+        view.best = MapPlace{1.0, 20.0};
+        view.chosen = MapPlace{-100.0, 10.0};
+        view.colours = [this](double t) {
+            asked.push_back(t);
+            return rgb(0x808080);
+        };
+        if (const auto at = heat_map(ui, "cost", view)) {
+            clicked = at;
+        }
+    }};
+};
+
+TEST_F(HeatMap, AClickGivesThePlaceThere) {
+    stage.frames(2);
+    const Rect box = stage.place("maps/cost");
+    stage.click_at({box.x + 0.5F * box.w, box.y + 0.25F * box.h});
+    ASSERT_TRUE(clicked.has_value());
+    EXPECT_NEAR(clicked->x, 1.0, 0.02) << "three cells from -0.5 to 2.5";
+    EXPECT_NEAR(clicked->y, 20.0, 0.2) << "two cells from 5 to 25, upwards";
+}
+
+TEST_F(HeatMap, HasTheWholeRangeOfColoursAndAHoleWhereThereIsNoNumber) {
+    values = {7.0, 9.0, 7.0, 9.0, 7.0, std::numeric_limits<double>::quiet_NaN()};
+    stage.frames(1);
+    asked.clear();
+    stage.frames(1);
+    std::vector<double> ends;
+    for (const double t : asked) {
+        if (t <= 0.0 || t >= 1.0) {
+            ends.push_back(t);
+        }
+    }
+    EXPECT_EQ(ends, (std::vector{0.0, 1.0, 0.0, 1.0, 0.0})) << "five cells; the key asks in between";
+}
+
+TEST_F(HeatMap, WithoutANumberSaysSo) {
+    values.assign(6, std::numeric_limits<double>::infinity());
+    stage.frames(2);
+    stage.click_at(stage.place("maps/cost").centre());
+    EXPECT_FALSE(clicked.has_value());
+}
+
+} // namespace
+} // namespace millwright::widgets

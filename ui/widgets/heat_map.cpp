@@ -1,0 +1,220 @@
+#include "ui/widgets/heat_map.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "ui/widgets/internal/curve.h"
+#include "ui/widgets/ticks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace millwright::widgets {
+
+namespace {
+
+constexpr float least_height = 80.0F;
+
+struct Extremes {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] double share(double value) const { return high > low ? (value - low) / (high - low) : 0.0; }
+};
+
+Extremes extremes_of(std::span<const double> values) {
+    Extremes found;
+    for (const double value : values) {
+        if (std::isfinite(value)) {
+            found.low = std::min(found.low, value);
+            found.high = std::max(found.high, value);
+        }
+    }
+    return found;
+}
+
+/// The border between cell n - 1 and cell n of places, half a step outside at both ends.
+double border(std::span<const double> places, std::size_t n) {
+    const std::size_t last = places.size() - 1;
+    if (n == 0) {
+        return places[0] - 0.5 * (places[1] - places[0]);
+    }
+    return n > last ? places[last] + 0.5 * (places[last] - places[last - 1])
+                    : 0.5 * (places[n - 1] + places[n]);
+}
+
+std::size_t nearest(std::span<const double> places, double value) {
+    const auto at = std::ranges::min_element(
+        places, [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+    return static_cast<std::size_t>(at - places.begin());
+}
+
+Mapping mapping_of(const HeatMapView& view, const Rect& box) {
+    Mapping mapping;
+    mapping.box = box;
+    mapping.x_low = border(view.x, 0);
+    mapping.x_high = border(view.x, view.x.size());
+    mapping.y_low = border(view.y, 0);
+    mapping.y_high = border(view.y, view.y.size());
+    return mapping;
+}
+
+void draw_cells(const Mapping& mapping, const HeatMapView& view, const Extremes& range) {
+    for (std::size_t row = 0; row < view.y.size(); ++row) {
+        const float bottom = std::round(mapping.pixel_y(border(view.y, row)));
+        const float top = std::round(mapping.pixel_y(border(view.y, row + 1)));
+        for (std::size_t column = 0; column < view.x.size(); ++column) {
+            const double value = view.values[row * view.x.size() + column];
+            if (std::isfinite(value)) {
+                const float left = std::round(mapping.pixel_x(border(view.x, column)));
+                const float right = std::round(mapping.pixel_x(border(view.x, column + 1)));
+                fill({left, top, right - left, bottom - top}, view.colours(range.share(value)));
+            }
+        }
+    }
+}
+
+void draw_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float left) {
+    const ImFont* font = ui.look().fonts.small;
+    const float line = font->FontSize;
+    const Colour muted = ui.colours().muted;
+    const Rect& box = mapping.box;
+    const Ticks up =
+        ticks(mapping.y_low, mapping.y_high, std::max(2, static_cast<int>(box.h / (2.2F * line))));
+    for (const double value : up.values) {
+        const float y = std::round(mapping.pixel_y(value));
+        const float right = box.x - ui.px(6.0F);
+        draw_text(
+            ui, font, {left, y - 0.5F * line, right - left, line}, muted, tick_text(value, up), Align::right);
+    }
+    const std::string title = fmt::format("{} ({})", view.x_label, view.x_unit);
+    const float title_x = box.right() - text_width(font, title);
+    const Ticks across =
+        ticks(mapping.x_low, mapping.x_high, std::max(2, static_cast<int>(box.w / ui.px(70.0F))));
+    for (const double value : across.values) {
+        const std::string text = tick_text(value, across);
+        const float half = 0.5F * text_width(font, text);
+        const float x = mapping.pixel_x(value);
+        if (x + half < title_x - ui.px(8.0F)) {
+            draw_text(ui,
+                      font,
+                      {x - half, box.bottom() + ui.px(5.0F), 2.0F * half + 1.0F, line},
+                      muted,
+                      text,
+                      Align::centre);
+        }
+    }
+    draw_text(ui,
+              font,
+              {title_x, box.bottom() + ui.px(5.0F), box.right() - title_x + 1.0F, line},
+              muted,
+              title,
+              Align::right);
+}
+
+/// What the ends of the colours mean, at the right of the line above the map.
+void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes& range) {
+    const ImFont* font = ui.look().fonts.small;
+    const float bar = ui.px(60.0F);
+    const std::string high = fmt::format("{:.4g} {}", range.high, view.unit);
+    const std::string low = fmt::format("{:.4g}", range.low);
+    const float high_width = text_width(font, high) + 1.0F;
+    const float low_width = text_width(font, low) + 1.0F;
+    const float gap = ui.px(6.0F);
+    float x = line.right() - high_width;
+    draw_text(ui, font, {x, line.y, high_width, line.h}, ui.colours().text, high);
+    x -= gap + bar;
+    constexpr int steps = 30;
+    for (int n = 0; n < steps; ++n) {
+        const float width = bar / static_cast<float>(steps);
+        fill({x + width * static_cast<float>(n), line.y + ui.px(2.0F), width + 0.5F, line.h - ui.px(4.0F)},
+             view.colours((n + 0.5) / steps));
+    }
+    x -= gap + low_width;
+    draw_text(ui, font, {x, line.y, low_width, line.h}, ui.colours().text, low);
+    const std::string title = fmt::format("{}  ·  up: {} ({})", view.title, view.y_label, view.y_unit);
+    draw_text(ui, font, {line.x, line.y, x - gap - line.x, line.h}, ui.colours().muted, title);
+}
+
+double value_y(const Mapping& mapping, float pixel) {
+    const double share = static_cast<double>((mapping.box.bottom() - pixel) / mapping.box.h);
+    return mix(mapping.y_low, mapping.y_high, share);
+}
+
+std::string read_out(const HeatMapView& view, const MapPlace& place) {
+    const std::size_t column = nearest(view.x, place.x);
+    const std::size_t row = nearest(view.y, place.y);
+    const double value = view.values[row * view.x.size() + column];
+    const std::string here =
+        std::isfinite(value) ? fmt::format("{:.5g} {}", value, view.unit) : std::string("out of reach");
+    return fmt::format("{} {:.6g} {}\n{} {:.6g} {}\n{}",
+                       view.x_label,
+                       view.x[column],
+                       view.x_unit,
+                       view.y_label,
+                       view.y[row],
+                       view.y_unit,
+                       here);
+}
+
+void draw_marks(Ui& ui, const Mapping& mapping, const HeatMapView& view) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float size = ui.px(6.0F);
+    constexpr Colour white = 0xFFFFFFFF;
+    constexpr Colour black = 0xFF000000;
+    if (view.chosen) {
+        const ImVec2 at{mapping.pixel_x(view.chosen->x), mapping.pixel_y(view.chosen->y)};
+        list.AddCircle(at, size, black, 0, ui.px(4.0F));
+        list.AddCircle(at, size, white, 0, ui.px(1.8F));
+    }
+    if (view.best) {
+        const ImVec2 at{mapping.pixel_x(view.best->x), mapping.pixel_y(view.best->y)};
+        for (const auto& [colour, width] : {std::pair{black, ui.px(4.0F)}, std::pair{white, ui.px(1.8F)}}) {
+            list.AddLine({at.x - size, at.y}, {at.x + size, at.y}, colour, width);
+            list.AddLine({at.x, at.y - size}, {at.x, at.y + size}, colour, width);
+        }
+    }
+}
+
+} // namespace
+
+std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView& view) {
+    expects(view.values.size() == view.x.size() * view.y.size(), "a map has a value a column and row");
+    const std::string own = ui.path(id);
+    const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_height));
+    const Slot slot(ui, 0.0F, height);
+    const Rect& all = slot.rect();
+    const Extremes range = extremes_of(view.values);
+    if (view.x.size() < 2 || view.y.size() < 2 || !(range.low <= range.high)) {
+        fill(all, ui.colours().field, ui.px(2.0F));
+        record_at(ui, own, all);
+        draw_text(ui, ui.look().fonts.text, all, ui.colours().muted, view.when_empty, Align::centre);
+        return std::nullopt;
+    }
+    expects(static_cast<bool>(view.colours), "a map has colours");
+    const float line = ui.look().fonts.small->FontSize;
+    const float left = ui.px(52.0F);
+    draw_key(ui, {all.x, all.y, all.w, line}, view, range);
+    const float top = line + ui.px(6.0F);
+    const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
+    fill(box, ui.colours().field, ui.px(2.0F));
+    const Press now = press(ui, own, box);
+    const Mapping mapping = mapping_of(view, box);
+    ImGui::PushClipRect(upper_left(box), lower_right(box), true);
+    draw_cells(mapping, view, range);
+    draw_marks(ui, mapping, view);
+    ImGui::PopClipRect();
+    draw_ticks(ui, mapping, view, all.x);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const MapPlace place{mapping.value_x(mouse.x), value_y(mapping, mouse.y)};
+    if (now.hovered) {
+        show_at_mouse(ui, own, read_out(view, place));
+    }
+    return now.clicked ? std::optional(place) : std::nullopt;
+}
+
+} // namespace millwright::widgets
