@@ -2,6 +2,7 @@
 // Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
 #include "app/commands/arm_command.h"
 #include "app/commands/cordic_command.h"
+#include "app/commands/cutter_command.h"
 #include "app/commands/emulate_command.h"
 #include "app/commands/gcode_command.h"
 #include "app/commands/jobs_command.h"
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
     add_jobs_command(app, chosen);
     add_pmac_command(app, chosen);
     add_ports_command(app, chosen);
+    add_cutter_command(app, chosen);
     add_emulate_command(app, chosen);
     add_gcode_command(app, chosen);
     add_machine_command(app, chosen);

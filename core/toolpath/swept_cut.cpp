@@ -215,7 +215,10 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
         parallel_for(count, 1, [&](std::ptrdiff_t n) {
             const SweptMove& move = moves[static_cast<std::size_t>(first + n)];
             Sweep sweep(tiles, tool, settings.highest, cut.heights.size());
-            const int looks = looks_at(machine, move, settings.step);
+            constexpr double hits_only =
+                4.0; // a hit is not missed by coarser steps, a scallop would be wrong
+            const double step = move.cuts ? settings.step : hits_only * settings.step;
+            const int looks = looks_at(machine, move, step);
             for (int k = 0; k <= looks; ++k) {
                 progress.check();
                 sweep.look(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));

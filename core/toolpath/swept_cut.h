@@ -21,7 +21,7 @@ struct SweptMove {
 
 struct SweepSettings {
     int nu = 100, nv = 100; ///< points of the raster at equal parameter steps, 2 or more
-    double step = 0.15;     ///< mm of the tip's way between two looks
+    double step = 0.15;     ///< mm of the tip's way between two looks; four times that where nothing is cut
     double highest = 5.0;   ///< mm: material that is higher is taken for not cut
 };
 

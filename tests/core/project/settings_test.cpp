@@ -2,6 +2,7 @@
 #include "core/project/level_settings.h"
 #include "core/project/plot_choices.h"
 #include "core/project/plot_settings.h"
+#include "core/project/tool_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,7 @@ TEST(Settings, EveryNumberHasARangeThatHoldsItsDefault) {
     expect_sound(tracks_numbers());
     expect_sound(chain_numbers());
     expect_sound(program_numbers());
+    expect_sound(tool_numbers());
     expect_sound(plot_numbers());
     expect_sound(level_numbers());
 }

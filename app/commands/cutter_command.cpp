@@ -1,0 +1,126 @@
+#include "app/commands/cutter_command.h"
+
+#include "app/finite_number.h"
+#include "app/interrupt.h"
+#include "app/outputs.h"
+#include "app/posting.h"
+#include "app/progress_printer.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/project/cut_study.h"
+#include "core/project/tool_file.h"
+#include "core/project/tool_settings.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    std::string project;
+    std::string tool;
+    std::string out;
+    double scallop = 0.01; ///< mm that is wanted
+    PostChoice post;
+};
+
+void print_summary(const project::CutStudy& study, const project::Project& project, double wanted) {
+    const project::Evaluation& cut = *study.plan.evaluation(project.grid.method);
+    fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
+               fixed(cut.closest.max, 4),
+               fixed(cut.closest.mean, 4),
+               fixed(to_degrees(cut.closest.axis_max), 2));
+    fmt::print("left on the surface: at most {} mm, {} mm on average; {} % not cut\n",
+               fixed(study.scallops.max, 4),
+               fixed(study.scallops.mean, 4),
+               fixed(100.0 * study.scallops.not_cut, 2));
+    fmt::print("tracks: at most {} mm apart; a scallop of {} mm asks for {}\n",
+               fixed(cut.track_gap, 3),
+               wanted,
+               std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
+    fmt::print("deepest cut below the surface: {} mm; estimated time {}\n",
+               fixed(study.deepest, 4),
+               clock_time(study.plan.trajectory->duration()));
+}
+
+/// A few by name, the rest by their number: all of them are in cut.json.
+void print_bites(const project::CutStudy& study) {
+    constexpr std::size_t named = 5;
+    for (std::size_t n = 0; n < std::min(named, study.bites.size()); ++n) {
+        const project::BlockBite& bite = study.bites[n];
+        fmt::print(stderr,
+                   "warning: line {}: the {} is {} mm deep in the part at {} {} {}\n",
+                   bite.line,
+                   bite.by_holder ? "holder" : "cutter",
+                   fixed(bite.bite.depth, 4),
+                   fixed(bite.bite.position.x(), 3),
+                   fixed(bite.bite.position.y(), 3),
+                   fixed(bite.bite.position.z(), 3));
+    }
+    if (study.bites.size() > named) {
+        fmt::print(stderr, "warning: {} more such lines, all in cut.json\n", study.bites.size() - named);
+    }
+    if (!study.local_gouges.empty()) {
+        const project::LocalGouge& first = study.local_gouges.front();
+        fmt::print(stderr,
+                   "warning: the cutter does not fit into the surface at {} nodes, the first of them {},{}\n",
+                   study.local_gouges.size(),
+                   first.origin.i,
+                   first.origin.j);
+    }
+}
+
+int cut(const Options& options) {
+    const Interrupt interrupt;
+    const OpenedProject opened = open_project(options.project);
+    const project::ToolInput tool = project::read_tool(options.tool);
+    make_folder(options.out);
+    project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const project::CutStudy study =
+        project::study_cut(std::move(plan), opened.project, tool, options.scallop, progress);
+    printer.finish();
+    const PostedText text =
+        posted(*study.plan.program, study.plan.workpiece->machine, options.post, opened.file.stem().string());
+    write_outputs(options.out,
+                  {{"program." + text.format.extension, text.text.listing.text},
+                   {"cut.json", project::cut_report_text(opened.project, tool, study)},
+                   {"surface.csv", project::surface_csv(study)}},
+                  opened.file);
+    print_notes(text);
+    fmt::print("tool: {}\n", project::tool_text(tool));
+    print_summary(study, opened.project, options.scallop);
+    print_bites(study);
+    return 0;
+}
+
+} // namespace
+
+void add_cutter_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command =
+        *app.add_subcommand("cutter", "Cut a project with a tool that has a body: error, scallops, gouges");
+    command.add_option("PROJECT", options->project, "Project file")->required();
+    command.add_option("--tool", options->tool, "Tool file")->required()->type_name("FILE");
+    command.add_option("--out", options->out, "Folder for program, cut.json and surface.csv")
+        ->required()
+        ->type_name("DIR");
+    command.add_option("--scallop", options->scallop, "Scallop height to find the step-over for, mm")
+        ->type_name("MM")
+        ->check(above_zero());
+    add_post_options(command, options->post);
+    command.callback([&chosen, options] { chosen = [options] { return cut(*options); }; });
+}
+
+} // namespace millwright::app

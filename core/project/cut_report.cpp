@@ -1,0 +1,84 @@
+#include "core/base/units.h"
+#include "core/project/cut_study.h"
+#include "core/project/internal/json_text.h"
+#include "core/project/settings.h"
+#include "core/project/tool_settings.h"
+#include "core/project/version.h"
+
+#include <cmath>
+
+namespace millwright::project {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Figures are rounded to a nanometre or a microdegree: no reader needs more.
+double rounded(double value) {
+    constexpr double steps = 1e6;
+    return std::round(value * steps) / steps;
+}
+
+Json vector(const Vec3& p) {
+    return Json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+}
+
+Json bites(const CutStudy& study) {
+    Json json = Json::array();
+    for (const BlockBite& bite : study.bites) {
+        Json entry;
+        entry["block"] = bite.block;
+        entry["line"] = bite.line;
+        entry["body"] = bite.by_holder ? "holder" : "cutter";
+        entry["depth_mm"] = rounded(bite.bite.depth);
+        entry["u"] = rounded(bite.bite.uv.x());
+        entry["v"] = rounded(bite.bite.uv.y());
+        entry["position_mm"] = vector(bite.bite.position);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+Json local_gouges(const CutStudy& study) {
+    Json json = Json::array();
+    for (const LocalGouge& gouge : study.local_gouges) {
+        Json entry;
+        entry["node"] = Json::array({gouge.origin.i, gouge.origin.j});
+        entry["relative_curvature_per_mm"] =
+            std::isfinite(gouge.relative_curvature) ? Json(rounded(gouge.relative_curvature)) : Json();
+        entry["position_mm"] = vector(gouge.contact);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+} // namespace
+
+std::string cut_report_text(const Project& project, const ToolInput& input, const CutStudy& study) {
+    const Evaluation& evaluation = *study.plan.evaluation(project.grid.method);
+    Json json;
+    json["format"] = "millwright-cut";
+    json["version"] = 1;
+    json["made_by"] = "Millwright " + std::string(version());
+    json["project"] = project.name;
+    json["tool"] = tool_text(input);
+    json["grid"] = row_of(grid_methods(), project.grid.method).id;
+    json["error_mm"]["max"] = rounded(evaluation.closest.max);
+    json["error_mm"]["mean"] = rounded(evaluation.closest.mean);
+    json["error_mm"]["p95"] = rounded(evaluation.closest.p95);
+    json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
+    json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
+    json["scallop_mm"]["max"] = rounded(study.scallops.max);
+    json["scallop_mm"]["mean"] = rounded(study.scallops.mean);
+    json["scallop_mm"]["p95"] = rounded(study.scallops.p95);
+    json["scallop_mm"]["by_formula"] = rounded(study.scallops.by_formula);
+    json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
+    json["step_over_mm"] = std::isfinite(study.step_over) ? Json(rounded(study.step_over)) : Json();
+    json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
+    json["bites"] = bites(study);
+    json["local_gouges"] = local_gouges(study);
+    json["estimated_time_s"] = rounded(study.plan.trajectory->duration());
+    return json_text(json);
+}
+
+} // namespace millwright::project

@@ -1,0 +1,55 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(CutterCommand, LeavesProgramReportAndMap) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended ended = run({"cutter",
+                             project,
+                             "--tool",
+                             "assets/tools/bull-nose-10.json",
+                             "--out",
+                             scratch / "out",
+                             "--scallop",
+                             "0.02"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm, corner radius 2 mm"));
+    EXPECT_THAT(ended.out, HasSubstr("a scallop of 0.02 mm asks for"));
+    EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("G93"));
+    EXPECT_THAT(content_of(scratch / "out/surface.csv"), StartsWith("u,v,x_mm"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/cut.json"));
+    EXPECT_EQ(report.at("format"), "millwright-cut");
+    EXPECT_GT(report.at("scallop_mm").at("max"), 0.0);
+}
+
+TEST(CutterCommand, RefusesWhatIsNoTool) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended wrong = run({"cutter", project, "--tool", project, "--out", scratch / "out"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_THAT(wrong.err, HasSubstr("not a tool file"));
+    const Ended nothing = run({"cutter",
+                               project,
+                               "--tool",
+                               "assets/tools/ball-6.json",
+                               "--out",
+                               scratch / "out",
+                               "--scallop",
+                               "0"});
+    EXPECT_EQ(nothing.exit_code, 2);
+    EXPECT_FALSE(fs::exists(scratch / "out"));
+}
+
+} // namespace
+} // namespace millwright::test

@@ -1,0 +1,121 @@
+#include "core/project/cut_study.h"
+
+#include "core/base/error.h"
+#include "core/project/assets.h"
+#include "core/project/tool_settings.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace millwright::project {
+namespace {
+
+using toolpath::CutterKind;
+
+/// A plane of 40 x 40 mm on the router, cut along u.
+Project plane(int nu, int nv) {
+    Project project = project_from_preset("dome");
+    project.surface.preset.clear();
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            net.point(i, j) = {40.0 * i - 20.0, 40.0 * j - 20.0, 0.0};
+        }
+    }
+    project.surface.patches = {net};
+    project.machine.file = "router-xyz";
+    project.grid.nu = nu;
+    project.grid.nv = nv;
+    project.grid.direction = grid::TrackDirection::along_u;
+    project.grid.method = GridMethod::uniform;
+    return project;
+}
+
+CutStudy study(const Project& project, const ToolInput& tool, double wanted = 0.01) {
+    return study_cut(
+        make_plan(project, {{}, assets_folder()}, {}, Scope::program), project, tool, wanted, {});
+}
+
+const ToolInput ball{.cutter = CutterKind::ball, .diameter_mm = 8.0};
+
+TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
+    const CutStudy found = study(plane(5, 11), ball); // tracks 4 mm apart
+    const double exact = 4.0 - std::sqrt(16.0 - 4.0);
+    EXPECT_NEAR(found.scallops.max, exact, 2e-3);
+    EXPECT_NEAR(found.scallops.by_formula, 16.0 / (8.0 * 4.0), 1e-9);
+    EXPECT_NEAR(found.step_over, std::sqrt(8.0 * 0.01 * 4.0), 1e-9);
+    EXPECT_EQ(found.scallops.not_cut, 0.0);
+    EXPECT_LT(found.deepest, 1e-6);
+    EXPECT_TRUE(found.bites.empty());
+    EXPECT_TRUE(found.local_gouges.empty());
+    const Evaluation& cut = *found.plan.evaluation(GridMethod::uniform);
+    EXPECT_LT(cut.closest.max, 1e-9);
+    EXPECT_GT(found.plan.trajectory->duration(), 0.0);
+}
+
+/// The two bells stand on a ground that they meet in valleys: a thick ball does not fit there, a thin one
+/// does.
+TEST(CutStudy, TellsTheBlocksThatGouge) {
+    Project project = project_from_preset("two-bell");
+    project.machine.file = "router-xyz";
+    project.grid.nu = 6;
+    project.grid.nv = 30;
+    project.grid.method = GridMethod::uniform;
+    ToolInput tool = ball;
+    tool.diameter_mm = 60.0;
+    tool.length_mm = 100.0;
+    const CutStudy thick = study(project, tool);
+    ASSERT_FALSE(thick.bites.empty());
+    EXPECT_FALSE(thick.local_gouges.empty());
+    const BlockBite& deepest =
+        *std::max_element(thick.bites.begin(), thick.bites.end(), [](const BlockBite& a, const BlockBite& b) {
+            return a.bite.depth < b.bite.depth;
+        });
+    EXPECT_EQ(deepest.bite.depth, thick.deepest);
+    EXPECT_TRUE(thick.plan.program->blocks.at(static_cast<std::size_t>(deepest.block)).moves());
+    EXPECT_GT(deepest.line, 0);
+    const auto report = nlohmann::json::parse(cut_report_text(project, tool, thick));
+    EXPECT_EQ(report.at("bites").size(), thick.bites.size());
+    EXPECT_EQ(report.at("local_gouges").size(), thick.local_gouges.size());
+
+    tool.diameter_mm = 1.0;
+    tool.gouge_limit_mm = 0.5;
+    const CutStudy thin = study(project, tool);
+    EXPECT_LT(thin.local_gouges.size(), thick.local_gouges.size());
+    EXPECT_LT(thin.deepest, 0.2 * thick.deepest);
+}
+
+TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
+    ToolInput narrow = ball;
+    narrow.diameter_mm = 1.0; // tracks 20 mm apart leave most of the plane as it is
+    const CutStudy found = study(plane(5, 3), narrow);
+    EXPECT_GT(found.scallops.not_cut, 0.5);
+    std::istringstream lines(surface_csv(found));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "u,v,x_mm,y_mm,z_mm,height_mm");
+    int count = 0;
+    int empty = 0;
+    while (std::getline(lines, line)) {
+        ++count;
+        empty += line.back() == ',' ? 1 : 0;
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 5);
+    }
+    EXPECT_EQ(count, found.swept.nu * found.swept.nv);
+    EXPECT_NEAR(found.scallops.not_cut, static_cast<double>(empty) / count, 1e-12);
+}
+
+TEST(CutStudy, RefusesAPointAndFaultyAngles) {
+    Project project = plane(3, 3);
+    EXPECT_THROW((void)study(project, {}), Error);
+    project.machine.file = "rotary-tilt-listing";
+    project.machine.angle_mode = kinematics::AngleMode::faulty_listing;
+    EXPECT_THROW((void)study_cut({}, project, ball, 0.01, {}), Error);
+}
+
+} // namespace
+} // namespace millwright::project
