@@ -1,11 +1,12 @@
 #include "app/controller.h"
 
 #include "app/job_keys.h"
-#include "app/progress_printer.h"
+#include "app/job_printer.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
+#include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/survey.h"
 
@@ -17,6 +18,7 @@
 
 #include <cstdio>
 #include <ctime>
+#include <map>
 #include <utility>
 
 namespace millwright::app {
@@ -29,7 +31,7 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                      "The machine stands where the controller says: somebody has looked");
     command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
     command.add_flag("--power", choice.power, "Give the motors power: somebody has looked; of a PMAC");
-    command.add_flag("--home", choice.home, "Find the machine's zero by its switches first");
+    command.add_flag("--home", choice.home, "Home the machine first: it moves");
     command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
     command.add_flag("--single-block", choice.single_block, "Rest after each block, from the first on");
     return *command
@@ -39,7 +41,9 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                 ->type_name("PORT");
 }
 
-Controller::Controller(ControllerChoice choice) : choice_(std::move(choice)) {
+Controller::Controller(ControllerChoice choice, const std::string& log_folder)
+    : choice_(std::move(choice)), log_folder_(log_folder),
+      memory_(log_folder, choice_.driver + " " + choice_.port) {
     machine::DriverChoice wanted;
     wanted.kind = machine::driver_kind(choice_.driver);
     wanted.address = choice_.port;
@@ -48,70 +52,118 @@ Controller::Controller(ControllerChoice choice) : choice_(std::move(choice)) {
     driver_ = machine::make_driver(wanted, {}, clock_);
 }
 
-Controller::~Controller() = default;
+Controller::~Controller() {
+    remember();
+}
 
 void Controller::check(const machine::Job& job) const {
     driver_->check(*job.listing, job.project);
 }
 
-void Controller::connect() {
+void Controller::connect(bool at_a_line, const std::stop_token& stop) {
     driver_->connect();
-    if (driver_->status().state == machine::DriverState::alarm) {
-        if (!choice_.unlock) { // its position may be lost
-            throw Error(
-                driver_->status().message, {}, "look at the machine; --unlock goes on from where it stands");
-        }
-        driver_->reset();
-    }
-    settle_position();
+    memory_.remind(*driver_);
+    prepare(at_a_line, stop);
     if (choice_.optional_stop) {
         driver_->set_optional_stop(true);
     }
     if (choice_.single_block) {
         driver_->set_single_block(true);
     }
+    say_who_is_there();
+}
+
+/// What a person said may be done before the job. Nothing is, for a job that is refused; homing ends every
+/// doubt.
+void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
+    using machine::DriverState;
+    using machine::DriverStatus;
+    if (!choice_.home) {
+        settle_position(at_a_line);
+    }
+    const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
+    if (driver_->status().state == DriverState::alarm && !homing_unlocks) {
+        unlock();
+    }
+    if (choice_.power) {
+        driver_->enable();
+        wait_for([](const DriverStatus& now) { return now.powered || now.state == DriverState::alarm; }, stop);
+    }
+    if (choice_.home) {
+        driver_->home();
+        wait_for([](const DriverStatus& now) { return now.state != DriverState::running; }, stop);
+        settle_position(at_a_line);
+    }
+}
+
+/// Throws Error for an alarm, and where somebody stopped it.
+void Controller::wait_for(const std::function<bool(const machine::DriverStatus&)>& done,
+                          const std::stop_token& stop) {
+    constexpr double glance = 0.02; // s
+    while (!done(driver_->status())) {
+        if (stop.stop_requested()) {
+            driver_->stop();
+            throw Cancelled();
+        }
+        clock_.wait(glance);
+    }
+    if (const machine::DriverStatus now = driver_->status(); now.state == machine::DriverState::alarm) {
+        throw Error(now.message);
+    }
+}
+
+void Controller::unlock() {
+    const machine::DriverStatus status = driver_->status();
+    if (status.link_lost) {
+        throw Error(status.message);
+    }
+    if (!choice_.unlock) { // its position may be lost
+        throw Error(status.message, {}, "look at the machine; --unlock goes on from where it stands");
+    }
+    driver_->reset();
+}
+
+void Controller::say_who_is_there() const {
     const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver_.get());
     const std::string name = grbl != nullptr            ? "Grbl " + grbl->readout().version
                              : choice_.driver == "pmac" ? "a PMAC"
                                                         : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
+    constexpr int reports = 10;
+    const auto settings = grbl != nullptr ? grbl->readout().settings : std::map<int, double>();
+    if (const auto mask = settings.find(reports); mask != settings.end()) {
+        const std::string_view advice = machine::grbl_reports_advice(static_cast<int>(mask->second));
+        fmt::print("{}{}", advice, advice.empty() ? "" : "\n");
+    }
     std::fflush(stdout);
-    prepare();
 }
 
-/// What a person said may be done before the job.
-void Controller::prepare() {
-    const auto wait_while = [this](const auto& waits) {
-        for (constexpr double glance = 0.02; waits(driver_->status());) {
-            clock_.wait(glance);
-        }
-        if (const machine::DriverStatus now = driver_->status(); now.state == machine::DriverState::alarm) {
-            throw Error(now.message);
-        }
-    };
-    if (choice_.power) {
-        driver_->enable();
-        wait_while([](const machine::DriverStatus& now) {
-            return !now.powered && now.state != machine::DriverState::alarm;
-        });
-    }
-    if (choice_.home) {
-        driver_->home();
-        wait_while([](const machine::DriverStatus& now) {
-            return now.activity == machine::Activity::homing || now.state == machine::DriverState::running;
-        });
-    }
-}
-
-void Controller::settle_position() {
+void Controller::settle_position(bool at_a_line) {
     if (choice_.trust_position) {
         driver_->trust_position();
     }
-    if (const std::string why = driver_->status().position_doubt; !why.empty()) {
-        fmt::print(stderr,
-                   "millwright: {} A job that begins at a line needs that, or --trust-position if it stands "
-                   "where the controller says.\n",
-                   machine::doubt_sentence(why));
+    remember();
+    const std::string why = driver_->status().position_doubt;
+    if (why.empty()) {
+        return;
+    }
+    if (at_a_line) {
+        throw Error(machine::doubt_sentence(why) + " A job that begins at a line could begin anywhere",
+                    {},
+                    "--trust-position if it stands where the controller says");
+    }
+    fmt::print(stderr,
+               "millwright: {} A job that begins at a line needs that, or --trust-position if it stands "
+               "where the controller says.\n",
+               machine::doubt_sentence(why));
+}
+
+/// What cannot be remembered is told, and keeps nobody from working.
+void Controller::remember() {
+    try {
+        memory_.keep(driver_->status());
+    } catch (const Error& error) {
+        fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
     }
 }
 
@@ -129,28 +181,16 @@ void Controller::show_warnings(const machine::Job& job) const {
     }
 }
 
-machine::JobOutcome
-Controller::run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop) {
+machine::JobOutcome Controller::run(const machine::Job& job, const std::stop_token& stop) {
     show_warnings(job);
-    machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
-    ProgressPrinter printer;
+    machine::Dispatcher dispatcher(*driver_, clock_, log_folder_);
+    JobPrinter printer;
     const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});
     const Progress progress([](const Progress::Report&) {}, stop);
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
-        printer.show(report_of(report, keys.listening()));
+        remember();
+        printer.show(report, keys.listening());
     });
-}
-
-Progress::Report report_of(const machine::JobReport& report, bool keys) {
-    const machine::DriverStatus& now = report.driver;
-    std::string text = fmt::format("Block {} of {}", now.executed_blocks, report.blocks);
-    if (now.state == machine::DriverState::holding) {
-        text += ", holding" + (now.message.empty() ? "" : ": " + now.message) + (keys ? " (r goes on)" : "");
-    }
-    const bool planned = report.planned_time > 0.0;
-    return {planned ? now.planned_time / report.planned_time
-                    : static_cast<double>(now.executed_blocks) / report.blocks,
-            std::move(text)};
 }
 
 std::string now_for_people() {

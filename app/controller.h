@@ -6,7 +6,9 @@
 #include "core/machine/dispatcher.h"
 #include "core/machine/driver.h"
 #include "core/machine/job.h"
+#include "core/machine/position_memory.h"
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -18,8 +20,8 @@ class Option;
 
 namespace millwright::app {
 
-/// Which controller, and what the options --port, --one-by-one, --unlock, --trust-position, --keys,
-/// --optional-stop, --single-block, --power and --home say.
+/// Which controller, and what the options --port, --one-by-one, --unlock, --power, --home, --trust-position,
+/// --keys, --optional-stop and --single-block say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
@@ -40,8 +42,8 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
 /// A controller on which jobs are run one after another, over one connection.
 class Controller {
 public:
-    /// Makes no link yet.
-    explicit Controller(ControllerChoice choice);
+    /// Makes no link yet. Logs, and doubts about positions, are in `log_folder`.
+    Controller(ControllerChoice choice, const std::string& log_folder);
     Controller(const Controller&) = delete;
     Controller& operator=(const Controller&) = delete;
     ~Controller();
@@ -49,25 +51,28 @@ public:
     /// Throws Error for what this controller must not be sent.
     void check(const machine::Job& job) const;
     /// Throws Error if nobody answers, or if the controller is locked and nobody said that it may be
-    /// unlocked.
-    void connect();
+    /// unlocked, or that it shall be homed first, which moves it; `at_a_line`: also if the position that a
+    /// job needs that begins there is in doubt. Nothing was unlocked then.
+    void connect(bool at_a_line, const std::stop_token& stop);
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
-    [[nodiscard]] machine::JobOutcome
-    run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop);
+    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop);
 
 private:
-    void settle_position();
-    void prepare();
+    void prepare(bool at_a_line, const std::stop_token& stop);
+    void wait_for(const std::function<bool(const machine::DriverStatus&)>& done, const std::stop_token& stop);
+    void unlock();
+    void settle_position(bool at_a_line);
+    void say_who_is_there() const;
+    void remember();
     void show_warnings(const machine::Job& job) const;
 
     ControllerChoice choice_;
+    std::string log_folder_;
+    machine::PositionMemory memory_;
     machine::SteadyClock clock_;
     std::unique_ptr<machine::Driver> driver_;
 };
-
-/// What a person reads of a running job. `keys` can be pressed.
-[[nodiscard]] Progress::Report report_of(const machine::JobReport& report, bool keys);
 
 /// Date and time for people.
 [[nodiscard]] std::string now_for_people();

@@ -19,6 +19,8 @@ sigset_t watched_signals() {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGHUP); // the terminal was closed
+    sigaddset(&set, SIGQUIT);
     return set;
 }
 
@@ -58,7 +60,7 @@ void Interrupt::listen() const {
             continue;
         }
         constexpr int interrupted = 130;
-        if (asked.stop_requested()) {
+        if (asked.stop_requested() && signal.ssi_signo != SIGHUP) { // of which more than one comes
             ::_exit(interrupted);
         }
         asked.request_stop();

@@ -1,5 +1,5 @@
-// Ctrl+C, asking politely: the first SIGINT or SIGTERM asks the work to stop, the second one ends the
-// program.
+// Ctrl+C, asking politely: the first SIGINT, SIGTERM or SIGQUIT, or a terminal that is closed, asks the work
+// to stop; a second signal ends the program.
 #pragma once
 
 #include <stop_token>

@@ -97,11 +97,13 @@ void JobKeys::obey(char key) {
         case 'q':
             return dispatcher_.stop();
         case 'b':
-            switches_.single_block = !switches_.single_block;
-            return dispatcher_.set_single_block(switches_.single_block);
+            dispatcher_.set_single_block(!switches_.single_block);
+            switches_.single_block = !switches_.single_block; // unless it was refused
+            return;
         case 'o':
+            dispatcher_.set_optional_stop(!switches_.optional_stop);
             switches_.optional_stop = !switches_.optional_stop;
-            return dispatcher_.set_optional_stop(switches_.optional_stop);
+            return;
         case '+':
         case '-':
             overrides_.feed =

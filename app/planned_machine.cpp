@@ -2,7 +2,7 @@
 
 #include "app/finite_number.h"
 #include "app/job_keys.h"
-#include "app/progress_printer.h"
+#include "app/job_printer.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/machine/dispatcher.h"
@@ -66,7 +66,7 @@ void check(const PlannedMachineChoice& choice) {
 machine::JobOutcome
 PlannedMachine::run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop) {
     connect(job);
-    ProgressPrinter printer;
+    JobPrinter printer;
     bool begun = false; // from then on the report says more
     const Progress progress(
         [&](const Progress::Report& report) {
@@ -81,7 +81,7 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
                        {choice_.controller.optional_stop, choice_.controller.single_block});
     machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
         begun = true;
-        printer.show(report_of(report, keys.listening()));
+        printer.show(report, keys.listening());
     });
     if (const std::string late = cordic_ == nullptr ? "" : cordic_->remark(); !late.empty()) {
         fmt::print(stderr, "millwright: {}: {}\n", job.name, late);

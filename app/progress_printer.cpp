@@ -66,6 +66,20 @@ void ProgressPrinter::show(const Progress::Report& report) {
     print_line(report);
 }
 
+void ProgressPrinter::say(const std::string& line) {
+    finish();
+    fmt::print(stderr, "{}\n", line);
+    std::fflush(stderr);
+}
+
+void ProgressPrinter::pause(bool on) {
+    const auto now = Clock::now();
+    if (paused_) {
+        begin_ += now - std::exchange(*paused_, now); // as if it had not passed
+    }
+    paused_ = on ? std::optional(now) : std::nullopt;
+}
+
 void ProgressPrinter::draw_bar(const Progress::Report& report, double elapsed) {
     const auto columns = static_cast<std::size_t>(std::max(1, terminal_columns() - 1));
     const int width = std::min(widest_bar, static_cast<int>(columns) / 4);

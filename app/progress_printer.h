@@ -4,6 +4,7 @@
 #include "core/base/progress.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace millwright::app {
@@ -16,6 +17,10 @@ public:
     ~ProgressPrinter();
 
     void show(const Progress::Report& report);
+    /// A whole line that stays, above the bar.
+    void say(const std::string& line);
+    /// While nothing is done, so that the remaining time is told by the rest.
+    void pause(bool on);
     /// Takes the bar away, so that other lines can follow.
     void finish();
 
@@ -29,8 +34,9 @@ private:
     bool drawn_ = false;
     Clock::time_point begin_;
     Clock::time_point last_;
-    std::string words_; ///< of the last line that was printed
-    int tenths_ = -1;   ///< of the work, in that line
+    std::optional<Clock::time_point> paused_; ///< since when
+    std::string words_;                       ///< of the last line that was printed
+    int tenths_ = -1;                         ///< of the work, in that line
 };
 
 } // namespace millwright::app

@@ -1,6 +1,7 @@
 #include "app/series.h"
 
 #include "app/finite_number.h"
+#include "app/held_story.h"
 #include "app/question.h"
 #include "core/base/error.h"
 #include "core/machine/job_queue.h"
@@ -169,8 +170,10 @@ private:
                         {},
                         "without --yes it is asked what becomes of it");
         }
-        const std::string story = fmt::format(
-            "{} did not come to its end: {}\nLook at the machine and the part.\n", job.project, job.sentence);
+        const std::string story =
+            fmt::format("{} did not come to its end: {}\nLook at the machine and the part.\n",
+                        job.project,
+                        held_story(job, choice_.log));
         for (std::string before = story;;) {
             const std::string answer =
                 question(before + "a: again from its beginning, a number: from this line, s: leave it out, "
@@ -243,8 +246,8 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
     command
         .add_option("--clearance",
                     clearance,
-                    "Z of the work in which the tool can go anywhere, for --from-line; in the unit of the "
-                    "line where a controller executes the text (inch after G20), else mm")
+                    "Z of the work in which the tool can go anywhere, for --from-line, mm (also where the "
+                    "program is in inches)")
         ->type_name("Z")
         ->check(finite_number());
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/machine/job.h"
+#include "core/project/recent_files.h"
 
 #include <functional>
 #include <optional>
@@ -19,7 +20,7 @@ namespace millwright::app {
 /// What the arguments FILE ... and the options --log, --from-line, --continue and --yes say.
 struct SeriesChoice {
     std::vector<std::string> files;
-    std::string log = "jobs";
+    std::string log = project::job_logs_place().string();
     int from_line = 1;      ///< of the first file
     bool go_on = false;     ///< with what is left of an earlier command
     bool confirmed = false; ///< nobody is asked

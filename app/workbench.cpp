@@ -63,7 +63,7 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
 void run_workbench(const std::optional<std::filesystem::path>& file) {
     render::WindowContext window({});
     actions::Workshop workshop({.assets = project::assets_folder(),
-                                .log_folder = "jobs",
+                                .log_folder = project::job_logs_place(),
                                 .settings = project::recent_files_place(),
                                 .recovery = project::recovery_place(),
                                 .wake = [&window] { window.request_redraw(); }});

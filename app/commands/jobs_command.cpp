@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/way_on.h"
+#include "core/project/recent_files.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -17,7 +18,7 @@ namespace millwright::app {
 namespace {
 
 struct Options {
-    std::string folder = "jobs";
+    std::string folder = project::job_logs_place().string();
     bool json = false;
 };
 
@@ -30,6 +31,7 @@ nlohmann::ordered_json as_json(const machine::JobStory& story) {
             {"job", story.start.job},
             {"program", story.start.project},
             {"driver", story.start.driver},
+            {"port", story.start.address},
             {"started_at", story.start.started_at},
             {"end", state_of(story)},
             {"blocks", story.start.blocks},
@@ -44,12 +46,13 @@ void say_how_it_goes_on(const machine::JobStory& story) {
     const machine::WayOn way = machine::way_on(story);
     const bool from_line = way.why_the_beginning.empty();
     fmt::print("    Look at the machine and the part. {}\n"
-               "    millwright {} {} --driver {}{} ...\n",
+               "    millwright {} {} --driver {}{}{}\n",
                from_line ? "To go on before the first line that is not certain:"
                          : fmt::format("It runs again from its beginning alone: {}.", way.why_the_beginning),
                story.start.project.ends_with(".json") ? "run" : "send",
                story.start.project,
                story.start.driver,
+               story.start.address.empty() ? " ..." : " --port " + story.start.address,
                from_line
                    ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
                    : std::string());

@@ -62,7 +62,7 @@ int run(const Options& options) {
     const Interrupt interrupt;
     std::optional<Controller> controller;
     if (options.machine.driver == "grbl") {
-        controller.emplace(options.machine.controller);
+        controller.emplace(options.machine.controller, options.series.log);
     }
     PlannedMachine planned_machine(options.machine);
     SeriesSteps steps;
@@ -80,11 +80,11 @@ int run(const Options& options) {
     };
     steps.ready = [&] {
         if (controller) {
-            controller->connect();
+            controller->connect(options.series.from_line > 1, interrupt.token());
         }
     };
     steps.run = [&](const machine::Job& job) {
-        return controller ? controller->run(job, options.series.log, interrupt.token())
+        return controller ? controller->run(job, interrupt.token())
                           : planned_machine.run(job, options.series.log, interrupt.token());
     };
     return run_series(options.series, steps, interrupt.token());

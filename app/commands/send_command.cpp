@@ -110,17 +110,15 @@ machine::Job text_of(const Options& options, const std::string& file) {
 /// To a controller that plans for itself.
 int send_text(const Options& options) {
     const Interrupt interrupt;
-    Controller controller(options.machine.controller);
+    Controller controller(options.machine.controller, options.series.log);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         machine::Job job = ready(text_of(options, file), options, from_line);
         controller.check(job);
         return job;
     };
-    steps.ready = [&] { controller.connect(); };
-    steps.run = [&](const machine::Job& job) {
-        return controller.run(job, options.series.log, interrupt.token());
-    };
+    steps.ready = [&] { controller.connect(options.series.from_line > 1, interrupt.token()); };
+    steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt.token()); };
     return run_series(options.series, steps, interrupt.token());
 }
 

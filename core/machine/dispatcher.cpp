@@ -304,11 +304,12 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
 
     JobLog log(log_folder_, job.name);
     log.write(LogStart{.job = job.name,
-                       .project = job.project,
+                       .project = lasting_name(job.project),
                        .machine = job.machine ? job.machine->name() : std::string(),
                        .driver = driver_.name(),
                        .program_hash = job.hash.empty() ? program_hash(job.listing->text) : job.hash,
                        .started_at = job.started_at,
+                       .address = driver_.address(),
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
                        .planned_time = trajectory ? trajectory->duration() : 0.0,
@@ -355,11 +356,15 @@ void Dispatcher::bring_to_rest() {
 }
 
 void Dispatcher::hold() {
-    request(LogEvent::hold, {}, [this] { driver_.hold(); });
+    if (driver_.status().state != DriverState::holding) { // a second one is no event
+        request(LogEvent::hold, {}, [this] { driver_.hold(); });
+    }
 }
 
 void Dispatcher::resume() {
-    request(LogEvent::resume, {}, [this] { driver_.resume(); });
+    if (driver_.status().state == DriverState::holding) {
+        request(LogEvent::resume, {}, [this] { driver_.resume(); });
+    }
 }
 
 void Dispatcher::stop() {

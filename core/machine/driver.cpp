@@ -32,6 +32,8 @@ void Driver::enable() {
     refuse(*this, "switch the power of its motors");
 }
 
+void Driver::doubt_position(std::string) {}
+
 void Driver::home() {
     refuse(*this, "home");
 }

@@ -101,6 +101,8 @@ class Driver {
 public:
     virtual ~Driver() = default;
     [[nodiscard]] virtual std::string name() const = 0;
+    /// As make_link() takes it; empty where there is no link.
+    [[nodiscard]] virtual std::string address() const { return {}; }
     [[nodiscard]] virtual DriverStatus status() const = 0;
     [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
 
@@ -125,6 +127,9 @@ public:
     virtual void reset() = 0;
     /// A person has looked: the machine stands where DriverStatus::position says.
     virtual void trust_position();
+    /// Something speaks against DriverStatus::position that the driver cannot know; `why` as
+    /// DriverStatus::position_doubt. Drivers whose position cannot be wrong unnoticed do nothing.
+    virtual void doubt_position(std::string why);
     /// Stops and drops the link; waits until the machine is at rest. Never throws.
     virtual void close() noexcept = 0;
 

@@ -64,7 +64,9 @@ public:
             }
         }
         const bool timed = block.kind == BlockKind::feed || block.kind == BlockKind::dwell;
-        if (timed && !(std::isfinite(block.duration) && block.duration > 0.0)) {
+        const bool rests = block.target == gcode::position_before(*job_.program, n);
+        const bool enough = block.duration > 0.0 || (rests && block.duration >= 0.0);
+        if (timed && !(std::isfinite(block.duration) && enough)) {
             report(n, 'F', fmt::format("a duration of {} s cannot be executed", block.duration));
         }
     }
@@ -195,6 +197,13 @@ std::vector<Diagnostic> preflight(const Job& job) {
         checks.check(n);
     }
     return found;
+}
+
+std::string lasting_name(const std::string& project) {
+    std::error_code none;
+    return std::filesystem::is_regular_file(project, none)
+               ? std::filesystem::absolute(project).lexically_normal().string()
+               : project;
 }
 
 std::string program_hash(std::string_view listing) {

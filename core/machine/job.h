@@ -66,6 +66,9 @@ struct JobOutcome {
 /// is wrong. Empty: nothing.
 [[nodiscard]] std::vector<Diagnostic> preflight(const Job& job);
 
+/// Job::project as it is written down: of a file its absolute path, so that it is found from any folder.
+[[nodiscard]] std::string lasting_name(const std::string& project);
+
 /// FNV-1a of the listing as 16 hexadecimal digits: tells whether a log belongs to a program, no more.
 [[nodiscard]] std::string program_hash(std::string_view listing);
 

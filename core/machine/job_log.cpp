@@ -82,7 +82,8 @@ LogStart start_from(const JsonValue& value) {
                        "axes",
                        "blocks",
                        "planned_time_s",
-                       "from_line"});
+                       "from_line",
+                       "address"});
     if (value.at("record").text() != "start" || value.at("format").text() != format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -108,6 +109,9 @@ LogStart start_from(const JsonValue& value) {
     }
     start.blocks = value.at("blocks").integer(0);
     start.planned_time = value.at("planned_time_s").number(0.0);
+    if (const auto address = value.find("address")) {
+        start.address = address->text();
+    }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
     }
@@ -246,6 +250,9 @@ void JobLog::write(const LogStart& start) {
               {"axes", axes},
               {"blocks", start.blocks},
               {"planned_time_s", rounded(start.planned_time)}};
+    if (!start.address.empty()) {
+        line["address"] = start.address;
+    }
     if (start.from_line > 1) {
         line["from_line"] = start.from_line;
     }

@@ -17,6 +17,7 @@ namespace millwright::machine {
 /// What the first line says.
 struct LogStart {
     std::string job, project, machine, driver, program_hash, started_at;
+    std::string address;                  ///< Driver::address()
     std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
     int blocks = 0;
     double planned_time = 0.0;

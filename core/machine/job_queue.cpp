@@ -49,7 +49,7 @@ JobQueue::JobQueue(std::filesystem::path file) : file_(std::move(file)) {
     }
     for (QueuedJob& job : internal::read_queue(file_)) {
         last_id_ = std::max(last_id_, static_cast<int>(job.id));
-        entries_.push_back({std::move(job), nullptr});
+        entries_.push_back({std::move(job), {}, nullptr});
     }
 }
 
@@ -116,12 +116,12 @@ QueuedJobId JobQueue::add(Job job) {
         QueuedJob shown;
         shown.id = id;
         shown.name = job.name;
-        shown.project = job.project;
+        shown.project = lasting_name(job.project);
         shown.hash = hash_of(job);
         shown.blocks = job.block_count();
         shown.from_line = job.from_line;
         shown.has_motion = job.program != nullptr;
-        entries.push_back({std::move(shown), std::make_shared<const Job>(std::move(job))});
+        entries.push_back({std::move(shown), {}, std::make_shared<const Job>(std::move(job))});
     });
     return id;
 }
@@ -217,6 +217,7 @@ Job JobQueue::begin(QueuedJobId id) {
         if (wanted.job == nullptr) {
             throw Error(fmt::format("the program of {} was not loaded again", wanted.shown.name));
         }
+        wanted.before = wanted.shown;
         wanted.shown.state = QueueState::running;
         wanted.shown.end.reset();
         wanted.shown.sentence.clear();
@@ -241,17 +242,18 @@ JobOutcome JobQueue::run(QueuedJobId id, const std::function<JobOutcome(const Jo
     }
 }
 
-void JobQueue::finish(const std::function<void(QueuedJob&)>& how) {
+void JobQueue::finish(const std::function<void(Entry&)>& how) {
     const std::scoped_lock lock(mutex_);
     const auto found = std::ranges::find_if(
         entries_, [](const Entry& entry) { return entry.shown.state == QueueState::running; });
     expects(found != entries_.end(), "a job ends that was begun");
-    how(found->shown);
+    how(*found);
     write(entries_);
 }
 
 void JobQueue::ended(const JobOutcome& outcome) {
-    finish([&](QueuedJob& job) {
+    finish([&](Entry& entry) {
+        QueuedJob& job = entry.shown;
         job.state = outcome.end == JobEnd::done ? QueueState::done : QueueState::held;
         job.end = outcome.end;
         job.sentence = outcome.sentence;
@@ -259,10 +261,18 @@ void JobQueue::ended(const JobOutcome& outcome) {
     });
 }
 
+/// One that was held before and could not go on keeps what became of it then.
 void JobQueue::failed(const std::string& why) {
-    finish([&](QueuedJob& job) {
+    constexpr std::string_view again = " It did not go on: ";
+    finish([&](Entry& entry) {
+        QueuedJob& job = entry.shown;
+        const QueuedJob& before = entry.before;
         job.state = QueueState::held;
-        job.sentence = why;
+        job.end = before.end;
+        job.log_file = before.log_file;
+        job.sentence = before.sentence.empty() ? why
+                                               : before.sentence.substr(0, before.sentence.find(again)) +
+                                                     std::string(again) + why;
     });
 }
 

@@ -93,12 +93,14 @@ public:
     /// What has happened holds even if it cannot be written: then it throws, and whoever reads the file finds
     /// the job held.
     void ended(const JobOutcome& outcome);
-    /// It did not come to an outcome. Holds as ended() does.
+    /// It did not come to an outcome. Holds as ended() does; what was known of a job that was held before
+    /// stays.
     void failed(const std::string& why);
 
 private:
     struct Entry {
         QueuedJob shown;
+        QueuedJob before;               ///< of a job that was begun: as it was shown until then
         std::shared_ptr<const Job> job; ///< null: not loaded
     };
     using Entries = std::vector<Entry>;
@@ -108,7 +110,7 @@ private:
     [[nodiscard]] std::optional<QueuedJob> first_unfinished() const;
     void write(const Entries& entries) const;
     template <class Change> void change(Change&& how);
-    void finish(const std::function<void(QueuedJob&)>& how);
+    void finish(const std::function<void(Entry&)>& how);
 
     std::filesystem::path file_; ///< empty: none
     std::unique_ptr<internal::FileLock> lock_;

@@ -93,6 +93,10 @@ private:
     bool left_ = false;
 };
 
+double mm_of(gcode::LengthUnit unit) {
+    return unit == gcode::LengthUnit::mm ? 1.0 : gcode::mm_per_inch;
+}
+
 /// Watches the lines that are left out.
 class Watcher final : public gcode::CanonSink {
 public:
@@ -111,8 +115,7 @@ public:
     }
     void curve(const gcode::Curve&, const gcode::SourceLine&) override {}
     void command(const Command& command, const gcode::SourceLine&) override {
-        const bool frame = command.kind == CommandKind::use_length_units ||
-                           command.kind == CommandKind::set_g5x_offset ||
+        const bool frame = command.kind == CommandKind::set_g5x_offset ||
                            command.kind == CommandKind::set_g92_offset ||
                            command.kind == CommandKind::use_tool_length_offset;
         if (frame) {
@@ -143,14 +146,16 @@ public:
 
 private:
     void use(gcode::LengthUnit unit) {
-        if (plunge_ && unit != unit_) {
-            *plunge_ *= unit == gcode::LengthUnit::mm ? gcode::mm_per_inch : 1.0 / gcode::mm_per_inch;
+        const double factor = mm_of(unit_) / mm_of(unit);
+        for (std::optional<double>* length : {&highest_, &plunge_}) {
+            *length = *length ? std::optional(**length * factor) : std::nullopt;
         }
         unit_ = unit;
     }
 
-    std::optional<double> highest_; ///< Z of a rapid, as programmed
-    std::optional<double> plunge_;  ///< in the unit in force
+    // Both in the unit in force.
+    std::optional<double> highest_; ///< Z of a rapid
+    std::optional<double> plunge_;
     gcode::LengthUnit unit_ = gcode::LengthUnit::mm;
     AxisValues here_{};
     double feed_ = 0.0;
@@ -262,9 +267,7 @@ double plunge_feed(const ModalState& state, const Watcher& watcher) {
     constexpr double slow_mm = 100.0; // a minute, where the program's feeds say nothing about it
     const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
     const bool told = by_the_minute && state.feed_rate > 0.0;
-    const double feed = told                                  ? state.feed_rate
-                        : state.unit == gcode::LengthUnit::mm ? slow_mm
-                                                              : slow_mm / gcode::mm_per_inch;
+    const double feed = told ? state.feed_rate : slow_mm / mm_of(state.unit);
     return std::min(feed, watcher.plunge().value_or(feed));
 }
 
@@ -334,7 +337,8 @@ RunFrom run_from_line(std::string_view text,
     const ModalState state = state_before(text, file, line, settings.dialect, watcher);
     check_state(state, lines[static_cast<std::size_t>(line) - 1], file, line);
     const double z = state.position[z_axis];
-    const std::optional<double> clearance = settings.clearance ? settings.clearance : watcher.highest();
+    const std::optional<double> clearance =
+        settings.clearance ? std::optional(*settings.clearance / mm_of(state.unit)) : watcher.highest();
     if (!clearance || !(*clearance >= z)) {
         refuse(
             file,

@@ -19,8 +19,8 @@ constexpr int fewest_approach_lines = 5;
 
 struct RunFromSettings {
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-    /// Z, in the work coordinates and the unit that are in force at the line, in which the tool can go
-    /// anywhere; none: the highest to which the lines before have gone rapidly.
+    /// Z, in the work coordinates that are in force at the line, mm, in which the tool can go anywhere; none:
+    /// the highest to which the lines before have gone rapidly.
     std::optional<double> clearance;
     double spindle_time = 3.0; ///< s for the spindle to come to its speed
 };

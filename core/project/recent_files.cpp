@@ -51,4 +51,9 @@ fs::path recent_files_place() {
                                             : fs::path();
 }
 
+fs::path job_logs_place() {
+    const fs::path recent = recent_files_place();
+    return recent.empty() ? fs::path("jobs") : recent.parent_path() / "jobs";
+}
+
 } // namespace millwright::project

@@ -23,4 +23,8 @@ void write_recent(const RecentFiles& files, const std::filesystem::path& file);
 /// $XDG_STATE_HOME/millwright/recent.json, by default in ~/.local/state; empty if there is no home.
 [[nodiscard]] std::filesystem::path recent_files_place();
 
+/// The folder jobs beside it: what machines did, whoever told them to and from where. `jobs` in the working
+/// folder if there is no home.
+[[nodiscard]] std::filesystem::path job_logs_place();
+
 } // namespace millwright::project

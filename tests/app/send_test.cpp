@@ -26,6 +26,9 @@ std::string zigzag(int lines) {
 nlohmann::json last_record(const fs::path& folder) {
     nlohmann::json last;
     for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() != ".jsonl") {
+            continue;
+        }
         std::istringstream text(content_of(entry.path()));
         for (std::string line; std::getline(text, line);) {
             last = nlohmann::json::parse(line);
@@ -117,14 +120,26 @@ TEST_F(Send, LeavesThePercentSignsOfAProgramOut) {
 TEST_F(Send, BrakesAndStopsAtCtrlC) {
     write_content(file, zigzag(2000));
     Emulator emulator(port, {"--speed", "5"});
-    Program sender(words());
-    sender.wait_for_error_text("Block ");
-    sender.send(SIGINT);
-    const Ended ended = sender.end();
-    EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("millwright: cancelled\n"));
-    EXPECT_THAT(ended.out, HasSubstr("The job was cancelled"));
-    EXPECT_EQ(last_record(logs).at("end"), "cancelled");
+    for (const int signal : {SIGINT, SIGHUP}) { // the latter where the terminal is closed
+        fs::remove_all(logs);
+        Program sender(words());
+        sender.wait_for_error_text("Block ");
+        sender.send(signal);
+        const Ended ended = sender.end();
+        EXPECT_EQ(ended.exit_code, 1) << signal;
+        EXPECT_THAT(ended.err, HasSubstr("millwright: cancelled\n"));
+        EXPECT_THAT(ended.out, HasSubstr("The job was cancelled"));
+        EXPECT_EQ(last_record(logs).at("end"), "cancelled");
+    }
+}
+
+/// CAM programs have them.
+TEST_F(Send, PlansFeedsOfNoLengthAndDwellsOfNoTime) {
+    write_content(file, "G21 G90\nG0 X0 Y0 Z5\nG1 X0 Y0 F600\nG4 P0\nG1 X5\nM2\n");
+    const Ended ended = run(
+        {"send", file, "--machine", "router-xyz", "--driver", "virtual", "--speed", "100", "--log", logs});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(last_record(logs).at("end"), "done");
 }
 
 TEST_F(Send, TellsWhichFaultEndedTheJob) {
@@ -154,7 +169,9 @@ TEST_F(Send, TellsWhatIsWrongBeforeAnythingIsSent) {
 TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     write_content(file, zigzag(3000));
     Emulator emulator(port, {"--speed", "5"});
-    Program sender(words());
+    auto trusting = words();
+    trusting.emplace_back("--trust-position"); // somebody has looked where it stands
+    Program sender(trusting);
     sender.wait_for_error_text("Block ");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const auto running = nlohmann::json::parse(run({"jobs", logs, "--json"}).out);
@@ -198,10 +215,53 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     EXPECT_EQ(after[0].at("end"), "done");
 }
 
+/// Each command is a program of its own: what one has seen the next has to be told by the disk.
+TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
+    write_content(file, zigzag(300));
+    Emulator emulator(port, {"--speed", "20", "--faults", "reset=2000"});
+    auto trusting = words();
+    trusting.emplace_back("--trust-position");
+    ASSERT_EQ(run(trusting).exit_code, 1);
+
+    write_content(file, zigzag(3));
+    const Ended short_job = run(words());
+    EXPECT_EQ(short_job.exit_code, 0) << short_job.err; // and Grbl stands at Y2, as if nothing had been
+    EXPECT_THAT(short_job.err, HasSubstr("may be lost (the controller was reset)"));
+
+    auto at_a_line = words();
+    at_a_line.insert(at_a_line.end(), {"--from-line", "6", "--clearance", "5"});
+    write_content(file, zigzag(20));
+    const Ended refused = run(at_a_line);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("(the controller was reset)"));
+    EXPECT_THAT(refused.err, HasSubstr("could begin anywhere"));
+    at_a_line.emplace_back("--trust-position");
+    EXPECT_EQ(run(at_a_line).exit_code, 0);
+    at_a_line.pop_back();
+    EXPECT_EQ(run(at_a_line).exit_code, 0);
+}
+
+TEST_F(Send, UnlocksNothingForAJobThatIsRefused) {
+    write_content(file, zigzag(20));
+    Emulator emulator(port, {"--speed", "20", "--faults", "alarm=600"});
+    ASSERT_EQ(run(words()).exit_code, 1);
+    auto at_a_line = words();
+    at_a_line.insert(at_a_line.end(), {"--from-line", "6", "--clearance", "5", "--unlock"});
+    Ended ended = run(at_a_line);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("could begin anywhere"));
+    ended = run(words());
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("--unlock")); // it is locked still
+}
+
 /// The records of the only log in `folder`, by name.
 std::vector<nlohmann::json> records_of(const fs::path& folder, const std::string& name) {
     std::vector<nlohmann::json> found;
     for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() != ".jsonl") {
+            continue;
+        }
         std::istringstream text(content_of(entry.path()));
         for (std::string line; std::getline(text, line);) {
             const auto record = nlohmann::json::parse(line);

@@ -95,15 +95,18 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     Ended ended = send({"--continue", "--yes"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("did not come to its end: Fault: "));
-    EXPECT_THAT(
-        run({"jobs", logs}).out,
-        AnyOf(HasSubstr("send " + a + " --driver grbl --from-line "), HasSubstr("from its beginning")));
+    EXPECT_THAT(run({"jobs", logs}).out,
+                AnyOf(HasSubstr("send " + a + " --driver grbl --port " + port + " --from-line "),
+                      HasSubstr("from its beginning")));
     ended = send({"--continue"}, "20\n"); // it was switched on anew: nobody knows where the tool is
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Line 20 could begin anywhere"));
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
     // Line 5 cannot be begun; from line 20, then the other.
     ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
+    EXPECT_THAT(ended.out, HasSubstr("a limit switch was hit")) << "what ended it is still known";
+    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from its beginning alone")));
+    EXPECT_THAT(ended.out, HasSubstr(logs + "/a-0001.jsonl"));
     EXPECT_THAT(ended.out, HasSubstr("approach to this line takes 6 lines"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));

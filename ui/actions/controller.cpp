@@ -20,7 +20,8 @@ bool same(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b
 /// Whether both look the same to a person.
 bool looks_same(const DriverStatus& a, const DriverStatus& b) {
     return a.state == b.state && a.activity == b.activity && same(a.position, b.position) &&
-           same(a.work_offset, b.work_offset) && a.modes == b.modes && a.block == b.block &&
+           same(a.work_offset, b.work_offset) && a.modes == b.modes &&
+           a.position_doubt == b.position_doubt && a.block == b.block &&
            a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
            a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
            a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
@@ -49,16 +50,15 @@ kinematics::AxisPositions resting_place(const kinematics::MachineModel& model) {
 
 } // namespace
 
-Controller::Controller(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+Controller::Controller(std::filesystem::path folder, std::function<void()> wake)
+    : folder_(std::move(folder)), wake_(std::move(wake)),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 Controller::~Controller() {
     thread_.request_stop();
     changed_.notify_all();
     thread_.join();
-    if (driver_) {
-        driver_->close();
-    }
+    drop();
 }
 
 void Controller::enqueue(Task task) {
@@ -136,18 +136,22 @@ void Controller::tell_in_background(std::function<void(machine::Driver&)> what) 
 void Controller::try_connect(const machine::DriverChoice& choice,
                              const std::shared_ptr<const kinematics::MachineModel>& model) {
     std::shared_ptr<machine::Driver> made;
+    machine::PositionMemory memory(folder_,
+                                   std::string(machine::to_text(choice.kind)) + " " + choice.address);
     std::optional<Diagnostic> failure;
     try {
         const machine::MovedAxes axes{
             model, model ? resting_place(*model) : kinematics::AxisPositions(), 1.0};
         made = machine::make_driver(choice, axes, clock_);
         made->connect();
+        memory.remind(*made);
     } catch (const Error& error) {
         failure = error.diagnostic();
     }
     const std::scoped_lock lock(mutex_);
     view_ = {failure ? LinkState::none : LinkState::connected, choice, failure, {}, {}, {}, {}, {}, {}};
     if (!failure) {
+        memory_ = std::move(memory);
         driver_ = std::move(made);
         view_.status = driver_->status();
         view_.can = driver_->capabilities();
@@ -162,7 +166,17 @@ void Controller::drop() {
         old = std::exchange(driver_, nullptr);
     }
     if (old) {
+        remember(old->status()); // a doubt that arose since the last look
         old->close();
+    }
+}
+
+void Controller::remember(const DriverStatus& status) {
+    try {
+        memory_->keep(status);
+    } catch (const Error& error) {
+        const std::scoped_lock lock(mutex_);
+        view_.failure = error.diagnostic();
     }
 }
 
@@ -201,6 +215,7 @@ void Controller::watch() {
         return;
     }
     DriverStatus status = driver->status();
+    remember(status);
     auto settings = driver->settings();
     auto offsets = driver->stored_offsets();
     auto limits = driver->limits();

@@ -7,9 +7,11 @@
 #include "core/machine/console.h"
 #include "core/machine/driver.h"
 #include "core/machine/drivers/make_driver.h"
+#include "core/machine/position_memory.h"
 
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -39,8 +41,9 @@ struct ControllerView {
 
 class Controller {
 public:
-    /// `wake`: from any thread, when something that is seen has changed.
-    explicit Controller(std::function<void()> wake);
+    /// `wake`: from any thread, when something that is seen has changed. Doubts about positions outlast this
+    /// in `folder`.
+    Controller(std::filesystem::path folder, std::function<void()> wake);
     Controller(const Controller&) = delete;
     Controller& operator=(const Controller&) = delete;
     /// Stops whatever moves and drops the link.
@@ -79,8 +82,10 @@ private:
     void try_connect(const machine::DriverChoice& choice,
                      const std::shared_ptr<const kinematics::MachineModel>& model);
     void drop();
+    void remember(const machine::DriverStatus& status);
     void tell_in_background(std::function<void(machine::Driver&)> what);
 
+    std::filesystem::path folder_;
     std::function<void()> wake_;
     machine::SteadyClock clock_; ///< outlives every driver
     mutable std::mutex mutex_;   ///< guards what follows
@@ -88,6 +93,7 @@ private:
     std::deque<Task> tasks_;
     bool busy_ = false;
     std::shared_ptr<machine::Driver> driver_;
+    std::optional<machine::PositionMemory> memory_; ///< of `driver_`; for the thread alone
     ControllerView view_;
     std::jthread thread_; // last: it ends before what it uses
 };

@@ -22,6 +22,10 @@ Permission can_recover(const Workbench& now) {
     return now.left_behind.front().work() ? Permission{} : Permission::refused("The copy cannot be read.");
 }
 
+Permission is_quitting(const Workbench& now) {
+    return now.session.quit_wanted ? Permission{} : Permission::refused("No job keeps Millwright open.");
+}
+
 Permission has_broken_job(const Workbench& now) {
     return now.broken_jobs->empty() ? Permission::refused("No job was broken off.") : Permission{};
 }
@@ -55,6 +59,23 @@ void add_dialog_actions(Actions& actions) {
         {"unsaved.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
         is_leaving,
         [](Hands& hands) { hands.workshop.stay(); });
+    add(actions,
+        {"running_job.stay", dialog_menu, "Stay", "The job goes on.", "", ""},
+        is_quitting,
+        [](Hands& hands) { hands.session.quit_wanted = false; });
+    add(actions,
+        {"running_job.stop",
+         dialog_menu,
+         "Stop it and quit",
+         "The machine brakes, and the job's log tells what was executed.",
+         "",
+         ""},
+        is_quitting,
+        [](Hands& hands) {
+            hands.session.quit_wanted = false;
+            hands.jobs.stop();
+            hands.workshop.quit();
+        });
     add(actions,
         {"recovery.recover",
          dialog_menu,

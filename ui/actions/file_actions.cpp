@@ -105,11 +105,14 @@ void add_file_actions(Actions& actions) {
         has_file,
         [](Hands& hands) { hands.workshop.close_file(); });
     add(actions,
-        {"file.quit", "File", "Quit", "Closes the workbench; a running job is stopped first.", "Ctrl+Q", ""},
+        {"file.quit", "File", "Quit", "Closes the workbench; asks first if a job is running.", "Ctrl+Q", ""},
         always,
         [](Hands& hands) {
-            hands.workshop.leave("close Millwright",
-                                 [](Workshop& workshop) { workshop.session().quit = true; });
+            if (hands.now.job.running) {
+                hands.session.quit_wanted = true;
+            } else {
+                hands.workshop.quit();
+            }
         });
 }
 

@@ -112,6 +112,7 @@ struct Session {
     bool fit_wanted = true;               ///< fit the view in the next frame
     std::optional<bool> flat_wanted;      ///< look at it from above, or into space, in the next frame
     bool against_light = false;           ///< how a finished plot is looked at
+    bool quit_wanted = false;             ///< a job is running: is it to be stopped?
     bool quit = false;                    ///< nothing is in the way any more: close the window
     std::vector<widgets::Notice> notices; ///< to be shown; taken by the window
     std::vector<std::string> log;         ///< every notice, newest last

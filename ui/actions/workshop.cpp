@@ -39,7 +39,7 @@ Workshop::Workshop(WorkshopOptions options)
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
     reader_ = std::make_unique<project::ProgramReader>(wake);
     plot_ = std::make_unique<PlotBench>(options_.assets, wake);
-    controller_ = std::make_unique<Controller>(wake);
+    controller_ = std::make_unique<Controller>(options_.log_folder, wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
     processor_ = std::make_unique<ProcessorBench>();
@@ -131,6 +131,7 @@ void Workshop::perform(ActionQueue& asked, bool focused) {
     for (const ActionQueue::Request& request : asked.take()) {
         guarded([&] { request(*this); });
     }
+    session_.quit_wanted = session_.quit_wanted && jobs_->view().running;
     const bool allowed = focused && !look().asks() && !session_.quit;
     guarded([&] { jog_->follow(wish, allowed); });
     queue_.rest();

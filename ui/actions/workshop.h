@@ -79,6 +79,8 @@ public:
     /// Does `then` at once if nothing is unsaved, else after the person has answered. `to` goes on after
     /// "before you": "open sine.json".
     void leave(std::string to, ActionQueue::Request then);
+    /// Ends the program, once that is answered.
+    void quit();
     /// The answers. Saving asks for a file where there is none yet, and goes on once it is saved.
     void save_and_leave();
     void discard_and_leave();

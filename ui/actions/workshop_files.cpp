@@ -257,6 +257,10 @@ void Workshop::leave(std::string to, ActionQueue::Request then) {
     }
 }
 
+void Workshop::quit() {
+    leave("close Millwright", [](Workshop& workshop) { workshop.session().quit = true; });
+}
+
 void Workshop::save_and_leave() {
     if (document().file.empty()) {
         session_.question = FileQuestion::save_as;
@@ -337,6 +341,10 @@ void Workshop::continue_broken_job() {
     }
     open(file);
     session_.workspace = Workspace::machine;
+    if (!controller_->view().connected()) {
+        session_.hand.choice.kind = machine::driver_kind(story.start.driver);
+        session_.hand.choice.address = story.start.address;
+    }
     const bool in_the_middle = machine::why_not_from_line(story).empty();
     session_.begin =
         in_the_middle ? BeginAt{true, story.next_line, std::nullopt, story.start.program_hash} : BeginAt{};

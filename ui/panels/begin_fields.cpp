@@ -60,8 +60,8 @@ void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                         "Clearance Z",
                                         begin.clearance ? shortest(*begin.clearance) : std::string(),
                                         check,
-                                        "In the program's unit and work coordinates: from here up the tool "
-                                        "can go anywhere. Empty: the highest rapid above the line")) {
+                                        "mm, in work coordinates: from here up the tool can go anywhere. "
+                                        "Empty: the highest rapid above the line")) {
         begin.clearance = text->empty() ? std::nullopt : height(*text);
         set_begin(ask, begin);
     }

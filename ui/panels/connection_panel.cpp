@@ -1,5 +1,6 @@
 #include "ui/panels/connection_panel.h"
 
+#include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/links/serial_ports.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/icons.h"
@@ -49,6 +50,14 @@ std::string as_sentence(std::string text) {
 /// Changes one thing of what was chosen.
 template <class Change> void choose(ActionQueue& ask, Change&& change) {
     ask.show([change = std::forward<Change>(change)](actions::Session& session) { change(session.hand); });
+}
+
+/// Of a Grbl; empty if there is none.
+std::string_view reports_advice(const actions::ControllerView& machine) {
+    const auto reports = std::ranges::find(machine.settings, "$10", &machine::ControllerSetting::name);
+    return machine.choice.kind == DriverKind::grbl && reports != machine.settings.end()
+               ? machine::grbl_reports_advice(static_cast<int>(reports->value))
+               : std::string_view();
 }
 
 /// What a person should do about an alarm.
@@ -222,6 +231,38 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
+bool ConnectionPanel::has_messages(const actions::ControllerView& machine) {
+    return machine.connected() &&
+           (!machine.status.message.empty() || !machine.status.position_doubt.empty() ||
+            !reports_advice(machine).empty());
+}
+
+void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const actions::ControllerView& machine = now.controller;
+    if (!has_messages(machine)) {
+        return;
+    }
+    const auto section = ui.section("messages", "What it says");
+    if (!section) {
+        return;
+    }
+    const bool alarm = machine.status.state == DriverState::alarm;
+    if (!machine.status.message.empty()) {
+        (void)widgets::banner(ui,
+                              "message",
+                              {alarm ? widgets::Severity::danger : widgets::Severity::warning,
+                               as_sentence(machine.status.message) + (alarm ? ". " + advice(now) : ""),
+                               {}});
+    }
+    if (!machine.status.position_doubt.empty()) {
+        ui.note(machine::doubt_sentence(machine.status.position_doubt));
+        action_button(ui, now, ask, catalogue_, "machine.trust_position");
+    }
+    if (const auto advice = reports_advice(machine); !advice.empty()) {
+        ui.note(advice);
+    }
+}
+
 void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::ControllerView& machine = now.controller;
     if (machine.failure) {
@@ -238,16 +279,6 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         ui.value("port", "At", machine.choice.address);
     }
     const bool alarm = machine.status.state == DriverState::alarm;
-    if (!machine.status.message.empty()) {
-        (void)widgets::banner(ui,
-                              "message",
-                              {alarm ? widgets::Severity::danger : widgets::Severity::warning,
-                               as_sentence(machine.status.message) + (alarm ? ". " + advice(now) : ""),
-                               {}});
-    }
-    if (!machine.status.position_doubt.empty()) {
-        ui.note(machine::doubt_sentence(machine.status.position_doubt));
-    }
     const auto row = ui.row(alarm ? 2 : 1);
     if (alarm) {
         action_button(ui,

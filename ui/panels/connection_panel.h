@@ -12,8 +12,12 @@ class ConnectionPanel final : public Panel {
 public:
     explicit ConnectionPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    /// Alarms, doubts and advice, in a section of their own: they come and go, and must not move the buttons
+    /// that stop a machine.
+    void draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
 private:
+    [[nodiscard]] static bool has_messages(const actions::ControllerView& machine);
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_address(Ui& ui, const Workbench& now, ActionQueue& ask);

@@ -39,7 +39,9 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return files_.draw(ui, now, ask);
     }
     files_.close();
-    if (!now.leaving_to.empty()) {
+    if (now.session.quit_wanted) {
+        draw_running_job(ui, now, ask);
+    } else if (!now.leaving_to.empty()) {
         draw_unsaved(ui, now, ask);
     } else if (!now.left_behind.empty()) {
         draw_left_behind(ui, now, ask);
@@ -64,6 +66,23 @@ void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const
     action_button(ui, now, ask, catalogue_, "unsaved.save", Rank::primary);
     if (ui.escape_pressed()) {
         ask.run("unsaved.cancel");
+    }
+}
+
+void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto dialog = ui.dialog("running_job", "Stop the job?", ui.px(width));
+    if (!dialog) {
+        return;
+    }
+    ui.text(
+        fmt::format("\u201c{}\u201d is running. Closing Millwright stops it: the machine brakes where it is.",
+                    now.job.name));
+    ui.gap();
+    const auto row = ui.row(2);
+    action_button(ui, now, ask, catalogue_, "running_job.stop");
+    action_button(ui, now, ask, catalogue_, "running_job.stay", Rank::primary);
+    if (ui.escape_pressed()) {
+        ask.run("running_job.stay");
     }
 }
 

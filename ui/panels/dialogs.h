@@ -13,6 +13,7 @@ public:
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
+    void draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;

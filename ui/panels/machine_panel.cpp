@@ -67,6 +67,7 @@ std::optional<double> time_left(const Workbench& now, const machine::JobReport& 
 void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
     draw_job(ui, now, ask);
+    connection_.draw_messages(ui, now, ask);
     if (now.controller.connected()) {
         controls_.draw(ui, now, ask);
     }
@@ -96,8 +97,10 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
     const auto& opened = *now.opened;
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
     if (found == 0) {
-        ui.note(opened.motion ? "Checked: axes, limits and feeds are within the machine's."
-                              : "Checked: the program can be read.");
+        ui.note(opened.motion && opened.machine
+                    ? fmt::format("Checked: axes, limits and feeds are within those of {}.",
+                                  opened.machine->name())
+                    : "Checked: the program can be read.");
         return;
     }
     const Diagnostic& first = !opened.errors.empty()   ? opened.errors.front()
@@ -114,7 +117,6 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         return;
     }
     ui.value("program", "Program", now.in_file() ? now.opened->file.filename().string() : now.project.name);
-    draw_findings(ui, now);
     if (now.controller.link == actions::LinkState::none) {
         if (const auto chosen = ui.choice("speed",
                                           "Virtual machine",
@@ -152,6 +154,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
     ui.keep_clear(ui.path("machine_emergency_stop"));
+    draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);
 }
 

@@ -1,8 +1,10 @@
 #include "core/gcode/posts/prepare.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/internal/written.h"
+#include "core/gcode/retract.h"
 #include "core/kinematics/forward.h"
 
 #include <fmt/format.h>
@@ -86,6 +88,7 @@ public:
         moved_ = true;
         if (format_.positions == PositionsOf::axes || without_tip) {
             tip_ = false;
+            retracted_ = true;
             append(std::move(block), false);
         } else {
             block.named = all_; // whatever turns, the tip's three coordinates change
@@ -105,6 +108,7 @@ private:
     AxisPositions meant_; ///< where the last move ended before it was rounded
     bool tip_ = false;
     bool moved_ = false;
+    bool retracted_ = false; ///< in machine positions
 
     /// Rounded ends make a move a little longer or shorter: its speed stays, so that a feed stays the feed.
     void keep_speed(Block& block, const AxisPositions& meant_from) const {
@@ -184,24 +188,36 @@ private:
         }
     }
 
-    /// Before `block`: the rotary axes to zero, and before a feed a word about where the tip is.
+    /// Before `block`: the rotary axes to zero with the tool out of their way, and before a feed a word about
+    /// where the tip is.
     void switch_tip_on(const Block& block) {
         Block entry;
         entry.kind = BlockKind::rapid;
         entry.role = block.role;
         entry.source_line = block.source_line;
         entry.path = block.path;
-        entry.target = rounded(at_rotary_zero(machine_, here()));
-        for (const int n : machine_.rotary_axes()) {
-            entry.named.insert(n);
-        }
         if (!machine_.rotary_axes().empty()) {
+            if (!retracted_) {
+                retract(entry);
+            }
+            entry.target = rounded(at_rotary_zero(machine_, here()));
+            entry.named = {};
+            for (const int n : machine_.rotary_axes()) {
+                entry.named.insert(n);
+            }
             append(entry, false);
         }
         if (block.kind == BlockKind::feed) {
             entry.named = all_;
             append(std::move(entry), true);
         }
+    }
+
+    /// A program of somebody else's need not begin with it.
+    void retract(Block entry) {
+        entry.named = AxisSet::only(retract_axis(machine_).axis);
+        entry.target = rounded(retracted(machine_, here(), {}));
+        append(std::move(entry), false);
     }
 
     /// By how much the tip's way leaves the straight line between its ends while the axes go straight.
@@ -295,17 +311,20 @@ void check_letters_of_tip(const MachineModel& machine) {
 
 } // namespace
 
-/// Which blocks are written without tip control: rapids of linear axes alone at both ends.
+/// Which blocks are written without tip control: the retracts at both ends. Nothing else may be, since a
+/// machine position is where the program means it only if no offset is set.
 class Ends {
 public:
     Ends(const Program& program, const MachineModel& machine) {
-        const auto alone = [&](const Block& block) {
-            const auto& turning = machine.rotary_axes();
-            return block.kind == BlockKind::rapid && std::none_of(turning.begin(), turning.end(), [&](int n) {
-                       return block.named.contains(n);
-                   });
+        const RetractAxis retract = retract_axis(machine);
+        const kinematics::MachineAxis& axis = machine.axis(retract.axis);
+        const double limit = retract.sense > 0.0 ? axis.max : axis.min;
+        const auto pulls_off = [&](const Block& block) {
+            const bool ours = block.role == MoveRole::approach || block.role == MoveRole::retract;
+            return block.kind == BlockKind::rapid && block.named == AxisSet::only(retract.axis) &&
+                   (ours || exactly_equal(block.target[retract.axis], limit));
         };
-        const auto stays = [&](const Block& block) { return !block.moves() || alone(block); };
+        const auto stays = [&](const Block& block) { return !block.moves() || pulls_off(block); };
         const auto& blocks = program.blocks;
         first_ = static_cast<int>(std::find_if_not(blocks.begin(), blocks.end(), stays) - blocks.begin());
         last_ = static_cast<int>(blocks.rend() - std::find_if_not(blocks.rbegin(), blocks.rend(), stays)) - 1;

@@ -18,10 +18,10 @@ struct PreparedProgram {
 };
 
 /// Axis positions stay blocks as they are. With positions of the tip
-/// - rapids of linear axes alone that come before everything else, or behind the last feed without any turn
-///   after them, are written in machine positions, tip control being off;
-/// - before tip control goes on, the rotary axes turn to their physical zero: controls take the workpiece's
-///   frame from where the table stands at that moment;
+/// - retracts (of retract_axis() alone, made by post() or to its limit) that come before everything else, or
+///   behind everything else, are written in machine positions, tip control being off;
+/// - before tip control goes on, the rotary axes turn to their physical zero, behind a retract in any case:
+///   controls take the workpiece's frame from where the table stands at that moment;
 /// - other rapids are cut until the straight way of the tip stays near to the axes' own, which was found
 /// clear;
 /// - feeds stay single blocks, and the tip goes straight where the axes alone would swing it; with a

@@ -3,9 +3,9 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
+#include "core/gcode/reader/internal/losses.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
 #include "core/gcode/reader/line_ends.h"
-#include "core/gcode/reader/word_column.h"
 #include "core/kinematics/travel.h"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ public:
     Parts(const kinematics::MachineModel& machine,
           std::filesystem::path file,
           const MachineProgramSettings& settings)
-        : machine_(machine), file_(std::move(file)), settings_(settings) {
+        : machine_(machine), file_(std::move(file)), settings_(settings), losses_(file_) {
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
         expects(!settings.chord_length || *settings.chord_length > 0.0, "a chord has a length");
         Program& program = result_.program;
@@ -75,13 +75,7 @@ public:
     void move(const Move& move, const SourceLine& now) {
         text_ = now.place == move.source ? now.text : std::string_view();
         worded_ = axes_with_words(text_, machine_);
-        look_for_machine_positions(move.source);
-        if (move.kind == MoveKind::probe) {
-            note(result_.lost,
-                 move.source,
-                 'G',
-                 "nothing is probed by a motion that is planned beforehand (G38)");
-        }
+        losses_.move(move, text_);
         const AxisValues start = frame_.from_machine(at_);
         switch (move.kind) {
         case MoveKind::traverse:
@@ -115,10 +109,10 @@ public:
         });
     }
 
-    void command(const Command& command) {
+    void command(const Command& command, const SourceLine& now) {
         frame_.command(command);
         feed_.command(command, frame_.unit());
-        look_for_losses(command);
+        losses_.command(command, now.place == command.source ? now.text : std::string_view());
         switch (command.kind) {
         case CommandKind::set_motion_control_mode:
             path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
@@ -178,7 +172,11 @@ public:
     }
 
     [[nodiscard]] int block_count() const { return static_cast<int>(taken_) + result_.program.block_count(); }
-    [[nodiscard]] MachineProgram take() { return std::move(result_); }
+    [[nodiscard]] MachineProgram take() {
+        result_.lost = losses_.take_lost();
+        result_.simplified = losses_.take_simplified();
+        return std::move(result_);
+    }
 
     /// All but the last, and what the end of the program would switch off anew in its line.
     void take_blocks(std::vector<Block>& out) {
@@ -205,6 +203,7 @@ private:
     std::filesystem::path file_;
     MachineProgramSettings settings_;
     MachineProgram result_;
+    internal::Losses losses_;
     std::size_t taken_ = 0; ///< blocks that are not in it any more
     kinematics::AxisPositions last_taken_;
     CanonFrame frame_;
@@ -276,60 +275,9 @@ private:
         add(BlockKind::end, source);
     }
 
-    /// At the word of an axis, or where the line begins.
-    [[nodiscard]] Diagnostic diagnostic(SourcePlace source, char letter, std::string message) const {
-        const int word = letter == '\0' ? 0 : column_of_word(text_, letter);
-        return {{file_, source.line, word > 0 ? word : std::max(first_column(text_), 1), -1},
-                std::move(message),
-                {}};
-    }
-
     void fault(SourcePlace source, char letter, std::string message) {
         if (result_.faults.size() < settings_.most_faults) {
-            result_.faults.push_back(diagnostic(source, letter, std::move(message)));
-        }
-    }
-
-    /// Each message once, at the word `letter` of the line at hand.
-    void note(std::vector<Diagnostic>& of, SourcePlace source, char letter, const std::string& message) {
-        if (std::ranges::find(of, message, &Diagnostic::message) == of.end()) {
-            of.push_back(diagnostic(source, letter, message));
-        }
-    }
-
-    void look_for_machine_positions(SourcePlace source) {
-        for (const int code : {53, 28, 30}) {
-            if (column_of_word(text_, 'G', code) > 0) {
-                note(result_.simplified,
-                     source,
-                     'G',
-                     fmt::format("G{} goes to a machine position: it is taken for one of the work, as if no "
-                                 "offset were set",
-                                 code));
-            }
-        }
-    }
-
-    void look_for_losses(const Command& command) {
-        const SourcePlace at = command.source;
-        switch (command.kind) {
-        case CommandKind::start_speed_feed_synch:
-            return note(result_.lost,
-                        at,
-                        'G',
-                        "a feed cannot be kept in step with the spindle here (G33, G33.1, G76)");
-        case CommandKind::mist_on:
-            return note(result_.simplified, at, 'M', "mist (M7) is not told from flood (M8)");
-        case CommandKind::set_g5x_offset:
-            if (command.index > 1) {
-                note(result_.simplified,
-                     at,
-                     'G',
-                     "a work system other than G54 is taken for G54: no offset is known");
-            }
-            return;
-        default:
-            return;
+            result_.faults.push_back(internal::at_word(file_, source, text_, letter, std::move(message)));
         }
     }
 
@@ -340,7 +288,8 @@ private:
         const kinematics::MachineAxis& axis = machine_.axis(n);
         if (std::string sentence = kinematics::beyond_travel(axis, position); !sentence.empty()) {
             beyond_.insert(n);
-            result_.beyond_travel.push_back(diagnostic(source, axis.letter, std::move(sentence)));
+            result_.beyond_travel.push_back(
+                internal::at_word(file_, source, text_, axis.letter, std::move(sentence)));
         }
     }
 
@@ -443,8 +392,8 @@ void MachineProgramBuilder::curve(const Curve& curve, const SourceLine& now) {
     parts_->curve(curve, now);
 }
 
-void MachineProgramBuilder::command(const Command& command, const SourceLine&) {
-    parts_->command(command);
+void MachineProgramBuilder::command(const Command& command, const SourceLine& now) {
+    parts_->command(command, now);
 }
 
 int MachineProgramBuilder::block_count() const {

@@ -151,6 +151,10 @@ std::mutex& SessionDriver::session_mutex() const {
     return body_->mutex;
 }
 
+std::string SessionDriver::address() const {
+    return body_->link->name();
+}
+
 DriverStatus SessionDriver::status() const {
     const std::scoped_lock lock(body_->mutex);
     return body_->session->status();
@@ -205,9 +209,14 @@ void SessionDriver::trust_position() {
     session().trust_position();
 }
 
+void SessionDriver::doubt_position(std::string why) {
+    const Turn turn(*this);
+    session().doubt_position(std::move(why));
+}
+
 void SessionDriver::close() noexcept {
     try {
-        stop();
+        leave();
         body_->wait_until(
             [](const ControllerSession& now) { return now.status().state != DriverState::stopping; });
         body_->shut();
@@ -215,6 +224,11 @@ void SessionDriver::close() noexcept {
         body_->thread = {};
         body_->link->close(); // a controller without its host stops when its buffers are empty
     }
+}
+
+void SessionDriver::leave() {
+    const Turn turn(*this);
+    session().leave(turn.now());
 }
 
 void SessionDriver::set_overrides(const Overrides& wanted) {

@@ -24,6 +24,7 @@ public:
     SessionDriver& operator=(const SessionDriver&) = delete;
     ~SessionDriver() override;
 
+    [[nodiscard]] std::string address() const override;
     [[nodiscard]] DriverStatus status() const override;
     /// Throws Error if nobody answers, or somebody else.
     void connect() override;
@@ -34,6 +35,7 @@ public:
     /// Makes a lost link again; throws Error as connect() does, and is disconnected then.
     void reset() override;
     void trust_position() override;
+    void doubt_position(std::string why) override;
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override;
     void jog(const Jog& jog) override;
@@ -70,6 +72,8 @@ protected:
     [[nodiscard]] std::mutex& session_mutex() const;
 
 private:
+    void leave();
+
     struct Body;
     std::unique_ptr<Body> body_;
 };

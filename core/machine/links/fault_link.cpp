@@ -1,6 +1,8 @@
 #include "core/machine/links/fault_link.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace millwright::machine {
@@ -47,14 +49,18 @@ std::string FaultLink::read() {
 
 void FaultLink::wait(double seconds) {
     double patience = seconds;
+    bool broken = false;
     {
         const std::scoped_lock lock(mutex_);
         move_bytes();
+        broken = out_.disconnected() || in_.disconnected();
         for (const auto& next : {in_.next_arrival(), out_.next_arrival()}) {
             patience = next ? std::min(patience, *next - clock_.now()) : patience;
         }
     }
-    if (patience > 0.0) {
+    if (broken) { // what is on its way arrives no more
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    } else if (patience > 0.0) {
         inner_->wait(patience);
     }
 }

@@ -102,6 +102,20 @@ TEST_F(Three, AreHeldByOneThatThrows) {
     EXPECT_EQ(queue.held()->id, a);
 }
 
+/// What became of a job is not known by the reason why it could not go on.
+TEST_F(Three, KeepWhatIsKnownOfAJobThatCannotGoOn) {
+    run(a, JobEnd::fault);
+    for (const char* why : {"the position is in doubt", "nobody answers"}) {
+        queue.release(a);
+        EXPECT_THROW((void)queue.run(a, [why](const Job&) -> JobOutcome { throw Error(why); }), Error);
+        const QueuedJob held = queue.jobs().front();
+        EXPECT_EQ(held.state, QueueState::held);
+        EXPECT_EQ(held.end, JobEnd::fault);
+        EXPECT_EQ(held.log_file, "jobs/a-0001.jsonl");
+        EXPECT_EQ(held.sentence, std::string("it ended It did not go on: ") + why);
+    }
+}
+
 TEST_F(Three, AreMovedWhileTheyWait) {
     (void)queue.begin(a);
     EXPECT_THAT(refusal([&] { queue.move(a, 1); }), HasSubstr("only a waiting job"));

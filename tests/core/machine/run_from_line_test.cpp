@@ -250,5 +250,18 @@ TEST(RunFromLine, GoesDownAsTheProgramDoesAndOnAtItsFeed) {
     EXPECT_THAT(inches.text, HasSubstr(" F4.724409\nG")) << "120 mm are 4.72 inches";
 }
 
+TEST(RunFromLine, KnowsTheHighestRapidAlsoInAnotherUnit) {
+    const RunFrom rest =
+        run_from_line(with_head("G0 Z50.8\nG1 Z-2 F120\nG20\nG1 X1 F30\nX2\n"), "test.ngc", 17, {});
+    EXPECT_THAT(rest.text, HasSubstr("G0 Z2\n")) << "50.8 mm are 2 inches";
+}
+
+TEST(RunFromLine, TakesTheClearanceInMillimetresWhateverTheProgramIsIn) {
+    const std::string text = with_head("G1 Z-2 F120\nG20\nG1 X1 F30\nX2\n");
+    EXPECT_THAT(run_from_line(text, "test.ngc", 16, {.clearance = 25.4}).text, HasSubstr("G0 Z1\n"));
+    EXPECT_THAT(run_from_line(with_head("G1 Z-2 F120\nX1\nX2\n"), "test.ngc", 15, {.clearance = 25.4}).text,
+                HasSubstr("G0 Z25.4\n"));
+}
+
 } // namespace
 } // namespace millwright::machine

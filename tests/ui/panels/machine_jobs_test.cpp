@@ -73,6 +73,51 @@ protected:
     }
 };
 
+TEST_F(MachineJobs, AreNotEndedByClosingTheWindowUnlessAPersonSaysSo) {
+    GrblBench grbl;
+    Person person;
+    connect(person, grbl);
+    write_file(person.folder() / "long.ngc", "G21 G90 G94\nG1 X70 F60\nX0\nM2\n");
+    person.open(person.folder() / "long.ngc");
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
+    const auto& session = person.workshop().session();
+
+    person.press_key(render::Key::q, true);
+    ASSERT_TRUE(person.sees("dialogs/running_job/running_job_stop"));
+    EXPECT_FALSE(session.quit);
+    person.keep("machine-quit-while-running");
+    person.press_key(render::Key::escape);
+    EXPECT_FALSE(person.sees("dialogs/running_job/running_job_stop"));
+    EXPECT_TRUE(person.workshop().look().job.running);
+    EXPECT_TRUE(grbl.moving());
+
+    person.press_key(render::Key::q, true);
+    person.click("dialogs/running_job/running_job_stop");
+    EXPECT_TRUE(session.quit);
+    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+    EXPECT_EQ(person.workshop().look().job.outcome->end, machine::JobEnd::stopped);
+    EXPECT_FALSE(grbl.moving());
+}
+
+TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
+    Person person;
+    write_file(person.folder() / "short.ngc", "G21 G90 G94\nG1 X5 F3000\nM2\n");
+    GrblBench grbl;
+    connect(person, grbl);
+    person.open(person.folder() / "short.ngc");
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }));
+    person.workshop().session().quit_wanted = true; // pressed in the frame before the end was seen
+    person.frames(2);
+    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.workshop().session().quit);
+}
+
 TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     GrblBench grbl;
     Person person;

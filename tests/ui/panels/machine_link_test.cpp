@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/machine/emulators/grbl/grbl_server.h"
 #include "core/machine/links/tcp_server.h"
+#include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
 
 #include <gmock/gmock.h>
@@ -141,6 +142,38 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
         again->with_controller([](machine::GrblEmulator& it) { return it.truth().last_motion; });
     EXPECT_LE(last_motion, 0.0);
     EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
+}
+
+/// A link that is made again is a new driver, which cannot know that the old one was reset under way.
+TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
+    test::GrblBench grbl;
+    choose(DriverKind::grbl, grbl.port());
+    connect();
+    const auto doubt = [this] { return machine().status.position_doubt; };
+    person.frames(3);
+    person.click("inspector/messages/machine_trust_position"); // it stood at zero, and somebody looks
+    ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
+    grbl.raise_alarm();
+    ASSERT_TRUE(person.live_until([&] { return is(DriverState::alarm); }));
+    person.frames(3);
+    person.click("inspector/connection/machine_reset");
+    ASSERT_TRUE(person.live_until([&] { return is(DriverState::idle); }));
+    EXPECT_THAT(doubt(), HasSubstr("alarm 1"));
+
+    const auto connect_again = [&] {
+        person.click("inspector/connection/machine_disconnect");
+        ASSERT_TRUE(person.live_until([this] { return machine().link == LinkState::none; }));
+        person.frames(3);
+        connect();
+        person.frames(3);
+    };
+    connect_again();
+    EXPECT_THAT(doubt(), HasSubstr("alarm 1"));
+    person.keep("machine-position-doubt");
+    person.click("inspector/messages/machine_trust_position");
+    ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
+    connect_again();
+    EXPECT_THAT(doubt(), Not(HasSubstr("alarm 1")));
 }
 
 TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {

@@ -50,6 +50,15 @@ std::span<const GrblSetting> grbl_settings() {
     return settings;
 }
 
+std::string_view grbl_reports_advice(int reports) {
+    constexpr unsigned int buffers = 2;
+    return (static_cast<unsigned int>(reports) & buffers) != 0
+               ? std::string_view()
+               : "Its reports do not tell of its planner: what is executed is known about 21 lines late. "
+                 "With "
+                 "$10=3 it is known at once.";
+}
+
 const GrblSetting* find_grbl_setting(int number) {
     const auto* found = std::ranges::find(settings, number, &GrblSetting::number);
     return found == settings.end() ? nullptr : found;

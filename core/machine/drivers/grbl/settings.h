@@ -16,4 +16,8 @@ struct GrblSetting {
 /// Null for a number that Grbl 1.1 does not have.
 [[nodiscard]] const GrblSetting* find_grbl_setting(int number);
 
+/// Of a controller whose status reports ($10) do not say how full its planner is: that what is executed is
+/// known late, and what helps. Empty where they do. docs/reference/grbl.md, What counts as executed.
+[[nodiscard]] std::string_view grbl_reports_advice(int reports);
+
 } // namespace millwright::machine

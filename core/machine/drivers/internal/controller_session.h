@@ -43,8 +43,11 @@ public:
     virtual void resume(double now) = 0;
     virtual void stop(double now) = 0;
     virtual void emergency_stop(double now) = 0;
+    /// Before the link is dropped: stops what was begun here.
+    virtual void leave(double now) { stop(now); }
     virtual void reset(double now) = 0;
     virtual void trust_position() {}
+    virtual void doubt_position(std::string) {}
     virtual void home(double now) = 0;
     virtual void jog(const Jog& jog, double now) = 0;
     virtual void stop_jog(double now) = 0;

@@ -47,6 +47,7 @@ public:
     ~StreamDriver() override;
 
     [[nodiscard]] std::string name() const override { return "stream"; }
+    [[nodiscard]] std::string address() const override { return link_->name(); }
     [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] Capabilities capabilities() const override { return machine_.capabilities(); }
     /// Samples that were sent so far.

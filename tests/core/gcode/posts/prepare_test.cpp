@@ -178,6 +178,42 @@ TEST_P(TipPrograms, KeepFeedsOnTheWayOfStraightAxesWhereThatIsMeant) {
     EXPECT_NEAR(after, before, 0.01 * before); // the same time, but for the digits of inverse time
 }
 
+/// Where G54 is set such a program goes to other machine positions than its words say.
+TEST(PreparedProgram, WritesNoMoveOfTheWorkInMachinePositions) {
+    const auto machine = test::machine("router-xyz");
+    Program program = test::empty_program(machine);
+    test::add_move(program, AxisPositions{Vec3(0.0, 0.0, 20.0)});
+    test::add_move(program, AxisPositions{Vec3(10.0, 10.0, 20.0)});
+    for (Block& block : program.blocks) {
+        block.kind = BlockKind::rapid;
+    }
+    for (const char* control : {"fanuc-tcp", "heidenhain", "linuxcnc-tcp"}) {
+        const PreparedProgram ready = prepare(program, machine, post(control));
+        ASSERT_EQ(ready.program.block_count(), 2) << control;
+        for (const BlockWords& words : ready.wording.blocks) {
+            EXPECT_TRUE(words.tip) << control;
+        }
+    }
+}
+
+TEST(PreparedProgram, TurnsNoTableBelowAToolThatWasNotPulledOff) {
+    const auto machine = test::machine("ac-table");
+    Program program = test::empty_program(machine);
+    AxisPositions to = AxisPositions::Zero(5);
+    to[machine.axis_index('X')] = 10.0;
+    test::add_move(program, to);
+    program.blocks.back().kind = BlockKind::rapid;
+    const PreparedProgram ready = prepare(program, machine, post("fanuc-tcp"));
+    ASSERT_GE(ready.program.block_count(), 3);
+    const int z = machine.axis_index('Z');
+    const Block& first = ready.program.blocks[0];
+    EXPECT_TRUE(first.named == AxisSet::only(z));
+    EXPECT_EQ(first.target[z], machine.axis(z).max);
+    EXPECT_FALSE(ready.wording.blocks[0].tip);
+    EXPECT_FALSE(ready.wording.blocks[1].tip); // A and C to zero
+    EXPECT_TRUE(ready.wording.blocks[2].tip);
+}
+
 TEST(PreparedProgram, SaysWhichLineNoNumberOfPiecesKeepsNearEnough) {
     const auto machine = test::machine("ac-table");
     Program program = test::empty_program(machine);

@@ -50,6 +50,7 @@ Program small_program(const kinematics::MachineModel& machine) {
     test::add_block(program, BlockKind::coolant_on);
     test::add_move(program, at(0, 0, 55));
     program.blocks.back().named = AxisSet::only(2);
+    program.blocks.back().role = MoveRole::approach;
     test::add_move(program, at(20, -10, 55, 10, 90));
     test::add_move(program, at(20, -10, 15, 10, 90));
     test::add_move(program, at(20, -10, 5, 10, 90), 2.0);
@@ -62,6 +63,7 @@ Program small_program(const kinematics::MachineModel& machine) {
     test::add_move(program, at(40, 10, 5, 14, 60), 3.0);
     test::add_move(program, at(40, 10, 55, 14, 60));
     program.blocks.back().named = AxisSet::only(2);
+    program.blocks.back().role = MoveRole::retract;
     test::add_block(program, BlockKind::coolant_off);
     test::add_block(program, BlockKind::spindle_off);
     test::add_block(program, BlockKind::end);

@@ -227,6 +227,20 @@ TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
                             HasSubstr("part.ngc:3:1: a work system other than G54"),
                             HasSubstr("part.ngc:4:1: G53"),
                             HasSubstr("G28")));
+    EXPECT_THAT(messages(read("G21 G90\nM64 P1\nM65 P1\nM62 P2\nM67 E1 Q3\nG1 X1 F60\nM2\n").simplified),
+                ElementsAre(HasSubstr("part.ngc:2:1: outputs are not switched")));
+    EXPECT_THAT(messages(read("G21 G90\nM49\nM48\nM50 P0\nG1 X1 F60\nM2\n").simplified),
+                ElementsAre(HasSubstr("part.ngc:2:1: overrides")));
+    EXPECT_THAT(messages(read("G21 G90\nM48\nM50 P1\nM53 P1\nG97 S100\nG1 X1 F60\nM2\n").simplified),
+                ElementsAre());
+}
+
+TEST(MachineProgram, NamesWhatWouldBeAnotherProgramWithoutIt) {
+    using ::testing::ElementsAre;
+    EXPECT_THAT(messages(read("G21 G90\nM66 P0 L3 Q5\nG1 X1 F60\nM2\n").lost),
+                ElementsAre(HasSubstr("part.ngc:2:1: nothing waits for an input")));
+    EXPECT_THAT(messages(read("G21 G90\nG96 D2000 S100 M3\nG1 X1 F60\nM2\n").lost),
+                ElementsAre(HasSubstr("G96")));
 }
 
 } // namespace

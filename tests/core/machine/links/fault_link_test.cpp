@@ -24,6 +24,25 @@ TEST(FaultLink, LosesTheLinkAfterSoManyBytes) {
     EXPECT_FALSE(link.lost());
 }
 
+/// It had taken a whole core.
+TEST(FaultLink, WaitsAlsoWhereItIsBroken) {
+    PseudoTerminal terminal;
+    terminal.open();
+    SteadyClock clock;
+    FaultLink link(std::make_unique<SerialLink>(terminal.path()),
+                   {.delay = 0.001, .disconnect = 5},
+                   WireEnd::host,
+                   clock);
+    link.open();
+    link.write("abcdefgh");
+    ASSERT_TRUE(link.lost());
+    constexpr double patience = 0.02;
+    link.wait(patience);
+    const double before = clock.now();
+    link.wait(patience);
+    EXPECT_GE(clock.now() - before, patience);
+}
+
 TEST(FaultLink, DelaysBothWays) {
     PseudoTerminal terminal;
     terminal.open();

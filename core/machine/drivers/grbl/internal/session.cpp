@@ -47,17 +47,30 @@ void Session::closed() {
     output_.clear();
 }
 
+/// A controller without its host goes on with what it has.
+std::string Session::what_it_may_execute(bool in_program) const {
+    if (!in_program) {
+        return "; the controller may still execute what it has";
+    }
+    const int open = next_line_ - proof_.executed_lines();
+    return open == 0 ? std::string()
+                     : fmt::format("; the controller may still execute up to {} line{} that it has",
+                                   open,
+                                   open == 1 ? "" : "s");
+}
+
 void Session::lost(const std::string& why) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
     const bool moving = active() || stage_ == Stage::braking;
+    const bool in_program =
+        at_ == Activity::program && (stage_ == Stage::running || stage_ == Stage::braking);
     link_lost_ = true;
     stage_ = Stage::alarm;
     message_ = loss_sentence(why);
     if (moving) {
-        message_ += fmt::format("; the controller may still execute up to {} lines that it has",
-                                readout_.planner_blocks + static_cast<int>(window_.lines().size()));
+        message_ += what_it_may_execute(in_program);
     }
     output_.clear();
     settle_answer(message_);
@@ -87,7 +100,9 @@ void Session::tick(double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    last_heard_ = std::min(now, last_heard_ + own_pause_.taken(now));
+    const double pause = own_pause_.taken(now);
+    last_heard_ = std::min(now, last_heard_ + pause);
+    last_answer_ = std::min(now, last_answer_ + pause);
     watch_silence(now);
     watch_ending(now);
     watch_hold(now);
@@ -228,13 +243,15 @@ void Session::watch_answers(double now) {
     if (!expects_answers || window_.empty() || hold_wanted_ || held_ || !report_ ||
         report_->state != MachineState::idle) {
         last_answer_ = now;
+        idle_unanswered_ = 0;
         return;
     }
     double dwells = 0.0;
     for (const SentLine& line : window_.lines()) {
         dwells += line.dwell;
     }
-    if (now - last_answer_ > answer_time + dwells) {
+    constexpr int enough_reports = 10; // a controller that is itself kept from its work has said less
+    if (now - last_answer_ > answer_time + dwells && idle_unanswered_ >= enough_reports) {
         fail("an acknowledgement was lost on the way, so that lines can no longer be told apart", now);
     }
 }

@@ -71,6 +71,7 @@ public:
     void emergency_stop(double now) override;
     void reset(double now) override;
     void trust_position() override { doubt_.end(); }
+    void doubt_position(std::string why) override { doubt_.arise(std::move(why)); }
     void home(double now) override;
     void jog(const Jog& jog, double now) override;
     void stop_jog(double now) override;
@@ -107,6 +108,7 @@ private:
     void send_reset(double now);
     void end(bool fault, std::string message, double now);
     void finish_ending();
+    [[nodiscard]] std::string what_it_may_execute(bool in_program) const;
     void fail(const std::string& message, double now);
     void begin(ProgramLines program, Activity activity, double now);
     void finish(double now);
@@ -172,10 +174,11 @@ private:
     bool ending_in_fault_ = false; ///< while braking and flushing
     std::string ending_message_;
     double ending_since_ = 0.0;
-    int rest_reports_ = 0;   ///< in a row
-    bool unlock_ = false;    ///< after the questions
-    int spare_welcomes_ = 0; ///< that repeated resets may still bring
-    int resets_due_ = 0;     ///< greetings that our resets will bring
+    int rest_reports_ = 0;    ///< in a row
+    int idle_unanswered_ = 0; ///< reports since the last answer to a line, all of them idle
+    bool unlock_ = false;     ///< after the questions
+    int spare_welcomes_ = 0;  ///< that repeated resets may still bring
+    int resets_due_ = 0;      ///< greetings that our resets will bring
 
     bool hold_wanted_ = false, held_ = false;
     double hold_sent_ = 0.0, resume_sent_ = -1.0;

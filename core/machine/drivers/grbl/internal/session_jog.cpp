@@ -35,6 +35,7 @@ void Session::jog(const Jog& jog, double now) {
         window_ = Window(readout_.buffer_bytes, true);
         message_.clear();
         last_answer_ = last_heard_ = next_poll_ = now;
+        idle_unanswered_ = 0;
         stage_ = Stage::jogging;
         rest_reports_ = 0;
         jog_stopping_ = false;

@@ -81,6 +81,7 @@ void Session::finish(double now) {
     stage_ = Stage::asking_again;
     window_ = Window(readout_.buffer_bytes, true);
     last_answer_ = now;
+    idle_unanswered_ = 0;
     ask_next();
 }
 
@@ -172,6 +173,7 @@ void Session::handle(const Ack&, double now) {
         return;
     }
     last_answer_ = now;
+    idle_unanswered_ = 0;
     rest_reports_ = stage_ == Stage::jogging ? 0 : rest_reports_;
     answered(window_.pop());
     if (stage_ == Stage::jogging && jog_stopping_) {
@@ -188,6 +190,7 @@ void Session::handle(const ErrorAnswer& error, double now) {
         return;
     }
     last_answer_ = now;
+    idle_unanswered_ = 0;
     proof_.disturbed();
     const SentLine line = window_.pop();
     refused(line, explain_grbl_error(error.number), now);

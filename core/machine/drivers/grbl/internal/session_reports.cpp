@@ -64,6 +64,7 @@ void Session::handle(const StatusMessage& report, double now) {
     take_readout(report, now);
     report_ = report;
     rest_reports_ = report.moving() ? 0 : rest_reports_ + 1;
+    ++idle_unanswered_;
     if (stage_ == Stage::greeting) {
         if (report.moving()) {
             stage_ = Stage::alarm;

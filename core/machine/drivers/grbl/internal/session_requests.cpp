@@ -46,6 +46,7 @@ void Session::begin(ProgramLines program, Activity activity, double now) {
     readout_.modes.text.clear();
     readout_.modes.work_system = 0;
     last_answer_ = last_heard_ = now;
+    idle_unanswered_ = 0;
     next_poll_ = now;
     pump();
 }
@@ -77,6 +78,7 @@ void Session::resume(double now) {
     if (stage_ == Stage::running && waits_between_blocks()) {
         block_wait_ = false;
         last_answer_ = now;
+        idle_unanswered_ = 0;
         pump();
         return;
     }

@@ -36,7 +36,8 @@ void ShellSession::fail(std::string why, double now) {
         ending_in_fault_ = true;
         quiet_rounds_ = 0;
         next_round_ = now;
-    } else if (stage_ == Stage::ready || stage_ == Stage::stopped || stage_ == Stage::waking) {
+    } else if (stage_ == Stage::ready || stage_ == Stage::stopped || stage_ == Stage::foreign ||
+               stage_ == Stage::waking) {
         message_ = std::move(why);
     }
 }
@@ -47,7 +48,9 @@ void ShellSession::require_rest(std::string_view what) const {
     }
     throw Error(fmt::format("LinuxCNC is {} and takes no {}", to_text(status().state), what),
                 {},
-                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+                stage_ == Stage::alarm     ? message_ + "; look at the machine, then reset it"
+                : stage_ == Stage::foreign ? message_
+                                           : "");
 }
 
 void ShellSession::start(const gcode::Listing& listing,
@@ -70,7 +73,7 @@ void ShellSession::start(const gcode::Listing& listing,
 }
 
 void ShellSession::hold(double now) {
-    if (stage_ == Stage::running) {
+    if (stage_ == Stage::running || stage_ == Stage::foreign) {
         set("pause");
         paused_ = true;
     } else if (stage_ == Stage::jogging) {
@@ -79,19 +82,25 @@ void ShellSession::hold(double now) {
 }
 
 void ShellSession::resume(double /*now*/) {
-    if (stage_ == Stage::running && paused_) {
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && paused_) {
         set("resume");
-        message_.clear();
     }
 }
 
 void ShellSession::stop(double now) {
-    if (active()) {
+    if (active() || stage_ == Stage::foreign) {
         set("abort");
         finish(Stage::stopping);
         ending_in_fault_ = false;
         quiet_rounds_ = 0;
         next_round_ = now;
+    }
+}
+
+/// What somebody else has begun goes on.
+void ShellSession::leave(double now) {
+    if (stage_ != Stage::foreign) {
+        stop(now);
     }
 }
 

@@ -60,7 +60,8 @@ void ShellSession::lost(const std::string& why) {
     }
     link_lost_ = true;
     const std::string_view then =
-        stage_ == Stage::running ? "; LinuxCNC goes on with the program, so look at the machine"
+        stage_ == Stage::running || stage_ == Stage::foreign
+            ? "; LinuxCNC goes on with the program, so look at the machine"
         : stage_ == Stage::stopping
             ? "; nobody knows whether LinuxCNC was told to stop, so look at the machine"
             : "";

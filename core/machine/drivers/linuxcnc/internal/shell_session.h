@@ -48,6 +48,7 @@ public:
     void resume(double now) override;
     void stop(double now) override;
     void emergency_stop(double now) override;
+    void leave(double now) override;
     void reset(double now) override;
     void home(double now) override;
     void jog(const Jog& jog, double now) override;
@@ -61,6 +62,7 @@ private:
         greeting, ///< hello, and what surrounds it
         waking,   ///< out of the emergency stop, because a person asked for it
         ready,
+        foreign, ///< a program runs that somebody else has begun
         running,
         commanding,
         jogging,
@@ -84,6 +86,7 @@ private:
     void round_done(double now);
     [[nodiscard]] bool watch_power(double now);
     void take_machine();
+    void watch_others();
     void watch_program(double now);
     void watch_command(double now);
     void watch_jog(double now);
@@ -130,6 +133,8 @@ private:
     bool seen_running_ = false, paused_ = false, marked_ = false, ending_in_fault_ = false,
          has_program_ = false;
     int quiet_rounds_ = 0;                    ///< idle, one after the other
+    int busy_rounds_ = 0;                     ///< not idle, the same
+    bool off_without_estop_ = false;          ///< in the round before
     double last_noise_ = 0.0;                 ///< when the last round was that was not
     kinematics::AxisPositions program_start_; ///< where the machine stood
     bool left_start_ = false;

@@ -17,6 +17,7 @@ DriverState ShellSession::state() const {
         return DriverState::disconnected;
     case Stage::ready:
         return DriverState::idle;
+    case Stage::foreign:
     case Stage::running:
         return paused_ ? DriverState::holding : DriverState::running;
     case Stage::commanding:

@@ -17,6 +17,7 @@ using kinematics::AxisPositions;
 namespace {
 
 constexpr std::string_view all_letters = "XYZABC"; // in the order of ABS_ACT_POS
+constexpr const char* somebody_else = "LinuxCNC runs a program that somebody else has begun";
 
 } // namespace
 
@@ -24,6 +25,7 @@ void ShellSession::round_done(double now) {
     take_machine();
     speed_ /= std::max(1e-3, now - std::exchange(last_round_, now));
     quiet_rounds_ = idle_now() && speed_ < 1e-6 ? quiet_rounds_ + 1 : 0;
+    busy_rounds_ = idle_now() ? 0 : busy_rounds_ + 1;
     last_noise_ = quiet_rounds_ > 0 ? last_noise_ : now;
     if (!watch_power(now)) {
         return;
@@ -31,6 +33,7 @@ void ShellSession::round_done(double now) {
     if (stage_ == Stage::ready && !error_.empty()) {
         message_ = error_;
     }
+    watch_others();
     watch_program(now);
     watch_command(now);
     watch_jog(now);
@@ -51,8 +54,16 @@ bool ShellSession::watch_power(double now) {
                          "reset it"
                        : "");
         }
+        if (stage_ == Stage::ready && !idle_now()) { // before anybody is told that it is connected
+            finish(Stage::foreign, somebody_else);
+        }
         return false;
     }
+    const bool between = value("MACHINE") == "OFF" && value("ESTOP") != "ON"; // of an emergency stop?
+    if (off && between && !std::exchange(off_without_estop_, between)) {
+        return false; // the next round tells
+    }
+    off_without_estop_ = between;
     if (off && stage_ != Stage::alarm) {
         finish(Stage::alarm, value("ESTOP") == "ON" ? "emergency stop" : "the machine was switched off");
         return false;
@@ -90,6 +101,19 @@ void ShellSession::take_machine() {
         for (Eigen::Index n = 0; n < std::min<Eigen::Index>(3, position_.size()); ++n) {
             speed_ = std::hypot(speed_, position_[n] - before[n]);
         }
+    }
+}
+
+/// A program that was begun elsewhere, or by a Millwright that is gone: nothing of ours may push it aside.
+void ShellSession::watch_others() {
+    constexpr int enough = 2;
+    if ((stage_ == Stage::ready || stage_ == Stage::stopped) && busy_rounds_ >= enough) {
+        finish(Stage::foreign, somebody_else);
+    } else if (stage_ == Stage::foreign && quiet_rounds_ >= enough) {
+        finish(Stage::ready);
+    }
+    if (stage_ == Stage::foreign) {
+        paused_ = value("PROGRAM_STATUS") == "PAUSED";
     }
 }
 

@@ -374,6 +374,30 @@ TEST(GrblSession, NoticesThatAnAcknowledgementWasLost) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("acknowledgement"));
 }
 
+/// On a busy computer at the other end: it has had time for a word each 1.5 s, and may come to the line yet.
+TEST(GrblSession, GivesAControllerThatIsKeptFromItsWorkTimeToAnswer) {
+    GrblWire wire;
+    wire.start("G0 X1\n");
+    const auto says = [&wire](const std::string& bytes) {
+        for (int n = 0; n < 15; ++n) {
+            wire.now += 0.1;
+            wire.session.tick(wire.now);
+            (void)wire.session.take_output();
+        }
+        wire.session.receive(bytes, wire.now);
+        wire.session.tick(wire.now);
+    };
+    const std::string idle = "<Idle|MPos:0.000,0.000,0.000|FS:0,0>\r\n";
+    for (int n = 0; n < 6; ++n) {
+        says(idle); // 9 s in all
+    }
+    EXPECT_EQ(wire.state(), DriverState::running) << wire.session.status().message;
+    for (int n = 0; n < 6; ++n) {
+        says(idle);
+    }
+    EXPECT_EQ(wire.state(), DriverState::stopping);
+}
+
 TEST(GrblSession, NoticesThatTheControllerWasReset) {
     GrblWire wire({.reset = 800});
     wire.start(zigzag(30));

@@ -29,5 +29,12 @@ TEST(GrblSettings, ExplainEverySettingThatAControllerLists) {
     EXPECT_EQ(find_grbl_setting(7), nullptr);
 }
 
+TEST(GrblSettings, AdviseToReportThePlannerWhereItIsNotReported) {
+    EXPECT_TRUE(grbl_reports_advice(3).empty());
+    EXPECT_TRUE(grbl_reports_advice(2).empty());
+    EXPECT_NE(grbl_reports_advice(1).find("$10=3"), std::string_view::npos);
+    EXPECT_FALSE(grbl_reports_advice(0).empty());
+}
+
 } // namespace
 } // namespace millwright::machine

@@ -29,6 +29,7 @@ public:
     void emergency_stop() override { wire_.session.emergency_stop(wire_.now); }
     void reset() override { wire_.session.reset(wire_.now); }
     void trust_position() override { wire_.session.trust_position(); }
+    void doubt_position(std::string why) override { wire_.session.doubt_position(std::move(why)); }
     void close() noexcept override {}
     void set_overrides(const machine::Overrides& wanted) override { wire_.session.set_overrides(wanted); }
     void set_single_block(bool on) override { wire_.session.set_single_block(on); }

@@ -90,6 +90,67 @@ TEST(ShellSession, TellsOneThatEndedFromOneThatWasEndedAtTheMachine) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("ended at the machine"));
 }
 
+/// LinuxCNC goes on with the program of a Millwright that was killed.
+struct Orphan : ::testing::Test {
+    LinuxCncWire wire;
+
+    void SetUp() override {
+        wire.start(square);
+        ASSERT_TRUE(wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0));
+        wire.session = ShellSession();
+        wire.session.opened(wire.now);
+        ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
+        ASSERT_EQ(wire.state(), DriverState::running);
+    }
+    [[nodiscard]] std::string refusal() {
+        try {
+            wire.start("G21 G90\nG0 X-5\nM2\n");
+        } catch (const Error& error) {
+            return to_text(error.diagnostic());
+        }
+        return "";
+    }
+};
+
+TEST_F(Orphan, IsNotPushedAsideByAnotherProgram) {
+    EXPECT_EQ(wire.session.status().activity, Activity::none);
+    EXPECT_THAT(refusal(), HasSubstr("somebody else"));
+    EXPECT_THROW((void)wire.session.command("G0 X1", wire.now), Error);
+    EXPECT_THROW(wire.session.home(wire.now), Error);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 60.0));
+    EXPECT_EQ(wire.linuxcnc.truth().ended_runs, 1);
+    EXPECT_NEAR(wire.linuxcnc.position()[0], 0.0, 1e-9);
+    EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Orphan, IsPausedResumedAndStoppedByAPerson) {
+    wire.session.hold(wire.now);
+    wire.run_until([] { return false; }, 2.0);
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    EXPECT_FALSE(wire.linuxcnc.moving());
+    wire.session.resume(wire.now);
+    wire.run_until([] { return false; }, 0.5);
+    EXPECT_EQ(wire.state(), DriverState::running);
+    EXPECT_TRUE(wire.linuxcnc.moving());
+    wire.session.stop(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::stopped; }, 60.0));
+    EXPECT_FALSE(wire.linuxcnc.moving());
+}
+
+TEST_F(Orphan, IsNotEndedByLeaving) {
+    wire.session.leave(wire.now);
+    wire.run_until([] { return false; }, 1.0);
+    EXPECT_TRUE(wire.linuxcnc.moving());
+}
+
+TEST_F(Orphan, IsFoundAlsoWhenItBeginsLater) {
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 60.0));
+    wire.linuxcnc.receive("set mode auto\r\nset run\r\n"); // by another interface
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::running; }, 5.0));
+    EXPECT_EQ(wire.session.status().activity, Activity::none);
+    EXPECT_THAT(refusal(), HasSubstr("somebody else"));
+}
+
 TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {
     LinuxCncWire wire;
     wire.start(square);

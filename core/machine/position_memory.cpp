@@ -1,0 +1,71 @@
+#include "core/machine/position_memory.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/json.h"
+#include "core/machine/driver.h"
+#include "core/machine/job.h"
+
+#include <nlohmann/json.hpp>
+
+#include <system_error>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+constexpr std::string_view format_name = "millwright-position-doubt";
+constexpr int format_version = 1;
+
+std::string read_doubt(const std::filesystem::path& file) {
+    const JsonValue whole = JsonValue::read(file);
+    whole.expect_only({"format", "version", "controller", "doubt"});
+    if (whole.at("format").text() != format_name) {
+        whole.at("format").fail("this is no doubt about a position");
+    }
+    (void)whole.at("version").integer(1, format_version);
+    return whole.at("doubt").text();
+}
+
+} // namespace
+
+PositionMemory::PositionMemory(std::filesystem::path folder, std::string controller)
+    : folder_(std::move(folder)), file_(folder_ / ("doubt-" + program_hash(controller) + ".json")),
+      controller_(std::move(controller)) {}
+
+void PositionMemory::remind(Driver& driver) {
+    if (!std::filesystem::exists(file_)) {
+        return;
+    }
+    try {
+        kept_ = read_doubt(file_);
+    } catch (const Error& error) {
+        kept_ =
+            "what was known of it when it was last connected cannot be read: " + to_text(error.diagnostic());
+    }
+    driver.doubt_position(kept_); // what happened tells more than how the controller was found
+}
+
+void PositionMemory::keep(const DriverStatus& status) {
+    if (status.state == DriverState::disconnected || status.position_doubt == kept_) {
+        return;
+    }
+    kept_ = status.position_doubt;
+    if (kept_.empty()) {
+        std::error_code why;
+        std::filesystem::remove(file_, why);
+        if (why) {
+            throw Error("cannot be removed: " + why.message(), file_);
+        }
+    } else {
+        const nlohmann::ordered_json whole{{"format", format_name},
+                                           {"version", format_version},
+                                           {"controller", controller_},
+                                           {"doubt", kept_}};
+        make_folder(std::filesystem::absolute(folder_));
+        write_file(file_, whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    }
+}
+
+} // namespace millwright::machine

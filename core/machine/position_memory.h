@@ -1,0 +1,32 @@
+// What outlasts a connection: that the machine behind a controller may not stand where the controller says.
+// Cut off in motion, unlocked and linked again, Grbl looks as if nothing had happened.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace millwright::machine {
+
+class Driver;
+struct DriverStatus;
+
+/// Of one controller. Nothing is on disk unless something is in doubt.
+class PositionMemory {
+public:
+    /// `controller` tells it from others that are remembered in `folder`: its kind and address.
+    PositionMemory(std::filesystem::path folder, std::string controller);
+
+    /// After connect(): a doubt that was there at the last look is there again, whatever else speaks against
+    /// the position. What cannot be read is a doubt, too.
+    void remind(Driver& driver);
+    /// Remembers what is in doubt now; of a disconnected driver nothing is known. Throws Error if it cannot
+    /// be written, once for each change.
+    void keep(const DriverStatus& status);
+
+private:
+    std::filesystem::path folder_, file_;
+    std::string controller_;
+    std::string kept_; ///< what was last kept; empty: nothing
+};
+
+} // namespace millwright::machine

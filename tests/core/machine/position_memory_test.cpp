@@ -1,0 +1,109 @@
+#include "core/machine/position_memory.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "tests/core/machine/drivers/grbl/wire_driver.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::machine {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class PositionMemoryOf : public testing::Test {
+protected:
+    test::ScratchFolder scratch;
+    std::filesystem::path folder = scratch / "jobs";
+    test::GrblWire wire;
+    test::WireDriver driver{wire};
+
+    [[nodiscard]] std::string doubt() const { return wire.session.status().position_doubt; }
+    /// As a program that has just been started.
+    [[nodiscard]] PositionMemory memory(const std::string& controller = "grbl /dev/ttyUSB0") const {
+        return {folder, controller};
+    }
+    void trust() {
+        driver.trust_position();
+        ASSERT_THAT(doubt(), IsEmpty());
+    }
+};
+
+TEST_F(PositionMemoryOf, AnEmptyFolderKnowsOfNoDoubtAndStaysEmptyWithoutOne) {
+    trust();
+    PositionMemory now = memory();
+    now.remind(driver);
+    now.keep(driver.status());
+    EXPECT_THAT(doubt(), IsEmpty());
+    EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST_F(PositionMemoryOf, AControllerIsRemindedOfWhatWasInDoubt) {
+    driver.doubt_position("the controller was reset");
+    memory().keep(driver.status());
+    trust(); // as a session that knows nothing of it
+    memory("grbl /dev/ttyUSB1").remind(driver);
+    EXPECT_THAT(doubt(), IsEmpty());
+    memory().remind(driver);
+    EXPECT_EQ(doubt(), "the controller was reset");
+}
+
+TEST_F(PositionMemoryOf, WhatHappenedIsToldAndNotHowTheControllerWasFound) {
+    driver.doubt_position("the controller was reset");
+    memory().keep(driver.status());
+    driver.doubt_position("Grbl was locked when it was found");
+    memory().remind(driver);
+    EXPECT_EQ(doubt(), "the controller was reset");
+}
+
+TEST_F(PositionMemoryOf, ADoubtThatHasEndedIsForgotten) {
+    driver.doubt_position("the controller was reset");
+    PositionMemory now = memory();
+    now.keep(driver.status());
+    trust();
+    now.keep(driver.status());
+    memory().remind(driver);
+    EXPECT_THAT(doubt(), IsEmpty());
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+/// Nothing is known of a machine then, and certainly not that all is well.
+TEST_F(PositionMemoryOf, ADisconnectedDriverEndsNoDoubt) {
+    driver.doubt_position("the controller was reset");
+    PositionMemory now = memory();
+    now.keep(driver.status());
+    now.keep(DriverStatus{});
+    trust();
+    memory().remind(driver);
+    EXPECT_EQ(doubt(), "the controller was reset");
+}
+
+TEST_F(PositionMemoryOf, AFileThatCannotBeReadIsADoubt) {
+    driver.doubt_position("the controller was reset");
+    memory().keep(driver.status());
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        write_file(entry.path(), R"({"format": "millwright-position-doubt", "version": 1)");
+    }
+    trust();
+    PositionMemory now = memory();
+    now.remind(driver);
+    EXPECT_THAT(doubt(), HasSubstr("cannot be read"));
+    trust();
+    now.keep(driver.status());
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST_F(PositionMemoryOf, WhatCannotBeWrittenIsToldOnce) {
+    write_file(folder, "a file where the folder should be");
+    driver.doubt_position("the controller was reset");
+    PositionMemory now = memory();
+    EXPECT_THROW(now.keep(driver.status()), Error);
+    EXPECT_NO_THROW(now.keep(driver.status()));
+    EXPECT_EQ(doubt(), "the controller was reset");
+}
+
+} // namespace
+} // namespace millwright::machine
