@@ -87,7 +87,8 @@ void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     }
     if (choice_.power) {
         driver_->enable();
-        wait_for([](const DriverStatus& now) { return now.powered || now.state == DriverState::alarm; }, stop);
+        wait_for([](const DriverStatus& now) { return now.powered || now.state == DriverState::alarm; },
+                 stop);
     }
     if (choice_.home) {
         driver_->home();

@@ -136,9 +136,13 @@ void Session::watch_silence(double now) {
         if (stage_ == Stage::asking && resets_due_ > 0 && now - last_reset_ > 4.0 * repeat_time) {
             send_reset(now);
         }
-        if (now - ending_since_ > settings_.greeting_time) {
+        const double silence = now - ending_since_;
+        if (silence > settings_.greeting_time) {
             stage_ = Stage::alarm;
             message_ = "no Grbl answers at this port";
+        } else if (stage_ == Stage::greeting && silence > settings_.greeting_time / 2.0) {
+            begin_asking(now,
+                         false); // after a limit switch Grbl is deaf to all but a reset, and stands still
         }
         return;
     }

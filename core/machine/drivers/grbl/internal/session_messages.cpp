@@ -202,6 +202,10 @@ void Session::handle(const AlarmMessage& alarm, double now) {
     if (grbl_alarm_loses_position(alarm.number)) {
         doubt_.arise(fmt::format("after alarm {}", alarm.number));
     }
+    if (stage_ == Stage::asking && resets_due_ == 0) {
+        begin_asking(now, false); // it hears nothing else from here on
+        return;
+    }
     if (stage_ == Stage::flushing || stage_ == Stage::asking || resets_due_ > 0) {
         append(ending_message_, why);
         ending_in_fault_ = true;

@@ -398,6 +398,30 @@ TEST(GrblSession, GivesAControllerThatIsKeptFromItsWorkTimeToAnswer) {
     EXPECT_EQ(wire.state(), DriverState::stopping);
 }
 
+/// After a limit switch Grbl does nothing until a reset, and does not say so to who comes later.
+TEST(GrblSession, WakesAControllerThatALimitSwitchHasMadeDeaf) {
+    GrblWire wire;
+    wire.grbl.raise_alarm();
+    (void)wire.grbl.take_output(); // before anybody listened
+    wire.session = Session();
+    wire.session.opened(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
+    EXPECT_FALSE(wire.session.stranger()) << wire.session.stranger()->message;
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_NE(wire.session.status().position_doubt, "");
+}
+
+TEST(GrblSession, SurvivesALimitSwitchWhileItIsBeingAsked) {
+    GrblWire wire;
+    wire.session = Session();
+    wire.session.opened(wire.now);
+    wire.run_until([] { return false; }, 0.3); // in the middle of the questions
+    wire.grbl.raise_alarm();
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
+    EXPECT_FALSE(wire.session.stranger());
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+}
+
 TEST(GrblSession, NoticesThatTheControllerWasReset) {
     GrblWire wire({.reset = 800});
     wire.start(zigzag(30));

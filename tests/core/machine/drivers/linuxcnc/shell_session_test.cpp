@@ -127,11 +127,13 @@ TEST_F(Orphan, IsPausedResumedAndStoppedByAPerson) {
     wire.session.hold(wire.now);
     wire.run_until([] { return false; }, 2.0);
     EXPECT_EQ(wire.state(), DriverState::holding);
-    EXPECT_FALSE(wire.linuxcnc.moving());
+    const AxisPositions rest = wire.linuxcnc.position();
+    wire.run_until([] { return false; }, 1.0);
+    EXPECT_EQ(wire.linuxcnc.position(), rest);
     wire.session.resume(wire.now);
     wire.run_until([] { return false; }, 0.5);
     EXPECT_EQ(wire.state(), DriverState::running);
-    EXPECT_TRUE(wire.linuxcnc.moving());
+    EXPECT_NE(wire.linuxcnc.position(), rest);
     wire.session.stop(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::stopped; }, 60.0));
     EXPECT_FALSE(wire.linuxcnc.moving());
