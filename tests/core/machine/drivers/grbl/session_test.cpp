@@ -415,8 +415,9 @@ TEST(GrblSession, SurvivesALimitSwitchWhileItIsBeingAsked) {
     GrblWire wire;
     wire.session = Session();
     wire.session.opened(wire.now);
-    wire.run_until([] { return false; }, 0.3); // in the middle of the questions
-    wire.grbl.raise_alarm();
+    wire.sent.clear();
+    ASSERT_TRUE(wire.run_until([&] { return wire.sent.find("$$") != std::string::npos; }, 10.0));
+    wire.grbl.raise_alarm(); // in the middle of the questions
     ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
     EXPECT_FALSE(wire.session.stranger());
     EXPECT_EQ(wire.state(), DriverState::alarm);
