@@ -1,5 +1,6 @@
 #include "core/base/units.h"
 #include "core/project/cut_study.h"
+#include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/settings.h"
 #include "core/project/tool_settings.h"
@@ -12,16 +13,6 @@ namespace millwright::project {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Figures are rounded to a nanometre or a microdegree: no reader needs more.
-double rounded(double value) {
-    constexpr double steps = 1e6;
-    return std::round(value * steps) / steps;
-}
-
-Json vector(const Vec3& p) {
-    return Json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
-}
 
 Json bites(const CutStudy& study) {
     Json json = Json::array();

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/settings.h"
 #include "core/project/version.h"
@@ -15,12 +16,6 @@ namespace millwright::project {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Figures are rounded to a nanometre or a microdegree: no reader needs more.
-double rounded(double value) {
-    constexpr double steps = 1e6;
-    return std::round(value * steps) / steps;
-}
 
 std::string_view status_id(grid::ImproverStatus status) {
     switch (status) {
@@ -45,10 +40,6 @@ std::string_view status_id(grid::ImproverStatus status) {
 /// A norm, which is no number any more where a solver ran away.
 Json norm_of(const GridOutcome& outcome) {
     return std::isfinite(outcome.norm) ? Json(outcome.norm) : Json();
-}
-
-Json vector(const Vec3& p) {
-    return Json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
 }
 
 Json distances(const grid::ErrorSummary& figures) {

@@ -1,7 +1,7 @@
 // The motion behind the CORDIC processor on the command line: the program's own limits hold in it, and pulses
 // that no timer can give are refused.
 #include "tests/app/program.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/app/scratch_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,24 +18,14 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class CordicMotion : public ::testing::Test {
+class CordicMotion : public ScratchFiles {
 protected:
-    std::string written(const std::string& name, const std::string& text) const {
-        const auto file = folder_.path() / name;
-        write_content(file, text);
-        return file.string();
-    }
-    [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
     /// A long line of 45 degrees with Amax = 100 mm/s2, of which the axes get half, then one with 40.
     [[nodiscard]] std::string two_lines() const {
         return written("lines.asm",
                        "MOV Vmax, 20\nMOV Amax, 100\nMOV XI, 50\nMOV YJ, 50\nG01\n"
                        "MOV Amax, 40\nMOV XI, 100\nMOV YJ, 50\nG01\nHLT\n");
     }
-
-private:
-    ScratchFolder folder_;
 };
 
 struct Motion {

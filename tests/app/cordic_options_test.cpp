@@ -1,6 +1,6 @@
 // What the cordic commands make of their options: none is passed over in silence, no number is none.
 #include "tests/app/program.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/app/scratch_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,18 +19,7 @@ using testing::Not;
 
 const std::string arc = "assets/samples/thesis-arc.ngc";
 
-class CordicOptions : public ::testing::Test {
-protected:
-    std::string written(const std::string& name, const std::string& text) const {
-        const auto file = folder_.path() / name;
-        write_content(file, text);
-        return file.string();
-    }
-    [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-private:
-    ScratchFolder folder_;
-};
+using CordicOptions = ScratchFiles;
 
 TEST_F(CordicOptions, RefuseArcsThatTheFormatCannotKeepWithinTheTolerance) {
     const std::string file = written("f10.ngc", "G21 G90\nF60\nG2 X0 Y0 I10 J0\nM2\n");
