@@ -2,6 +2,7 @@
 // draws on the processor.
 #pragma once
 
+#include "core/project/assets.h"
 #include "ui/panels/desktop.h"
 
 #include <epoxy/gl.h>
@@ -34,8 +35,11 @@ inline double processor_time(clockid_t whose) {
 class Visitor {
 public:
     Visitor()
-        : context_(window),
-          workshop_({.assets = "assets", .log_folder = {}, .settings = {}, .recovery = {}, .wake = [] {}}),
+        : context_(window), workshop_({.assets = project::assets_folder(),
+                                       .log_folder = {},
+                                       .settings = {},
+                                       .recovery = {},
+                                       .wake = [] {}}),
           desktop_(context_, workshop_) {
         workshop_.wait_idle();
         for (int n = 0; n < 3; ++n) {

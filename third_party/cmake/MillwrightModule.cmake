@@ -78,7 +78,7 @@ function(millwright_fuzz name)
     set(found ${PROJECT_BINARY_DIR}/fuzz/${name}_corpus)
     file(MAKE_DIRECTORY ${found})
     add_test(NAME ${name}_fuzz
-        COMMAND ${name}_fuzz -seed=1 -max_total_time=20 -timeout=10 -print_final_stats=1
+        COMMAND ${name}_fuzz -seed=1 -max_total_time=20 -timeout=30 -print_final_stats=1
             -artifact_prefix=${PROJECT_BINARY_DIR}/fuzz/${name}_ ${found} ${ARG_CORPUS}
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${name}_fuzz PROPERTIES LABELS fuzz TIMEOUT 120)

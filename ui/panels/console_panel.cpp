@@ -17,6 +17,8 @@ using widgets::Permission;
 
 constexpr std::size_t most_kept = 20'000;
 constexpr std::size_t most_commands = 100;
+constexpr std::string_view command_tip =
+    "A line for the machine; Enter sends it, arrows bring back earlier ones, Tab completes";
 
 bool is_report(const ConsoleLine& line) {
     return line.kind == ConsoleKind::query || line.kind == ConsoleKind::report;
@@ -113,6 +115,8 @@ void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const float whole = ui.rest().w;
+    const machine::CommandAnswer& answer = now.controller.status.answer;
+    const bool refused = answer.state == machine::CommandAnswer::State::refused;
     {
         const auto width = ui.width(0.5F * whole);
         const auto labels = ui.label_share(0.16F);
@@ -120,8 +124,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
                 ui.command_line("command",
                                 "MDI",
                                 now.session.hand.commands,
-                                "A line for the machine; Enter sends it, arrows bring back earlier ones, Tab "
-                                "completes",
+                                refused ? std::string_view() : command_tip, // which would lie over the reason
                                 can_send(now),
                                 now.controller.can.words)) {
             ask.tell([line = *line](machine::Driver& driver) { (void)driver.command(line); });
@@ -149,8 +152,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
             "reports", "Status reports", now.session.hand.show_reports, "They come ten times a second")) {
         ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
     }
-    const machine::CommandAnswer& answer = now.controller.status.answer;
-    if (answer.state == machine::CommandAnswer::State::refused) {
+    if (refused) {
         ui.words("Refused: " + answer.text, widgets::Tone::danger);
     } else if (answer.state == machine::CommandAnswer::State::pending) {
         ui.words("Being executed \u2026", widgets::Tone::muted);

@@ -59,6 +59,16 @@ Permission can_jog(const Workbench& now, char axis) {
     return jogging ? Permission{} : at_rest(now.controller);
 }
 
+widgets::AxisState state_of(const machine::DriverStatus& machine, const std::string& letter) {
+    if (machine.link_lost) {
+        return widgets::AxisState::old;
+    }
+    if (machine.inputs.limits.find(letter) != std::string::npos) {
+        return widgets::AxisState::at_limit;
+    }
+    return machine.position_doubt.empty() ? widgets::AxisState::normal : widgets::AxisState::not_homed;
+}
+
 /// Collects what is held down in this frame.
 class Wish {
 public:
@@ -190,15 +200,18 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
         reading.value = turns ? to_degrees(work[k]) : work[k];
         reading.unit = turns ? "\u00b0" : "mm";
         reading.second = turns ? to_degrees(machine.status.position[k]) : machine.status.position[k];
-        if (machine.status.inputs.limits.find(letters[n]) != std::string::npos) {
-            reading.state = widgets::AxisState::at_limit;
-        }
+        reading.state = state_of(machine.status, letters[n]);
         axes.push_back(reading);
     }
     const std::string system = machine.status.work_system > 0
                                    ? machine::work_system_name(machine.status.work_system) + ", machine"
                                    : std::string("work, machine");
     widgets::readout(ui, "axes", axes, system);
+    if (machine.status.link_lost) {
+        ui.words("As last told: the link is lost.", widgets::Tone::danger);
+    } else if (!machine.status.position_doubt.empty()) {
+        ui.words("In doubt: home the machine or confirm it.", widgets::Tone::warning);
+    }
     const Permission can = can_command(machine);
     std::string all;
     {

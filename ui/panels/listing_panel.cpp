@@ -68,7 +68,8 @@ void ListingPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    constexpr float line_share = 0.62F; // of the width
+    // of the width: beside it stands how many places were found
+    const float line_share = wanted_.empty() ? 1.0F : 0.66F;
     constexpr float buttons = 76.0F;
     const float whole = ui.rest().w;
     const float label = 0.15F * whole;
@@ -102,7 +103,7 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::string of_all = fmt::format("of {}", lines_->count());
     const widgets::FieldInfo line{"line",
                                   "Line",
-                                  of_all,
+                                  wanted_.empty() ? std::string_view(of_all) : std::string_view(),
                                   "Type a number to go to that line",
                                   1.0,
                                   static_cast<double>(std::max<std::ptrdiff_t>(lines_->count(), 1)),

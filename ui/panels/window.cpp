@@ -131,7 +131,7 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
     const Layout place = layout(ui, now.session, width, height);
     draw_panes(ui, now, place);
     draw_splitters(ui, now, place, width, height);
-    draw_over(ui, now, width, height);
+    draw_over(ui, now, place.view);
     obey_shortcuts(ui, now);
     workshop_.perform(ask_, focused && !search_.is_open());
     for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
@@ -301,7 +301,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
     }
 }
 
-void Window::draw_over(Ui& ui, const Workbench& now, float width, float height) {
+void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) {
     if (now.session.search_wanted) {
         search_.open();
         ask_.show([](actions::Session& session) { session.search_wanted = false; });
@@ -320,7 +320,7 @@ void Window::draw_over(Ui& ui, const Workbench& now, float width, float height) 
     if (const auto chosen = search_.draw(ui, "search", items)) {
         ask_.run(ids[static_cast<std::size_t>(*chosen)]);
     }
-    toasts_.draw(ui, "notices", {0.0F, 0.0F, width, height - ui.px(status_height)});
+    toasts_.draw(ui, "notices", view); // over the drawing, where they cover no button
 }
 
 void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {

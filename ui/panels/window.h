@@ -48,7 +48,7 @@ private:
     void draw_left(Ui& ui, const Workbench& now, const widgets::Rect& place);
     void draw_inspector(Ui& ui, const Workbench& now);
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
-    void draw_over(Ui& ui, const Workbench& now, float width, float height);
+    void draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view);
     void obey_shortcuts(const Ui& ui, const Workbench& now);
 
     actions::Workshop& workshop_;

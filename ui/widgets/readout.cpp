@@ -30,6 +30,7 @@ Colour digit_colour(const Palette& colours, AxisState state) {
     case AxisState::at_limit:
         return colours.danger;
     case AxisState::not_homed:
+    case AxisState::old:
         return colours.muted;
     case AxisState::normal:
         break;
@@ -44,7 +45,9 @@ std::string_view state_tip(AxisState state) {
     case AxisState::at_limit:
         return "At the end of its travel.";
     case AxisState::not_homed:
-        return "Not homed: the position is not known to the machine.";
+        return "Not homed or in doubt: where it is is not known for certain.";
+    case AxisState::old:
+        return "As the machine told it last; where it is now is not known.";
     case AxisState::normal:
         break;
     }

@@ -9,7 +9,13 @@
 
 namespace millwright::widgets {
 
-enum class AxisState { normal, near_limit, at_limit, not_homed };
+enum class AxisState {
+    normal,
+    near_limit,
+    at_limit,
+    not_homed, ///< or in doubt
+    old,       ///< as last told by a machine that nobody hears any more
+};
 
 struct AxisReading {
     std::string_view letter;      ///< X, Y, Z, A, J1; also the last part of the path
