@@ -1,30 +1,39 @@
 #include "core/grid/descent.h"
 
+#include "core/grid/internal/rows.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace millwright::grid {
 
 namespace {
 
-constexpr std::size_t memory_length = 8;
 constexpr double least_curvature = 1e-12; // s.y against |s||y|; below, the pair says nothing
 
 } // namespace
 
 double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        sum += a[k].dot(b[k]);
-    }
-    return sum;
+    std::vector<double> sums(pieces_of(a.size()), 0.0);
+    for_pieces(a.size(), [&](std::size_t first, std::size_t count) {
+        double sum = 0.0;
+        for (std::size_t k = first; k < first + count; ++k) {
+            sum += a[k].dot(b[k]);
+        }
+        sums[first / nodes_a_piece] = sum;
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 void add(std::vector<Vec2>& to, double factor, const std::vector<Vec2>& step) {
-    for (std::size_t k = 0; k < to.size(); ++k) {
-        to[k] += factor * step[k];
-    }
+    for_pieces(to.size(), [&](std::size_t first, std::size_t count) {
+        for (std::size_t k = first; k < first + count; ++k) {
+            to[k] += factor * step[k];
+        }
+    });
 }
 
 double longest(const std::vector<Vec2>& steps) {
@@ -61,7 +70,7 @@ void DescentMemory::remember(std::vector<Vec2> step, std::vector<Vec2> change) {
         return;
     }
     pairs_.push_back({std::move(step), std::move(change), 1.0 / sy});
-    if (pairs_.size() > memory_length) {
+    if (pairs_.size() > length) {
         pairs_.pop_front();
     }
 }

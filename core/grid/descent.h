@@ -3,11 +3,13 @@
 
 #include "core/geometry/vectors.h"
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
 namespace millwright::grid {
 
+/// Parallel, same bytes on any number of threads; so is add().
 [[nodiscard]] double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
 
 /// to += factor * step
@@ -18,6 +20,8 @@ void add(std::vector<Vec2>& to, double factor, const std::vector<Vec2>& step);
 
 class DescentMemory {
 public:
+    static constexpr std::size_t length = 8; ///< steps that are remembered
+
     /// Downhill from where the gradient is `gradient`: against it while nothing is remembered.
     [[nodiscard]] std::vector<Vec2> direction(const std::vector<Vec2>& gradient) const;
 

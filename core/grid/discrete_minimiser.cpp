@@ -1,6 +1,7 @@
 #include "core/grid/discrete_minimiser.h"
 
 #include "core/base/error.h"
+#include "core/grid/internal/corner_sums.h"
 #include "core/grid/internal/outline.h"
 
 #include <algorithm>
@@ -118,6 +119,15 @@ bool DiscreteMinimiser::iterate() {
         memory_.clear();
     }
     return status_ == SolverStatus::running;
+}
+
+/// Two grids with their gradients, a direction, a step with its change and what L-BFGS remembers; while the
+/// functional is summed up the terms of every cell and the weight with its slope.
+std::size_t DiscreteMinimiser::memory_bytes(int rows, int columns) {
+    constexpr std::size_t arrays = 7 + 2 * DescentMemory::length;
+    constexpr std::size_t a_node =
+        arrays * sizeof(Vec2) + sizeof(internal::CellTerms) + sizeof(double) + sizeof(Vec2);
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) * a_node;
 }
 
 } // namespace millwright::grid

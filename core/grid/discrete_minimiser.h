@@ -7,6 +7,7 @@
 #include "core/grid/discrete_functional.h"
 #include "core/grid/elliptic_solver.h"
 
+#include <cstddef>
 #include <functional>
 
 namespace millwright::grid {
@@ -34,6 +35,9 @@ public:
 
     /// The functional at the current nodes.
     [[nodiscard]] double value() const { return now_.value; }
+
+    /// What a solver for rows x columns nodes takes at most, bytes.
+    [[nodiscard]] static std::size_t memory_bytes(int rows, int columns);
 
 private:
     [[nodiscard]] DiscreteFunctional evaluate(const NodeArray& nodes) const;

@@ -6,6 +6,7 @@
 #include "core/grid/grid_promise.h"
 #include "core/grid/harmonic_functional.h"
 #include "core/grid/jacobi_newton.h"
+#include "core/grid/multigrid_then_minimiser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,16 @@ namespace {
 constexpr int iterations_per_measurement =
     10;                        // not those of a step, so that watching does not change the result
 constexpr int enough_kept = 6; // candidates to choose from at the end; each costs a whole path
+constexpr std::size_t most_candidates = 32; // each is a whole grid
 constexpr int most_falls = 3;
 constexpr double fall_of_adaptation = 0.1;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int shown_decimals = 4; // of a mean error in mm
+
+/// A cycle does what hundreds of plain iterations do.
+int measured_every(EllipticMethod method) {
+    return method == EllipticMethod::multigrid ? 1 : iterations_per_measurement;
+}
 
 bool has_failed(SolverStatus status) {
     return status == SolverStatus::folded || status == SolverStatus::not_finite ||
@@ -109,6 +116,26 @@ std::string warning_of(const Weight* weight, const Grid& start) {
 
 } // namespace
 
+std::size_t memory_bytes(EllipticMethod method, int nu, int nv) {
+    const auto of_solver = [&] {
+        switch (method) {
+        case EllipticMethod::multigrid:
+            return MultigridThenMinimiser::memory_bytes(nu, nv);
+        case EllipticMethod::reference:
+            return JacobiNewton::memory_bytes(nu, nv);
+        case EllipticMethod::minimiser:
+        case EllipticMethod::harmonic:
+            break;
+        }
+        return DiscreteMinimiser::memory_bytes(nu, nv);
+    };
+    const auto nodes = static_cast<std::size_t>(nu) * static_cast<std::size_t>(nv);
+    constexpr std::size_t weights = 3; // density before, now, and what is made of it
+    const std::size_t a_position = nodes * (3 * sizeof(Vec2) + sizeof(MoveError));
+    return 2 * of_solver() + 2 * a_position + nodes * most_candidates * sizeof(Vec2) +
+           weights * raster_bytes(nu, nv);
+}
+
 EllipticAdaptationSettings harmonic_settings() {
     EllipticAdaptationSettings settings;
     settings.method = EllipticMethod::harmonic;
@@ -127,8 +154,10 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
                          .round_start = start,
                          .functional = settings.functional} {
     expects_sense(settings_);
-    expects(settings_.method != EllipticMethod::reference || (start.nu() >= 3 && start.nv() >= 3),
-            "the reference method has at least 3 x 3 nodes");
+    const bool has_stencil =
+        settings_.method == EllipticMethod::reference || settings_.method == EllipticMethod::multigrid;
+    expects(!has_stencil || (start.nu() >= 3 && start.nv() >= 3),
+            "the reference and the multigrid method have at least 3 x 3 nodes");
     at_.moves = measure(model_, start_, settings_.direction, settings_.sampling);
     at_.state.start = summary(at_.moves);
     at_.state.now = at_.state.start;
@@ -187,6 +216,9 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
     if (settings_.method == EllipticMethod::reference) {
         return std::make_unique<JacobiNewton>(std::move(nodes), at.round_weight, solver);
     }
+    if (settings_.method == EllipticMethod::multigrid) {
+        return std::make_unique<MultigridThenMinimiser>(std::move(nodes), at.round_weight, solver);
+    }
     if (settings_.method == EllipticMethod::harmonic) {
         return std::make_unique<DiscreteMinimiser>(
             std::move(nodes),
@@ -209,7 +241,7 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
             fall(at, solver->status());
             return;
         }
-        if (!more || solver->iterations() % iterations_per_measurement == 0) {
+        if (!more || solver->iterations() % measured_every(settings_.method) == 0) {
             take(at, solver->nodes(), progress);
         }
     }
@@ -242,6 +274,10 @@ void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progre
             return dominates(earlier->error, at.state.now);
         })) {
         at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
+        if (at.candidates.size() > most_candidates) {
+            at.candidates.erase(std::ranges::max_element(
+                at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; }));
+        }
     }
     const bool axis_is_kept = at.state.now.axis_max <= at.state.start.axis_max;
     if (at.state.now.mean < at.state.of_best.mean && axis_is_kept) {

@@ -8,6 +8,7 @@
 #include "core/grid/error_weight.h"
 #include "core/grid/improver.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ namespace millwright::grid {
 /// Who moves the nodes.
 enum class EllipticMethod {
     minimiser, ///< DiscreteMinimiser: never folds, converges with strong weights
+    multigrid, ///< MultigridThenMinimiser: the fast one, for many nodes
     reference, ///< JacobiNewton: the thesis's iteration
     harmonic, ///< DiscreteMinimiser on the energy of a harmonic map, whose metric the weight is: no LV, no LO
 };
@@ -40,18 +42,23 @@ struct EllipticAdaptationSettings {
     friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
 };
 
+/// What an adaptation of nu x nv nodes takes at most, bytes: to be told before it begins.
+[[nodiscard]] std::size_t memory_bytes(EllipticMethod method, int nu, int nv);
+
 /// The harmonic map with what cuts the error most (tests/core/toolpath/elliptic_gain_test.cpp).
 [[nodiscard]] EllipticAdaptationSettings harmonic_settings();
 
-/// Measures every ten iterations, so that the grid half-way to a solution can be the best one. If the solver
-/// fails, LV becomes a tenth and the round starts again; after three such falls the adaptation ends with the
-/// solver's failure. At the end the best grid that fine sampling and the whole path (ErrorModel::on_path) do
-/// not find worse than the start, and whose tracks lie as close as they have to, is taken.
+/// Measures every ten iterations (every cycle of the multigrid method), so that the grid half-way to a
+/// solution can be the best one. If the solver fails, LV becomes a tenth and the round starts again; after
+/// three such falls the adaptation ends with the solver's failure. At the end the best grid that fine
+/// sampling and the whole path (ErrorModel::on_path) do not find worse than the start, and whose tracks lie
+/// as close as they have to, is taken.
 class EllipticAdaptation final : public GridImprover {
 public:
     /// Adapts `start` to the error of `model`, which must outlive this, or to `weight` (in solver
     /// coordinates) where one is given: that is one round after another until the solver converges. Throws
-    /// Defect if the settings make no sense, if the reference method gets less than 3 x 3 nodes, or if a
+    /// Defect if the settings make no sense, if the reference or the multigrid method gets less than 3 x 3
+    /// nodes, or if a
     /// boundary that slides is not straight.
     EllipticAdaptation(const ErrorModel& model,
                        const Grid& start,

@@ -1,6 +1,7 @@
 #include "core/grid/elliptic_equations.h"
 
 #include "core/base/error.h"
+#include "core/grid/internal/node_stencil.h"
 #include "core/grid/internal/rows.h"
 
 #include <algorithm>
@@ -28,13 +29,28 @@ struct Slope {
     double w_x = 0.0, w_y = 0.0;
 };
 
-Differences differences(const NodeArray& p, int i, int j) {
-    const Vec2 xi = (p.at(i + 1, j) - p.at(i - 1, j)) / 2.0;
-    const Vec2 eta = (p.at(i, j + 1) - p.at(i, j - 1)) / 2.0;
-    const Vec2 xixi = p.at(i + 1, j) - 2.0 * p.at(i, j) + p.at(i - 1, j);
-    const Vec2 etaeta = p.at(i, j + 1) - 2.0 * p.at(i, j) + p.at(i, j - 1);
-    const Vec2 xieta =
-        (p.at(i + 1, j + 1) + p.at(i - 1, j - 1) - p.at(i + 1, j - 1) - p.at(i - 1, j + 1)) / 4.0;
+NodeStencil stencil(const NodeArray& nodes, std::span<const double> w, int i, int j) {
+    NodeStencil s;
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            s.p[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = nodes.at(i + a - 1, j + b - 1);
+        }
+    }
+    s.w = w[nodes.index(i, j)];
+    s.w_before = w[nodes.index(i - 1, j)];
+    s.w_after = w[nodes.index(i + 1, j)];
+    s.w_below = w[nodes.index(i, j - 1)];
+    s.w_above = w[nodes.index(i, j + 1)];
+    return s;
+}
+
+Differences differences(const NodeStencil& s, const IndexSpacing& h) {
+    const auto& p = s.p;
+    const Vec2 xi = (p[2][1] - p[0][1]) / (2.0 * h.xi);
+    const Vec2 eta = (p[1][2] - p[1][0]) / (2.0 * h.eta);
+    const Vec2 xixi = (p[2][1] - 2.0 * p[1][1] + p[0][1]) / (h.xi * h.xi);
+    const Vec2 etaeta = (p[1][2] - 2.0 * p[1][1] + p[1][0]) / (h.eta * h.eta);
+    const Vec2 xieta = (p[2][2] + p[0][0] - p[2][0] - p[0][2]) / (4.0 * h.xi * h.eta);
     const double J = xi.x() * eta.y() - eta.x() * xi.y();
     return {xi.x(),
             eta.x(),
@@ -118,12 +134,12 @@ Coefficients combined(const Differences& d, double w, const FunctionalWeights& l
             .c3 = s.c3 + V * v.c3 + O * o.c3};
 }
 
-Slope chain_rule_slope(const NodeArray& p, std::span<const double> w, const Differences& d, int i, int j) {
+Slope chain_rule_slope(const NodeStencil& s, const IndexSpacing& h, const Differences& d) {
     if (std::abs(d.J) < vanishing_jacobian) {
         return {};
     }
-    const double w_xi = (w[p.index(i + 1, j)] - w[p.index(i - 1, j)]) / 2.0;
-    const double w_eta = (w[p.index(i, j + 1)] - w[p.index(i, j - 1)]) / 2.0;
+    const double w_xi = (s.w_after - s.w_before) / (2.0 * h.xi);
+    const double w_eta = (s.w_above - s.w_below) / (2.0 * h.eta);
     return {.w_x = (w_xi * d.y_eta - w_eta * d.y_xi) / d.J, .w_y = (d.x_xi * w_eta - d.x_eta * w_xi) / d.J};
 }
 
@@ -138,26 +154,42 @@ Slope listed_slope(const NodeArray& p, std::span<const double> w, int i, int j) 
                         p.at(i, j + 1).x() - p.at(i, j - 1).x())};
 }
 
-} // namespace
-
-NodeEquations
-node_equations(const NodeArray& nodes, std::span<const double> w, const EquationRules& rules, int i, int j) {
-    const Differences d = differences(nodes, i, j);
-    const auto [a1, a2, a3, b1, b2, b3, c1, c2, c3] = combined(d, w[nodes.index(i, j)], rules.functional);
-    const Slope slope = rules.derivatives == WeightDerivatives::chain_rule
-                            ? chain_rule_slope(nodes, w, d, i, j)
-                            : listed_slope(nodes, w, i, j);
-    const double LV = rules.functional.adaptation;
+NodeEquations equations_of(const Differences& d,
+                           double w,
+                           const Slope& slope,
+                           const FunctionalWeights& lambda,
+                           const IndexSpacing& h) {
+    const auto [a1, a2, a3, b1, b2, b3, c1, c2, c3] = combined(d, w, lambda);
+    const double LV = lambda.adaptation;
+    const double xi = h.xi * h.xi;
+    const double eta = h.eta * h.eta;
     NodeEquations e;
     e.R_X = b1 * d.x_xixi + b2 * d.x_xieta + b3 * d.x_etaeta + a1 * d.y_xixi + a2 * d.y_xieta +
             a3 * d.y_etaeta + LV * d.J * d.J * slope.w_x;
     e.R_Y = a1 * d.x_xixi + a2 * d.x_xieta + a3 * d.x_etaeta + c1 * d.y_xixi + c2 * d.y_xieta +
             c3 * d.y_etaeta + LV * d.J * d.J * slope.w_y;
-    e.R_XX = -2.0 * (b1 + b3);
-    e.R_XY = -2.0 * (a1 + a3);
-    e.R_YY = -2.0 * (c1 + c3);
+    e.R_XX = -2.0 * (b1 / xi + b3 / eta);
+    e.R_XY = -2.0 * (a1 / xi + a3 / eta);
+    e.R_YY = -2.0 * (c1 / xi + c3 / eta);
     e.J = d.J;
     return e;
+}
+
+} // namespace
+
+NodeEquations
+node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexSpacing& spacing) {
+    const Differences d = differences(at, spacing);
+    return equations_of(d, at.w, chain_rule_slope(at, spacing, d), lambda, spacing);
+}
+
+NodeEquations
+node_equations(const NodeArray& nodes, std::span<const double> w, const EquationRules& rules, int i, int j) {
+    const NodeStencil at = stencil(nodes, w, i, j);
+    const Differences d = differences(at, {});
+    const Slope slope = rules.derivatives == WeightDerivatives::chain_rule ? chain_rule_slope(at, {}, d)
+                                                                           : listed_slope(nodes, w, i, j);
+    return equations_of(d, at.w, slope, rules.functional, {});
 }
 
 std::vector<NodeEquations>

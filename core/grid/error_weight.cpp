@@ -226,4 +226,9 @@ WeightPtr weight_on(const Grid& grid, std::span<const double> w) {
     return std::make_shared<RasterWeight>(canvas.rows, canvas.columns, std::move(canvas.samples));
 }
 
+std::size_t raster_bytes(int rows, int columns) {
+    return (static_cast<std::size_t>(rows) * per_cell) * (static_cast<std::size_t>(columns) * per_cell) *
+           sizeof(double);
+}
+
 } // namespace millwright::grid

@@ -8,6 +8,7 @@
 #include "core/grid/grid.h"
 #include "core/grid/weight.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,9 @@ nine_point_average(const std::vector<double>& values, int rows, int columns);
 /// The weight in solver coordinates that has (about) `w` at the nodes of `grid`, [nu x nv]; positive if `w`
 /// is.
 [[nodiscard]] WeightPtr weight_on(const Grid& grid, std::span<const double> w);
+
+/// What a weight_on() a grid of rows x columns nodes takes, bytes.
+[[nodiscard]] std::size_t raster_bytes(int rows, int columns);
 
 /// (u, v) as solver coordinates and back; 0 and 1 are exact.
 [[nodiscard]] NodeArray to_solver_coordinates(const NodeArray& parameters);

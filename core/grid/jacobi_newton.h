@@ -6,6 +6,7 @@
 
 #include "core/grid/elliptic_solver.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace millwright::grid {
@@ -28,6 +29,9 @@ public:
 
     /// The equations at the current nodes, [rows x columns]. Zeros where a node does not move.
     [[nodiscard]] const std::vector<NodeEquations>& equations() const { return equations_; }
+
+    /// What a solver for rows x columns nodes takes at most, bytes.
+    [[nodiscard]] static std::size_t memory_bytes(int rows, int columns);
 
 private:
     void sweep();

@@ -8,10 +8,14 @@
 
 namespace millwright::grid {
 
+/// As many nodes as are worth handing to another thread: of work that takes some 100 ns a node, and of less.
+inline constexpr int nodes_worth_a_thread = 1024;
+inline constexpr int light_nodes_worth_a_thread = 8192;
+
 /// Calls `body(i)` for every row i in [0, rows) of `columns` nodes each.
-template <class Body> void for_rows(int rows, int columns, const Body& body) {
-    constexpr int nodes_worth_a_thread = 1024;
-    const std::ptrdiff_t chunk = std::max(1, nodes_worth_a_thread / std::max(1, columns));
+template <class Body>
+void for_rows(int rows, int columns, const Body& body, int worth_a_thread = nodes_worth_a_thread) {
+    const std::ptrdiff_t chunk = std::max(1, worth_a_thread / std::max(1, columns));
     if (rows <= chunk) {
         for (int i = 0; i < rows; ++i) {
             body(i);
@@ -21,11 +25,19 @@ template <class Body> void for_rows(int rows, int columns, const Body& body) {
     parallel_for(rows, chunk, [&](std::ptrdiff_t i) { body(static_cast<int>(i)); });
 }
 
-/// Calls `body(first, count)` for pieces that make up [0, nodes).
+inline constexpr std::size_t nodes_a_piece = 4096;
+
+/// How many pieces for_pieces() makes of `nodes`.
+[[nodiscard]] constexpr std::size_t pieces_of(std::size_t nodes) {
+    return (nodes + nodes_a_piece - 1) / nodes_a_piece;
+}
+
+/// Calls `body(first, count)` for pieces that make up [0, nodes), `first` a multiple of nodes_a_piece.
 template <class Body> void for_pieces(std::size_t nodes, const Body& body) {
-    constexpr std::size_t piece = 1024;
-    const std::size_t pieces = (nodes + piece - 1) / piece;
-    const auto run = [&](std::size_t k) { body(k * piece, std::min(piece, nodes - k * piece)); };
+    const std::size_t pieces = pieces_of(nodes);
+    const auto run = [&](std::size_t k) {
+        body(k * nodes_a_piece, std::min(nodes_a_piece, nodes - k * nodes_a_piece));
+    };
     if (pieces == 1) {
         run(0);
         return;

@@ -46,6 +46,32 @@ TEST(EllipticAdaptation, CutsTheMeanErrorOfAPole) {
     }
 }
 
+TEST(EllipticAdaptation, CutsTheMeanErrorOfAPoleByMultigrid) {
+    const PoleErrorModel model({});
+    for (const Boundary boundary : {Boundary::fixed, Boundary::sliding}) {
+        EllipticAdaptationSettings settings;
+        settings.boundary = boundary;
+        settings.method = EllipticMethod::multigrid;
+        EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
+        const ImproverState state = run(adaptation, Progress());
+        EXPECT_LT(finely(model, state.best).mean, 0.93 * finely(model, Grid::uniform(16, 16)).mean);
+        EXPECT_GT(state.best.min_jacobian(), 0.0);
+        EXPECT_NE(state.status, ImproverStatus::no_gain);
+    }
+}
+
+TEST(EllipticAdaptation, TellsTheMemoryOfAMillionNodesBeforeItStarts) {
+    for (const EllipticMethod method : {EllipticMethod::minimiser,
+                                        EllipticMethod::multigrid,
+                                        EllipticMethod::reference,
+                                        EllipticMethod::harmonic}) {
+        const double megabytes = static_cast<double>(memory_bytes(method, 1000, 1000)) / 1e6;
+        EXPECT_GT(megabytes, 100.0);
+        EXPECT_LT(megabytes, 4000.0);
+        EXPECT_GT(memory_bytes(method, 1000, 1000), 90 * memory_bytes(method, 100, 100));
+    }
+}
+
 TEST(EllipticAdaptation, NeverReportsWorseThanTheStart) {
     const unsigned seed = 1997;
     SCOPED_TRACE("seed " + std::to_string(seed));

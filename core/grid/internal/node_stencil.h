@@ -1,0 +1,28 @@
+// The nodes that the equations of one node speak of, and those equations when the nodes' indices stand any
+// distance apart: coarse levels of a multigrid method have the indices of the finest one.
+#pragma once
+
+#include "core/grid/elliptic_equations.h"
+
+#include <array>
+
+namespace millwright::grid {
+
+/// A node and its eight neighbours, [a][b] being node (i + a - 1, j + b - 1), with the weights that are used.
+struct NodeStencil {
+    std::array<std::array<Vec2, 3>, 3> p;
+    double w = 0.0;
+    double w_before = 0.0, w_after = 0.0; ///< at (i - 1, j) and (i + 1, j)
+    double w_below = 0.0, w_above = 0.0;  ///< at (i, j - 1) and (i, j + 1)
+};
+
+/// How far neighbours stand apart in xi and eta: 1 on the finest level.
+struct IndexSpacing {
+    double xi = 1.0, eta = 1.0;
+};
+
+/// As node_equations() of an array, with the slope of the weight by the chain rule.
+[[nodiscard]] NodeEquations
+node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexSpacing& spacing);
+
+} // namespace millwright::grid

@@ -1,0 +1,34 @@
+// The best of what the last cycles of a multigrid method found, put together: the combination of their nodes
+// whose residuals, were they linear, would be smallest. Source: Washio and Oosterlee, ETNA 6, 1997.
+#pragma once
+
+#include "core/grid/node_array.h"
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+namespace millwright::grid {
+
+class Recombination {
+public:
+    /// Nodes better than `nodes`, whose residuals are `residuals`; `nodes` themselves while too little is
+    /// remembered. Nobody has looked yet whether they are sound.
+    [[nodiscard]] NodeArray best(const NodeArray& nodes, const NodeArray& residuals) const;
+
+    /// Nodes and what their residuals are.
+    void remember(const NodeArray& nodes, const NodeArray& residuals);
+    void clear() { past_.clear(); }
+
+    /// What is remembered at most, for each node.
+    [[nodiscard]] static std::size_t bytes_a_node();
+
+private:
+    struct Found {
+        std::vector<Vec2> nodes, residuals;
+    };
+
+    std::deque<Found> past_;
+};
+
+} // namespace millwright::grid
