@@ -5,6 +5,7 @@
 #include "app/outputs.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -19,8 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 
 namespace millwright::app {
 
@@ -30,27 +31,28 @@ struct Options {
     std::string project;
     std::string tool;
     std::string out;
-    double scallop = 0.01; ///< mm that is wanted
+    std::optional<double> scallop; ///< mm that is wanted; nothing: as the tool says
     PostChoice post;
 };
 
-void print_summary(const project::CutStudy& study, const project::Project& project, double wanted) {
-    const project::Evaluation& cut = *study.plan.evaluation(project.grid.method);
+void print_summary(const project::Plan& plan, const project::Project& project) {
+    const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    const project::CutStudy& study = *plan.cut;
     fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
-               fixed(cut.closest.max, 4),
-               fixed(cut.closest.mean, 4),
-               fixed(to_degrees(cut.closest.axis_max), 2));
+               fixed(chosen.closest.max, 4),
+               fixed(chosen.closest.mean, 4),
+               fixed(to_degrees(chosen.closest.axis_max), 2));
     fmt::print("left on the surface: at most {} mm, {} mm on average; {} % not cut\n",
                fixed(study.scallops.max, 4),
                fixed(study.scallops.mean, 4),
                fixed(100.0 * study.scallops.not_cut, 2));
     fmt::print("tracks: at most {} mm apart; a scallop of {} mm asks for {}\n",
-               fixed(cut.track_gap, 3),
-               wanted,
+               fixed(chosen.track_gap, 3),
+               project.tool.scallop_mm,
                std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
     fmt::print("deepest cut below the surface: {} mm; estimated time {}\n",
                fixed(study.deepest, 4),
-               clock_time(study.plan.trajectory->duration()));
+               clock_time(plan.trajectory->duration()));
 }
 
 /// A few by name, the rest by their number: all of them are in cut.json.
@@ -82,26 +84,34 @@ void print_bites(const project::CutStudy& study) {
 
 int cut(const Options& options) {
     const Interrupt interrupt;
-    const OpenedProject opened = open_project(options.project);
-    const project::ToolInput tool = project::read_tool(options.tool);
+    OpenedProject opened = open_project(options.project);
+    project::Project& project = opened.project;
+    if (!options.tool.empty()) {
+        project.tool = project::read_tool(options.tool);
+    }
+    project.tool.scallop_mm = options.scallop.value_or(project.tool.scallop_mm);
+    if (project.tool.cutter == toolpath::CutterKind::point) {
+        throw Error("the project's tool is a point, which leaves nothing and fits everywhere",
+                    {},
+                    "name a tool file with --tool");
+    }
     make_folder(options.out);
     project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    const project::CutStudy study =
-        project::study_cut(std::move(plan), opened.project, tool, options.scallop, progress);
+    project::add_cut_study(plan, project, progress);
     printer.finish();
     const PostedText text =
-        posted(*study.plan.program, study.plan.workpiece->machine, options.post, opened.file.stem().string());
+        posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     write_outputs(options.out,
                   {{"program." + text.format.extension, text.text.listing.text},
-                   {"cut.json", project::cut_report_text(opened.project, tool, study)},
-                   {"surface.csv", project::surface_csv(study)}},
+                   {"cut.json", project::cut_report_text(project, plan)},
+                   {"surface.csv", project::surface_csv(plan.workpiece->patch, plan.cut->swept)}},
                   opened.file);
     print_notes(text);
-    fmt::print("tool: {}\n", project::tool_text(tool));
-    print_summary(study, opened.project, options.scallop);
-    print_bites(study);
+    fmt::print("tool: {}\n", project::tool_text(project.tool));
+    print_summary(plan, project);
+    print_bites(*plan.cut);
     return 0;
 }
 
@@ -112,7 +122,8 @@ void add_cutter_command(CLI::App& app, Command& chosen) {
     CLI::App& command =
         *app.add_subcommand("cutter", "Cut a project with a tool that has a body: error, scallops, gouges");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--tool", options->tool, "Tool file")->required()->type_name("FILE");
+    command.add_option("--tool", options->tool, "Tool file to cut with, instead of the project's tool")
+        ->type_name("FILE");
     command.add_option("--out", options->out, "Folder for program, cut.json and surface.csv")
         ->required()
         ->type_name("DIR");

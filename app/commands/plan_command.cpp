@@ -6,9 +6,11 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/project/cut_study.h"
 #include "core/project/report.h"
-#include "core/project/sequenced_evaluation.h"
 #include "core/project/settings.h"
+#include "core/project/tool_file.h"
+#include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/picture.h"
@@ -17,37 +19,26 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::app {
 
 namespace {
 
-using toolpath::SequencingGoal;
-
 struct Options {
     std::string project;
     std::string out;
+    std::string tool; ///< a tool file; empty: the project's tool
     PostChoice post;
-    std::string sequencing; ///< empty: as it is
-    double largest_step_deg = 0.0;
+    std::string sequencing; ///< empty: as the project says
+    std::optional<double> largest_step_deg;
 };
-
-struct Goal {
-    std::string_view name;
-    SequencingGoal goal;
-};
-constexpr std::array goals{Goal{"nearest", SequencingGoal::nearest},
-                           Goal{"travel", SequencingGoal::travel},
-                           Goal{"error", SequencingGoal::error},
-                           Goal{"time", SequencingGoal::time}};
 
 void print_figures(std::string_view name, const project::Evaluation& evaluation) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
@@ -73,29 +64,26 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
         }
     }
     const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("{} points, path {} mm, estimated time {}\n",
                chosen.toolpath.points.size(),
                fixed(chosen.path_length, 1),
                clock_time(plan.trajectory->duration()));
 }
 
-std::optional<SequencingGoal> goal_named(std::string_view name) {
-    const auto found = std::ranges::find(goals, name, &Goal::name);
-    return found == goals.end() ? std::nullopt : std::optional(found->goal);
-}
-
-/// What the command line says of the rotary axes; nothing where it leaves them.
-std::optional<toolpath::SequencingSettings> sequencing_of(const Options& options,
-                                                          const project::ProgramInput& program) {
-    if (options.sequencing.empty() && !(options.largest_step_deg > 0.0)) {
-        return std::nullopt;
+/// With what the command line says of the tool and the rotary axes.
+project::Project changed(project::Project project, const Options& options) {
+    if (!options.tool.empty()) {
+        project.tool = project::read_tool(options.tool);
     }
-    toolpath::SequencingSettings settings;
-    settings.goal = goal_named(options.sequencing).value_or(SequencingGoal::nearest);
-    settings.largest_step = from_degrees(options.largest_step_deg);
-    settings.feed = from_mm_per_min(program.feed_mm_per_min);
-    settings.links_cut = program.link == project::LinkInput::on_surface;
-    return settings;
+    for (const auto& goal : project::sequencing_goals()) {
+        if (goal.id == options.sequencing) {
+            project.sequencing.goal = goal.value;
+        }
+    }
+    project.sequencing.largest_step_deg =
+        options.largest_step_deg.value_or(project.sequencing.largest_step_deg);
+    return project;
 }
 
 void print_path(std::string_view name, const project::Workpiece& workpiece, const project::Evaluation& of) {
@@ -110,14 +98,19 @@ void print_path(std::string_view name, const project::Workpiece& workpiece, cons
                fixed(to_degrees(step), 2));
 }
 
-/// The path of the chosen grid anew; prints it beside what it was.
-void sequence(project::Plan& plan,
-              const project::Project& project,
-              const Options& options,
-              const toolpath::SequencingSettings& settings,
-              const std::stop_token& stop) {
-    const auto before = plan.evaluation(project.grid.method);
-    project::sequence_program(plan, project, settings, Progress({}, stop));
+/// The path of the chosen grid beside the one of the nearest angles with no point added.
+void print_sequencing(const project::Plan& plan,
+                      const project::Project& project,
+                      const std::stop_token& stop) {
+    const project::Workpiece& workpiece = *plan.workpiece;
+    if (project.sequencing == project::SequencingInput{} || workpiece.machine.rotary_axes().empty()) {
+        return;
+    }
+    const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    project::Workpiece plain = workpiece;
+    plain.sequencing = {};
+    const project::Evaluation before =
+        project::evaluate(plain, chosen.outcome, project::report_samples, Progress({}, stop));
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
                "sequence",
                "points",
@@ -125,20 +118,30 @@ void sequence(project::Plan& plan,
                "mean mm",
                "rotation deg",
                "in a cut deg");
-    print_path("before", *plan.workpiece, *before);
-    print_path(options.sequencing.empty() ? "nearest" : options.sequencing,
-               *plan.workpiece,
-               *plan.evaluation(project.grid.method));
+    print_path("before", workpiece, before);
+    print_path(project::row_of(project::sequencing_goals(), project.sequencing.goal).id, workpiece, chosen);
+}
+
+void print_cut(const project::CutStudy& cut) {
+    fmt::print("left on the surface: at most {} mm, {} mm on average; deepest cut below it: {} mm\n",
+               fixed(cut.scallops.max, 4),
+               fixed(cut.scallops.mean, 4),
+               fixed(cut.deepest, 4));
+    if (!cut.bites.empty() || !cut.local_gouges.empty()) {
+        fmt::print(stderr,
+                   "warning: {} blocks bring the tool into the part, and it does not fit at {} nodes; "
+                   "`millwright cutter` names them\n",
+                   cut.bites.size(),
+                   cut.local_gouges.size());
+    }
 }
 
 int plan(const Options& options) {
     const Interrupt interrupt;
-    const OpenedProject opened = open_project(options.project);
+    OpenedProject opened = open_project(options.project);
+    opened.project = changed(std::move(opened.project), options);
     make_folder(options.out);
-    project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
-    if (const auto settings = sequencing_of(options, opened.project.program)) {
-        sequence(plan, opened.project, options, *settings, interrupt.token());
-    }
+    const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     constexpr render::PixelSize preview_size{1280, 800};
@@ -151,6 +154,10 @@ int plan(const Options& options) {
                   opened.file);
     print_notes(text);
     print_summary(plan, opened.project);
+    print_sequencing(plan, opened.project, interrupt.token());
+    if (plan.cut) {
+        print_cut(*plan.cut);
+    }
     return 0;
 }
 
@@ -164,18 +171,19 @@ void add_plan_command(CLI::App& app, Command& chosen) {
     command.add_option("--out", options->out, "Folder for program, report.json and preview.png")
         ->required()
         ->type_name("DIR");
-    std::vector<std::string> names;
-    for (const Goal& goal : goals) {
-        names.emplace_back(goal.name);
+    command.add_option("--tool", options->tool, "Tool file to cut with, instead of the project's tool")
+        ->type_name("FILE");
+    std::vector<std::string> goals;
+    for (const auto& goal : project::sequencing_goals()) {
+        goals.emplace_back(goal.id);
     }
     command.add_option("--sequencing", options->sequencing, "How the rotary axes are chosen along the path")
-        ->check(CLI::IsMember(names));
-    constexpr double least_step_deg = 0.01;
+        ->check(CLI::IsMember(goals));
     command
         .add_option("--largest-step",
                     options->largest_step_deg,
-                    "Add points where a rotary axis turns by more degrees in a move")
-        ->check(CLI::Range(least_step_deg, 180.0));
+                    "Add points where a rotary axis turns by more degrees in a move; 0 adds none")
+        ->check(CLI::Range(0.0, 180.0));
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }

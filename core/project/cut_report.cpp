@@ -1,3 +1,4 @@
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/project/cut_study.h"
 #include "core/project/internal/json_figures.h"
@@ -45,14 +46,16 @@ Json local_gouges(const CutStudy& study) {
 
 } // namespace
 
-std::string cut_report_text(const Project& project, const ToolInput& input, const CutStudy& study) {
-    const Evaluation& evaluation = *study.plan.evaluation(project.grid.method);
+std::string cut_report_text(const Project& project, const Plan& plan) {
+    expects(plan.cut && plan.trajectory, "a plan has its study before it is reported");
+    const CutStudy& study = *plan.cut;
+    const Evaluation& evaluation = *plan.evaluation(project.grid.method);
     Json json;
     json["format"] = "millwright-cut";
     json["version"] = 1;
     json["made_by"] = "Millwright " + std::string(version());
     json["project"] = project.name;
-    json["tool"] = tool_text(input);
+    json["tool"] = tool_text(project.tool);
     json["grid"] = row_of(grid_methods(), project.grid.method).id;
     json["error_mm"]["max"] = rounded(evaluation.closest.max);
     json["error_mm"]["mean"] = rounded(evaluation.closest.mean);
@@ -68,7 +71,7 @@ std::string cut_report_text(const Project& project, const ToolInput& input, cons
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = bites(study);
     json["local_gouges"] = local_gouges(study);
-    json["estimated_time_s"] = rounded(study.plan.trajectory->duration());
+    json["estimated_time_s"] = rounded(plan.trajectory->duration());
     return json_text(json);
 }
 

@@ -2,12 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/project/grids.h"
-#include "core/project/tool_settings.h"
 #include "core/toolpath/contact_shape.h"
-#include "core/toolpath/tool_error.h"
 #include "core/toolpath/tool_poses.h"
-#include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,34 +15,11 @@ namespace millwright::project {
 
 namespace {
 
-using toolpath::Distance;
 using toolpath::MoveKind;
 using toolpath::PathPoint;
 using toolpath::Toolpath;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Evaluation evaluation_with(const Workpiece& workpiece,
-                           const Evaluation& point,
-                           const toolpath::Tool& tool,
-                           const Progress& progress) {
-    Evaluation found = point;
-    const geometry::BezierPatch& patch = workpiece.patch;
-    const kinematics::MachineModel& machine = workpiece.machine;
-    found.toolpath = toolpath::with_tool(
-        patch,
-        machine,
-        tool,
-        toolpath::zigzag(patch, point.outcome.grid, workpiece.direction, workpiece.flipped));
-    found.axes = toolpath::sequence(machine, found.toolpath);
-    found.field =
-        toolpath::tool_error(patch, machine, tool, found.toolpath, found.axes, report_samples, progress);
-    found.closest = toolpath::summary(found.field, Distance::closest, MoveKind::track);
-    found.param = toolpath::summary(found.field, Distance::param, MoveKind::track);
-    found.cross_closest = toolpath::summary(found.field, Distance::closest, MoveKind::cross);
-    found.path_length = toolpath::length(found.toolpath);
-    return found;
-}
 
 /// The contact's shape and the surface at one path point.
 struct Contact {
@@ -82,10 +55,29 @@ local_gouges(const Workpiece& workpiece, const toolpath::Profile& cutter, const 
     return found;
 }
 
-/// Of two neighbours on neighbouring tracks the distance across the move.
-double gap_at(const PathPoint& a, const PathPoint& b, const Vec3& feed) {
-    const Vec3 between = b.contact - a.contact;
-    return (between - between.dot(feed) * feed).norm();
+/// Where each track begins, and the end of the last.
+std::vector<std::size_t> track_starts(const Toolpath& path) {
+    std::vector<std::size_t> starts;
+    for (std::size_t n = 0; n < path.points.size(); ++n) {
+        if (path.points[n].reached_by != MoveKind::track) {
+            starts.push_back(n);
+        }
+    }
+    starts.push_back(path.points.size());
+    return starts;
+}
+
+/// From `point` to the nearest place between the contacts of the points from `first` to before `end`.
+double gap_to(const Toolpath& path, std::size_t first, std::size_t end, const Vec3& point) {
+    double squared = (path.points[first].contact - point).squaredNorm();
+    for (std::size_t n = first + 1; n < end; ++n) {
+        const Vec3& a = path.points[n - 1].contact;
+        const Vec3 way = path.points[n].contact - a;
+        const double length = way.squaredNorm();
+        const double t = length > 0.0 ? std::clamp((point - a).dot(way) / length, 0.0, 1.0) : 0.0;
+        squared = std::min(squared, (a + t * way - point).squaredNorm());
+    }
+    return std::sqrt(squared);
 }
 
 /// The formulas of second order over all points: the highest ridge, and the gap that leaves `wanted` at most.
@@ -94,24 +86,22 @@ struct Ridges {
     double step_over = infinity;
 };
 
-Ridges ridges_of(const Workpiece& workpiece,
-                 const toolpath::Profile& cutter,
-                 const Toolpath& path,
-                 int nodes_per_track,
-                 double wanted) {
+Ridges
+ridges_of(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path, double wanted) {
     Ridges ridges;
-    const auto nodes = static_cast<std::size_t>(nodes_per_track);
-    for (std::size_t n = 0; n < path.points.size(); ++n) {
-        const PathPoint& point = path.points[n];
-        const Contact contact = contact_at(workpiece, cutter, path, n);
-        const double radius = toolpath::effective_radius(contact.shape, point.normal, contact.feed);
-        const Vec3 across = point.normal.cross(contact.feed);
-        const double convex = toolpath::convex_curvature(contact.at, point.normal, across);
-        ridges.step_over = std::min(ridges.step_over, toolpath::step_over(radius, convex, wanted));
-        const std::size_t next = (n / nodes + 1) * nodes + (nodes - 1 - n % nodes); // a zigzag turns back
-        if (next < path.points.size()) {
-            const double gap = gap_at(point, path.points[next], contact.feed);
-            ridges.highest = std::max(ridges.highest, toolpath::scallop_height(radius, convex, gap));
+    const std::vector<std::size_t> starts = track_starts(path);
+    for (std::size_t track = 0; track + 1 < starts.size(); ++track) {
+        for (std::size_t n = starts[track]; n < starts[track + 1]; ++n) {
+            const PathPoint& point = path.points[n];
+            const Contact contact = contact_at(workpiece, cutter, path, n);
+            const double radius = toolpath::effective_radius(contact.shape, point.normal, contact.feed);
+            const Vec3 across = point.normal.cross(contact.feed);
+            const double convex = toolpath::convex_curvature(contact.at, point.normal, across);
+            ridges.step_over = std::min(ridges.step_over, toolpath::step_over(radius, convex, wanted));
+            if (track + 2 < starts.size()) {
+                const double gap = gap_to(path, starts[track + 1], starts[track + 2], point.contact);
+                ridges.highest = std::max(ridges.highest, toolpath::scallop_height(radius, convex, gap));
+            }
         }
     }
     return ridges;
@@ -179,10 +169,10 @@ ScallopFigures figures_of(const toolpath::SweptCut& swept, double by_formula) {
     return figures;
 }
 
-void add_bites(CutStudy& study, const std::vector<int>& blocks, double limit) {
+void add_bites(CutStudy& study, const gcode::Listing& listing, const std::vector<int>& blocks, double limit) {
     for (std::size_t n = 0; n < blocks.size(); ++n) {
         const toolpath::MoveBites& bites = study.swept.moves[n];
-        const int line = study.plan.listing->line_of_block[static_cast<std::size_t>(blocks[n])];
+        const int line = listing.line_of_block[static_cast<std::size_t>(blocks[n])];
         study.deepest = std::max(study.deepest, bites.cutter.depth);
         if (bites.cutter.depth > limit) {
             study.bites.push_back({blocks[n], line, false, bites.cutter});
@@ -195,58 +185,45 @@ void add_bites(CutStudy& study, const std::vector<int>& blocks, double limit) {
 
 } // namespace
 
-CutStudy study_cut(Plan plan,
-                   const Project& project,
-                   const ToolInput& input,
-                   double wanted_scallop_mm,
-                   const Progress& progress) {
-    const toolpath::Tool tool = tool_of(input);
+CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress) {
+    const auto& chosen = plan.evaluation(project.grid.method);
+    expects(plan.workpiece && chosen && plan.program && plan.listing, "a plan has the program that is cut");
+    const Workpiece& workpiece = *plan.workpiece;
+    const toolpath::Tool& tool = workpiece.tool;
     if (!tool.cutter) {
         throw Error("the tool is a point, which leaves nothing and fits everywhere");
     }
-    if (project.machine.angle_mode != kinematics::AngleMode::consistent) {
-        throw Error("a cutter needs the consistent angle formulas, and the project has faulty ones");
-    }
-    expects(plan.workpiece && plan.evaluation(project.grid.method), "a plan has the grid that is cut");
-    const Workpiece& workpiece = *plan.workpiece;
-    const GridMethod method = project.grid.method;
-    progress.report(0.0, "Measuring the error of the cutter");
-    plan.evaluation(method) = std::make_shared<const Evaluation>(
-        evaluation_with(workpiece, *plan.evaluation(method), tool, progress.part(0.0, 0.2)));
-    add_program(plan, project, progress.part(0.2, 0.4));
-    const Evaluation& evaluation = *plan.evaluation(method);
-    const grid::Grid& grid = evaluation.outcome.grid;
-    CutStudy study{std::move(plan), {}, {}, {}, {}, 0.0, 0.0};
-    study.local_gouges = local_gouges(workpiece, *tool.cutter, evaluation.toolpath);
-    const Ridges ridges = ridges_of(workpiece,
-                                    *tool.cutter,
-                                    evaluation.toolpath,
-                                    grid.nodes_per_track(workpiece.direction),
-                                    wanted_scallop_mm);
+    CutStudy study;
+    study.local_gouges = local_gouges(workpiece, *tool.cutter, chosen->toolpath);
+    const Ridges ridges = ridges_of(workpiece, *tool.cutter, chosen->toolpath, project.tool.scallop_mm);
     study.step_over = ridges.step_over;
-    progress.report(0.4, "Sweeping the tool over the surface");
-    const ProgramMoves moves = moves_of(*study.plan.program);
+    progress.report(0.0, "Sweeping the tool over the surface");
+    const ProgramMoves moves = moves_of(*plan.program);
     study.swept = toolpath::swept_cut(workpiece.patch,
                                       workpiece.flipped,
                                       workpiece.machine,
                                       tool,
                                       moves.moves,
-                                      sweep_settings(grid, *tool.cutter, ridges.highest),
-                                      progress.part(0.4, 1.0));
+                                      sweep_settings(chosen->outcome.grid, *tool.cutter, ridges.highest),
+                                      progress);
     study.scallops = figures_of(study.swept, ridges.highest);
-    add_bites(study, moves.blocks, input.gouge_limit_mm);
+    add_bites(study, *plan.listing, moves.blocks, project.tool.gouge_limit_mm);
     return study;
 }
 
-std::string surface_csv(const CutStudy& study) {
+void add_cut_study(Plan& plan, const Project& project, const Progress& progress) {
+    if (plan.workpiece->tool.cutter) {
+        plan.cut = std::make_shared<const CutStudy>(study_cut(plan, project, progress));
+    }
+}
+
+std::string surface_csv(const geometry::BezierPatch& patch, const toolpath::SweptCut& swept) {
     std::string text = "u,v,x_mm,y_mm,z_mm,height_mm\n";
-    const geometry::BezierPatch& patch = study.plan.workpiece->patch;
-    for (int i = 0; i < study.swept.nu; ++i) {
-        for (int j = 0; j < study.swept.nv; ++j) {
-            const Vec2 uv(static_cast<double>(i) / (study.swept.nu - 1),
-                          static_cast<double>(j) / (study.swept.nv - 1));
+    for (int i = 0; i < swept.nu; ++i) {
+        for (int j = 0; j < swept.nv; ++j) {
+            const Vec2 uv(static_cast<double>(i) / (swept.nu - 1), static_cast<double>(j) / (swept.nv - 1));
             const Vec3 at = patch.position(uv.x(), uv.y());
-            const double height = study.swept.height(i, j);
+            const double height = swept.height(i, j);
             for (const double value : {uv.x(), uv.y(), at.x(), at.y(), at.z()}) {
                 text += fixed(value, 6) + ",";
             }

@@ -1,9 +1,8 @@
-// The program of a project cut with a tool that has a body: path, error and program of that tool, whether it
-// fits into the surface, what it leaves, and which blocks bring cutter or holder into the part.
+// What a tool with a body does on the way of a project's program: whether it fits into the surface, what it
+// leaves, and which blocks bring cutter or holder into the part.
 #pragma once
 
 #include "core/project/plan.h"
-#include "core/project/tool_input.h"
 #include "core/toolpath/swept_cut.h"
 
 #include <string>
@@ -36,28 +35,24 @@ struct ScallopFigures {
 };
 
 struct CutStudy {
-    Plan plan; ///< with the evaluation of the chosen grid, its program and its time as of the tool
     std::vector<LocalGouge> local_gouges;
     std::vector<BlockBite> bites;
     toolpath::SweptCut swept;
     ScallopFigures scallops;
     double deepest = 0.0;   ///< cut below the surface, mm
-    double step_over = 0.0; ///< between tracks, mm, that leaves `wanted_scallop` everywhere
+    double step_over = 0.0; ///< between tracks, mm, that leaves the tool's scallop height at most
 };
 
-/// `plan` has the chosen grid. Throws Error if `input` has a fault or no cutter, if a pose cannot be reached,
-/// for faulty angle formulas, and Cancelled.
-[[nodiscard]] CutStudy study_cut(Plan plan,
-                                 const Project& project,
-                                 const ToolInput& input,
-                                 double wanted_scallop_mm,
-                                 const Progress& progress);
+/// `plan` has the program. Throws Error if the project's tool is a point, and Cancelled.
+[[nodiscard]] CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress);
 
-/// cut.json: docs/reference/cutter.md.
-[[nodiscard]] std::string
-cut_report_text(const Project& project, const ToolInput& input, const CutStudy& study);
+/// The study into `plan`, where the tool has a body. Throws Cancelled, then `plan` is as it was.
+void add_cut_study(Plan& plan, const Project& project, const Progress& progress);
+
+/// cut.json: docs/reference/cutter.md. `plan` has its study.
+[[nodiscard]] std::string cut_report_text(const Project& project, const Plan& plan);
 
 /// surface.csv: u, v, x, y, z and the height that is left, a point a line; nothing where it was not cut.
-[[nodiscard]] std::string surface_csv(const CutStudy& study);
+[[nodiscard]] std::string surface_csv(const geometry::BezierPatch& patch, const toolpath::SweptCut& swept);
 
 } // namespace millwright::project

@@ -1,11 +1,8 @@
 #include "core/project/evaluation.h"
 
-#include "core/base/error.h"
-#include "core/project/sequenced_evaluation.h"
-#include "core/toolpath/fixed_axis.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
-#include <memory>
 #include <utility>
 
 namespace millwright::project {
@@ -15,20 +12,33 @@ using toolpath::MoveKind;
 
 namespace {
 
-toolpath::AxisPath axes_of(const Workpiece& workpiece, const toolpath::Toolpath& toolpath) {
-    return workpiece.angle_mode == kinematics::AngleMode::consistent
-               ? toolpath::sequence(workpiece.machine, toolpath)
-               : toolpath::sequence_by_formulas(workpiece.machine, toolpath, workpiece.angle_mode);
+toolpath::SequencedPath
+path_of(const Workpiece& workpiece, const grid::Grid& grid, const Progress& progress) {
+    toolpath::Toolpath path =
+        toolpath::with_tool(workpiece.patch,
+                            workpiece.machine,
+                            workpiece.tool,
+                            toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped));
+    if (workpiece.angle_mode == kinematics::AngleMode::consistent) {
+        return toolpath::sequenced(
+            workpiece.patch, workpiece.machine, std::move(path), workpiece.sequencing, progress);
+    }
+    toolpath::AxisPath axes = toolpath::sequence_by_formulas(workpiece.machine, path, workpiece.angle_mode);
+    return {std::move(path), std::move(axes)};
 }
 
-/// What is measured of a path with its axis positions.
-Evaluation measured(const Workpiece& workpiece,
-                    GridOutcome outcome,
-                    toolpath::SequencedPath path,
-                    int samples,
-                    const Progress& progress) {
-    toolpath::ErrorField field = toolpath::error_field(
-        workpiece.patch, workpiece.machine, path.toolpath, path.axes, samples, progress);
+} // namespace
+
+Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
+    progress.check();
+    constexpr double sequencing = 0.3; // share of the work
+    toolpath::SequencedPath path = path_of(workpiece, outcome.grid, progress.part(0.0, sequencing));
+    toolpath::ErrorField field = toolpath::error_field(workpiece.patch,
+                                                       workpiece.machine,
+                                                       path.toolpath,
+                                                       path.axes,
+                                                       samples,
+                                                       progress.part(sequencing, 1.0));
     const grid::ErrorSummary closest = toolpath::summary(field, Distance::closest, MoveKind::track);
     const grid::ErrorSummary param = toolpath::summary(field, Distance::param, MoveKind::track);
     const grid::ErrorSummary cross = toolpath::summary(field, Distance::closest, MoveKind::cross);
@@ -43,54 +53,6 @@ Evaluation measured(const Workpiece& workpiece,
             cross,
             gap,
             length};
-}
-
-toolpath::Toolpath zigzag_of(const Workpiece& workpiece, const grid::Grid& grid) {
-    return toolpath::on_machine(
-        workpiece.machine, toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped));
-}
-
-} // namespace
-
-Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
-    progress.check();
-    toolpath::Toolpath toolpath = zigzag_of(workpiece, outcome.grid);
-    toolpath::AxisPath axes = axes_of(workpiece, toolpath);
-    return measured(workpiece, std::move(outcome), {std::move(toolpath), std::move(axes)}, samples, progress);
-}
-
-Evaluation evaluate(const Workpiece& workpiece,
-                    GridOutcome outcome,
-                    const toolpath::SequencingSettings& sequencing,
-                    int samples,
-                    const Progress& progress) {
-    progress.check();
-    if (workpiece.angle_mode != kinematics::AngleMode::consistent) {
-        throw Error("the faulty angle formulas leave no branch to choose",
-                    {},
-                    "take the consistent angles, or leave the sequencing");
-    }
-    constexpr double choosing = 0.5; // share of the work
-    toolpath::SequencedPath path = toolpath::sequenced(workpiece.patch,
-                                                       workpiece.machine,
-                                                       zigzag_of(workpiece, outcome.grid),
-                                                       sequencing,
-                                                       progress.part(0.0, choosing));
-    return measured(workpiece, std::move(outcome), std::move(path), samples, progress.part(choosing, 1.0));
-}
-
-void sequence_program(Plan& plan,
-                      const Project& project,
-                      const toolpath::SequencingSettings& sequencing,
-                      const Progress& progress) {
-    constexpr double measuring = 0.7; // share of the work
-    Plan changed = plan;
-    auto& chosen = changed.evaluation(project.grid.method);
-    expects(chosen != nullptr, "the chosen grid is there before its path");
-    chosen = std::make_shared<const Evaluation>(evaluate(
-        *plan.workpiece, chosen->outcome, sequencing, report_samples, progress.part(0.0, measuring)));
-    add_program(changed, project, progress.part(measuring, 1.0));
-    plan = std::move(changed);
 }
 
 } // namespace millwright::project

@@ -5,7 +5,7 @@
 #include "core/grid/improver.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/kinematic_error.h"
-#include "core/toolpath/sequencing.h"
+#include "core/toolpath/sequenced_path.h"
 
 #include <optional>
 #include <string>
@@ -45,8 +45,10 @@ struct Workpiece {
     grid::TrackDirection direction = grid::TrackDirection::along_v;
     bool flipped = false;
     kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
+    toolpath::Tool tool = {};
+    toolpath::SequencingSettings sequencing = {}; ///< of consistent angles
 
-    [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped}; }
+    [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped, tool}; }
 };
 
 /// `samples` times inside each move, as in toolpath::error_field. Throws Error where a pose cannot be reached

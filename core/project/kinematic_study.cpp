@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/grid/redistribution.h"
-#include "core/project/sequenced_evaluation.h"
 #include "core/project/set_up_study.h"
 
 #include <utility>
@@ -89,8 +88,9 @@ public:
 private:
     [[nodiscard]] StudyRow
     sequenced_row(StudyMethod method, const Evaluation& nearest, const Progress& progress) const {
-        const toolpath::SequencingSettings least_error{.goal = toolpath::SequencingGoal::error};
-        const Evaluation found = evaluate(workpiece_, nearest.outcome, least_error, report_samples, progress);
+        Workpiece sequenced = workpiece_;
+        sequenced.sequencing.goal = toolpath::SequencingGoal::error;
+        const Evaluation found = evaluate(sequenced, nearest.outcome, report_samples, progress);
         if (!is_worse(found, nearest, workpiece_.machine)) {
             return row_of(method, found, progress);
         }

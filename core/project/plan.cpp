@@ -7,7 +7,9 @@
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
+#include "core/project/cut_study.h"
 #include "core/project/settings.h"
+#include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
 #include <fmt/format.h>
@@ -25,12 +27,14 @@ std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& pla
     return {{"made by", fmt::format("Millwright {}", version())},
             {"project", project.name},
             {"machine", plan.workpiece->machine.name()},
+            {"tool", tool_text(project.tool)},
             {"grid", fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method)},
             {"distance from the surface",
              fmt::format("at most {} mm, {} mm on average inside the tracks",
                          fixed(chosen.closest.max, 4),
                          fixed(chosen.closest.mean, 4))},
-            {"tool axis from the normal",
+            {plan.workpiece->tool.lean.upright() ? "tool axis from the normal"
+                                                 : "tool axis from where it should be",
              fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
 }
 
@@ -72,7 +76,22 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
             std::move(machine),
             project.grid.direction,
             project.surface.flipped,
-            project.machine.angle_mode};
+            project.machine.angle_mode,
+            tool_of(project.tool),
+            sequencing_settings(project)};
+}
+
+toolpath::SequencingSettings sequencing_settings(const Project& project) {
+    using toolpath::SequencingGoal;
+    toolpath::SequencingSettings settings;
+    settings.goal = project.sequencing.goal;
+    settings.largest_step = from_degrees(project.sequencing.largest_step_deg);
+    if (settings.goal == SequencingGoal::time) {
+        settings.feed = from_mm_per_min(project.program.feed_mm_per_min);
+    }
+    settings.links_cut =
+        settings.goal == SequencingGoal::error && project.program.link == LinkInput::on_surface;
+    return settings;
 }
 
 gcode::ProgramSettings program_settings(const ProgramInput& input) {
@@ -161,8 +180,11 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     improve(GridMethod::elliptic, progress.part(0.1, 0.3));
     improve(GridMethod::tracks, progress.part(0.3, 0.5));
     improve(GridMethod::chain, progress.part(0.5, 0.9));
-    add_program(plan, project, progress.part(0.9, 0.95));
-    add_estimated_times(plan, project, progress.part(0.95, 1.0));
+    add_program(plan, project, progress.part(0.9, 0.92));
+    add_estimated_times(plan, project, progress.part(0.92, 0.95));
+    if (scope == Scope::everything) {
+        add_cut_study(plan, project, progress.part(0.95, 1.0));
+    }
     return plan;
 }
 

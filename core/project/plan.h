@@ -20,6 +20,8 @@
 
 namespace millwright::project {
 
+struct CutStudy; // cut_study.h
+
 /// Everything derived from one project. Parts that a caller did not ask for are null.
 struct Plan {
     std::shared_ptr<const geometry::Surface> surface;
@@ -34,6 +36,7 @@ struct Plan {
     gcode::PostNotes program_notes;
     std::shared_ptr<const gcode::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
+    std::shared_ptr<const CutStudy> cut; ///< what the cutter does on the program's way; null for a point
     /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
     std::array<std::optional<double>, every_grid_method.size()> estimated_times;
 
@@ -61,6 +64,10 @@ struct Folders {
 /// Throws Error if the machine is unknown or its file wrong.
 [[nodiscard]] Workpiece workpiece_of(const Project& project, const Folders& folders);
 
+/// How the axis positions of its paths are chosen; what does not matter for the goal is left out, so that
+/// equal settings give equal paths.
+[[nodiscard]] toolpath::SequencingSettings sequencing_settings(const Project& project);
+
 [[nodiscard]] gcode::ProgramSettings program_settings(const ProgramInput& input);
 
 /// Program, listing, trajectory and time of the project's chosen grid, into `plan`. Throws Error or
@@ -81,7 +88,7 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
 /// How much of a plan is wanted.
 enum class Scope {
     everything, ///< but the whole chain only where it was chosen
-    program     ///< what the program needs: of the improved grids only the chosen one
+    program     ///< the program and what it needs: of the improved grids only the chosen one
 };
 
 /// Throws Error, first with faults_of(project) if there are any, or Cancelled.

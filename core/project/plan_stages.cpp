@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/project/assets.h"
+#include "core/project/cut_study.h"
 
 #include <algorithm>
 #include <system_error>
@@ -16,8 +17,16 @@ namespace fs = std::filesystem;
 /// Made whether they were chosen or not.
 constexpr std::array compared_methods{GridMethod::elliptic, GridMethod::tracks};
 
+/// Whether both tools make the same path; by what the cut is judged may differ.
+bool same_cut(ToolInput a, const ToolInput& b) {
+    a.scallop_mm = b.scallop_mm;
+    a.gouge_limit_mm = b.gouge_limit_mm;
+    return a == b;
+}
+
 bool same_place(const Project& a, const Project& b) {
-    return a.surface == b.surface && a.machine == b.machine && a.grid.direction == b.grid.direction;
+    return a.surface == b.surface && a.machine == b.machine && same_cut(a.tool, b.tool) &&
+           a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b);
 }
 
 bool same_nodes(const GridInput& a, const GridInput& b) {
@@ -65,6 +74,7 @@ void PlanStages::hold(GridMethod method, Held found) {
         now_.plan.program = nullptr;
         now_.plan.listing = nullptr;
         now_.plan.trajectory = nullptr;
+        now_.plan.cut = nullptr;
     }
     now_.held[static_cast<std::size_t>(method)] = std::move(found);
 }
@@ -128,6 +138,7 @@ void PlanStages::keep_program(const State& last) {
         now_.plan.listing = last.plan.listing;
         now_.plan.trajectory = last.plan.trajectory;
         now_.plan.estimated_time(input().method) = last.plan.estimated_time(input().method);
+        now_.plan.cut = then.tool == project().tool ? last.plan.cut : nullptr;
     }
 }
 
@@ -228,8 +239,12 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
     if (chosen != GridMethod::uniform) {
         improve(chosen, Effort::full, progress.part(0.1, 0.5));
     }
-    add_program_of_chosen(progress.part(0.5, 0.6));
+    add_program_of_chosen(progress.part(0.5, 0.55));
     publish(now_.plan, std::nullopt, false);
+    if (now_.plan.program && !now_.plan.cut) {
+        add_cut_study(now_.plan, project(), progress.part(0.55, 0.6));
+        publish(now_.plan, std::nullopt, false);
+    }
     for (const GridMethod method : compared_methods) {
         improve(method, Effort::full, progress.part(method == GridMethod::elliptic ? 0.6 : 0.8, 1.0));
     }

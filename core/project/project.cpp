@@ -4,6 +4,7 @@
 #include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
 #include "core/project/taught_points.h"
+#include "core/project/tool_settings.h"
 
 #include <fmt/format.h>
 
@@ -90,6 +91,33 @@ void check_arm(Faults& faults, const ArmInput& arm) {
     }
 }
 
+void check_tool(Faults& faults, const Project& project) {
+    const std::size_t before = faults.size();
+    check<ToolInput>(faults, "tool", project.tool, tool_numbers());
+    if (faults.size() == before && !fault_of(project.tool).empty()) {
+        faults.push_back("tool: " + fault_of(project.tool));
+    }
+    const bool has_body = project.tool.cutter != toolpath::CutterKind::point;
+    if (has_body && project.machine.angle_mode != kinematics::AngleMode::consistent) {
+        faults.emplace_back("tool/cutter: the faulty angle formulas are for a point alone");
+    }
+}
+
+void check_sequencing(Faults& faults, const Project& project) {
+    const SequencingInput& sequencing = project.sequencing;
+    check<SequencingInput>(faults, "sequencing", sequencing, sequencing_numbers());
+    constexpr double least_deg = 0.01;
+    if (sequencing.largest_step_deg > 0.0 && sequencing.largest_step_deg < least_deg) {
+        faults.push_back(fmt::format("sequencing/largest_step_deg: {} is neither 0 nor at least {}",
+                                     sequencing.largest_step_deg,
+                                     least_deg));
+    }
+    if (!(sequencing == SequencingInput{}) &&
+        project.machine.angle_mode != kinematics::AngleMode::consistent) {
+        faults.emplace_back("sequencing: the faulty angle formulas leave no rotary angle to choose");
+    }
+}
+
 void check_plot(Faults& faults, const PlotSettings& set) {
     check<PlotSettings>(faults, "plot", set, plot_numbers());
     check<plot::Level>(faults, "plot/level", set.level, level_numbers());
@@ -124,10 +152,12 @@ std::vector<std::string> faults_of(const Project& project) {
     Faults faults;
     check_surface(faults, project.surface);
     check_machine(faults, project.machine);
+    check_tool(faults, project);
     check<GridInput>(faults, "grid", project.grid, grid_numbers());
     check<EllipticInput>(faults, "grid/elliptic", project.grid.elliptic, elliptic_numbers());
     check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
     check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
+    check_sequencing(faults, project);
     check<ProgramInput>(faults, "program", project.program, program_numbers());
     check_plot(faults, project.plot.settings);
     check_arm(faults, project.arm);

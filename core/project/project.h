@@ -8,6 +8,8 @@
 #include "core/kinematics/rotary_tilt.h"
 #include "core/project/arm_input.h"
 #include "core/project/plot_input.h"
+#include "core/project/tool_input.h"
+#include "core/toolpath/sequenced_path.h"
 
 #include <array>
 #include <optional>
@@ -99,11 +101,21 @@ struct ProgramInput {
     friend bool operator==(const ProgramInput&, const ProgramInput&) = default;
 };
 
+/// Which of the axis positions that reach a pose are taken, along the whole path.
+struct SequencingInput {
+    toolpath::SequencingGoal goal = toolpath::SequencingGoal::nearest;
+    double largest_step_deg = 0.0; ///< of a rotary axis in one move; 0: any
+
+    friend bool operator==(const SequencingInput&, const SequencingInput&) = default;
+};
+
 struct Project {
     std::string name = "Untitled";
     SurfaceInput surface;
     MachineInput machine;
+    ToolInput tool;
     GridInput grid;
+    SequencingInput sequencing;
     ProgramInput program;
     PlotInput plot; ///< beside the surface
     ArmInput arm;   ///< beside both

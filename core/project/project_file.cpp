@@ -8,6 +8,7 @@
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
+#include "core/project/internal/tool_json.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
@@ -161,6 +162,14 @@ GridInput grid_input(const JsonValue& value) {
     return result;
 }
 
+SequencingInput sequencing(const JsonValue& value) {
+    expect_fields<SequencingInput>(value, sequencing_numbers(), {"goal"});
+    SequencingInput result;
+    read_numbers<SequencingInput>(value, sequencing_numbers(), result);
+    read_choice(value, "goal", sequencing_goals(), result.goal);
+    return result;
+}
+
 ProgramInput program(const JsonValue& value) {
     expect_fields<ProgramInput>(value, program_numbers(), {"link"});
     ProgramInput result;
@@ -181,7 +190,17 @@ fs::path to_folder(const fs::path& file, const fs::path& folder) {
 }
 
 Project project(const JsonValue& root, const fs::path& folder) {
-    root.expect_only({"format", "version", "name", "surface", "machine", "grid", "program", "plot", "arm"});
+    root.expect_only({"format",
+                      "version",
+                      "name",
+                      "surface",
+                      "machine",
+                      "tool",
+                      "grid",
+                      "sequencing",
+                      "program",
+                      "plot",
+                      "arm"});
     if (root.at("format").text() != format_name) {
         root.at("format").fail("not a project file", fmt::format("expected \"{}\"", format_name));
     }
@@ -190,8 +209,14 @@ Project project(const JsonValue& root, const fs::path& folder) {
     result.name = root.at("name").text();
     result.surface = surface(root.at("surface"));
     result.machine = machine(root.at("machine"));
+    if (const auto value = root.find("tool")) {
+        result.tool = tool_from(*value);
+    }
     if (const auto value = root.find("grid")) {
         result.grid = grid_input(*value);
+    }
+    if (const auto value = root.find("sequencing")) {
+        result.sequencing = sequencing(*value);
     }
     if (const auto value = root.find("program")) {
         result.program = program(*value);
@@ -271,6 +296,13 @@ Json json_of(const GridInput& grid) {
     return json;
 }
 
+Json json_of(const SequencingInput& sequencing) {
+    Json json;
+    json["goal"] = row_of(sequencing_goals(), sequencing.goal).id;
+    add_numbers<SequencingInput>(json, sequencing_numbers(), sequencing);
+    return json;
+}
+
 Json json_of(const ProgramInput& program) {
     Json json;
     add_numbers<ProgramInput>(json, program_numbers(), program);
@@ -298,7 +330,13 @@ std::string project_text(const Project& project) {
     json["name"] = project.name;
     json["surface"] = json_of(project.surface);
     json["machine"] = json_of(project.machine);
+    if (!(project.tool == ToolInput{})) {
+        json["tool"] = json_of(project.tool);
+    }
     json["grid"] = json_of(project.grid);
+    if (!(project.sequencing == SequencingInput{})) {
+        json["sequencing"] = json_of(project.sequencing);
+    }
     json["program"] = json_of(project.program);
     if (!(project.plot == PlotInput{})) {
         json["plot"] = json_of(project.plot);

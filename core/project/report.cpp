@@ -2,9 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/cut_study.h"
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
+#include "core/project/internal/tool_json.h"
 #include "core/project/settings.h"
+#include "core/project/tool_settings.h"
 #include "core/project/version.h"
 #include "core/toolpath/shortest_sequence.h"
 
@@ -108,6 +111,26 @@ Json machine(const Project& project, const Plan& plan) {
     json["axes"] = letters;
     json["workpiece_offset_mm"] = vector(model.description().workpiece_offset);
     json["angle_mode"] = row_of(angle_modes(), project.machine.angle_mode).id;
+    json["sequencing"] = row_of(sequencing_goals(), project.sequencing.goal).id;
+    json["largest_step_deg"] = project.sequencing.largest_step_deg;
+    return json;
+}
+
+Json tool(const ToolInput& input) {
+    Json json = json_of(input);
+    json["text"] = tool_text(input);
+    return json;
+}
+
+/// What the cutter does; cut.json has the whole of it.
+Json cut(const CutStudy& study) {
+    Json json;
+    json["scallop_mm"]["max"] = rounded(study.scallops.max);
+    json["scallop_mm"]["mean"] = rounded(study.scallops.mean);
+    json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
+    json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
+    json["bites"] = std::ssize(study.bites);
+    json["local_gouges"] = std::ssize(study.local_gouges);
     return json;
 }
 
@@ -167,6 +190,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["project"] = project.name;
     json["surface"] = surface(project, plan);
     json["machine"] = machine(project, plan);
+    json["tool"] = tool(project.tool);
     json["grid"] = grid_json(project, chosen);
     json["error"]["uniform"] = errors(plan, GridMethod::uniform);
     json["error"]["adapted"] = errors(plan, GridMethod::elliptic);
@@ -182,6 +206,9 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(chosen.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(chosen.closest.axis_mean));
     json["program"] = program(plan);
+    if (plan.cut) {
+        json["cut"] = cut(*plan.cut);
+    }
     return json_text(json);
 }
 

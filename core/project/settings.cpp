@@ -132,6 +132,17 @@ constexpr std::array<NumberSetting<ChainInput>, 3> of_chain{{
      field<&ChainInput::gap_percent>},
 }};
 
+constexpr std::array<NumberSetting<SequencingInput>, 1> of_sequencing{{
+    {"largest_step_deg",
+     "Largest turn",
+     "deg",
+     "Points are added where a rotary axis would turn by more from one to the next; 0 adds none",
+     0.0,
+     180.0,
+     2,
+     field<&SequencingInput::largest_step_deg>},
+}};
+
 constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
     {"feed_mm_per_min",
      "Feed",
@@ -220,6 +231,21 @@ constexpr std::array<Choice<WeightSource>, 6> of_weight{{
      "sin(2 pi x/25) sin(2 pi y/25) / 1000 in node coordinates; changes sign, so the grid may fold"},
 }};
 
+using toolpath::SequencingGoal;
+
+constexpr std::array<Choice<SequencingGoal>, 4> of_sequencing_goal{{
+    {SequencingGoal::nearest, "nearest", "Nearest", "Each point takes the rotary angles nearest to the last"},
+    {SequencingGoal::travel,
+     "travel",
+     "Least rotation",
+     "Of all ways through the branches and turns the one with the least travel of the rotary axes"},
+    {SequencingGoal::error,
+     "error",
+     "Least error",
+     "Of all ways the one whose moves stay nearest to the surface"},
+    {SequencingGoal::time, "time", "Least time", "Of all ways the fastest at the axes' largest velocities"},
+}};
+
 constexpr std::array<Choice<LinkInput>, 2> of_link{{
     {LinkInput::lifted, "lifted", "Lifted", "Off the part along the tool axis, across, and back down"},
     {LinkInput::on_surface, "on-surface", "On the surface", "Straight to the next track, cutting"},
@@ -251,6 +277,9 @@ std::span<const NumberSetting<TracksInput>> tracks_numbers() {
 std::span<const NumberSetting<ChainInput>> chain_numbers() {
     return of_chain;
 }
+std::span<const NumberSetting<SequencingInput>> sequencing_numbers() {
+    return of_sequencing;
+}
 std::span<const NumberSetting<ProgramInput>> program_numbers() {
     return of_program;
 }
@@ -263,6 +292,9 @@ std::span<const Choice<GridMethod>> grid_methods() {
 }
 std::span<const Choice<WeightSource>> weight_sources() {
     return of_weight;
+}
+std::span<const Choice<SequencingGoal>> sequencing_goals() {
+    return of_sequencing_goal;
 }
 std::span<const Choice<LinkInput>> links() {
     return of_link;

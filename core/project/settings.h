@@ -54,6 +54,7 @@ template <class Owner> struct NumberSetting {
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();
 [[nodiscard]] std::span<const NumberSetting<TracksInput>> tracks_numbers();
 [[nodiscard]] std::span<const NumberSetting<ChainInput>> chain_numbers();
+[[nodiscard]] std::span<const NumberSetting<SequencingInput>> sequencing_numbers();
 [[nodiscard]] std::span<const NumberSetting<ProgramInput>> program_numbers();
 
 /// One of the values that a choice can have.
@@ -67,6 +68,7 @@ template <class Value> struct Choice {
 [[nodiscard]] std::span<const Choice<grid::TrackDirection>> track_directions();
 [[nodiscard]] std::span<const Choice<GridMethod>> grid_methods();
 [[nodiscard]] std::span<const Choice<WeightSource>> weight_sources();
+[[nodiscard]] std::span<const Choice<toolpath::SequencingGoal>> sequencing_goals();
 [[nodiscard]] std::span<const Choice<LinkInput>> links();
 [[nodiscard]] std::span<const Choice<kinematics::AngleMode>> angle_modes();
 

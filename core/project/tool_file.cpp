@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/setting_json.h"
+#include "core/project/internal/tool_json.h"
 #include "core/project/tool_settings.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::string_view format_name = "millwright-tool";
 constexpr int format_version = 1;
+
+} // namespace
 
 ToolInput tool_from(const JsonValue& value) {
     expect_fields<ToolInput>(value, tool_numbers(), {"cutter"});
@@ -31,8 +34,6 @@ Json json_of(const ToolInput& tool) {
     add_numbers<ToolInput>(json, tool_numbers(), tool);
     return json;
 }
-
-} // namespace
 
 ToolInput read_tool(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);

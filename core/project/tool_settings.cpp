@@ -18,7 +18,7 @@ constexpr double thickest = 500.0; // mm
 constexpr double longest = 1000.0;
 constexpr double steepest = 80.0; // deg
 
-constexpr std::array<NumberSetting<ToolInput>, 11> of_tool{{
+constexpr std::array<NumberSetting<ToolInput>, 12> of_tool{{
     {"diameter_mm", "Diameter", "mm", "Of the shank", 0.001, thickest, 3, field<&ToolInput::diameter_mm>},
     {"corner_radius_mm",
      "Corner radius",
@@ -77,7 +77,7 @@ constexpr std::array<NumberSetting<ToolInput>, 11> of_tool{{
      2,
      field<&ToolInput::tilt_deg>},
     {"lead_change_deg",
-     "Lead along the track",
+     "Lead change",
      "deg",
      "What the lead grows by up to the end of the track, linear in its parameter",
      -steepest,
@@ -85,13 +85,21 @@ constexpr std::array<NumberSetting<ToolInput>, 11> of_tool{{
      2,
      field<&ToolInput::lead_change_deg>},
     {"tilt_change_deg",
-     "Tilt along the track",
+     "Tilt change",
      "deg",
      "What the tilt grows by up to the end of the track, linear in its parameter",
      -steepest,
      steepest,
      2,
      field<&ToolInput::tilt_change_deg>},
+    {"scallop_mm",
+     "Scallop height",
+     "mm",
+     "What may be left between two tracks: the step-over is found for it",
+     0.0001,
+     10.0,
+     4,
+     field<&ToolInput::scallop_mm>},
     {"gouge_limit_mm",
      "Gouge limit",
      "mm",
@@ -123,6 +131,11 @@ toolpath::HolderShape holder_of(const ToolInput& input) {
             .length = input.holder_length_mm};
 }
 
+/// A number that says nothing of the tool itself.
+bool is_of_judgement(std::string_view id) {
+    return id == "scallop_mm" || id == "gouge_limit_mm";
+}
+
 /// The angle with the larger part at an end of the track.
 double steepest_of(double start, double change) {
     return std::max(std::abs(start), std::abs(start + change));
@@ -145,7 +158,7 @@ bool has_number(CutterKind kind, std::string_view id) {
         return kind == CutterKind::cone;
     }
     const bool of_body =
-        id == "diameter_mm" || id == "length_mm" || id == "gouge_limit_mm" || id.starts_with("holder");
+        id == "diameter_mm" || id == "length_mm" || is_of_judgement(id) || id.starts_with("holder");
     return !of_body || kind != CutterKind::point;
 }
 
@@ -180,7 +193,7 @@ std::string tool_text(const ToolInput& input) {
         const double value = setting.value(input);
         const bool of_holder = setting.id.starts_with("holder") && input.holder_diameter_mm <= 0.0;
         const bool said = setting.unit == "mm" || std::abs(value) > 0.0;
-        const bool of_shape = setting.id != "gouge_limit_mm";
+        const bool of_shape = !is_of_judgement(setting.id);
         if (said && of_shape && !of_holder && has_number(input.cutter, setting.id)) {
             std::string label(setting.label);
             label.front() = static_cast<char>(label.front() - 'A' + 'a');

@@ -13,9 +13,11 @@ namespace millwright::toolpath {
 /// The worst of one move. Lengths mm, angles rad.
 struct MoveDeviation {
     MoveKind kind = MoveKind::track;
-    double closest = 0.0;  ///< largest distance of the true tip from the nearest surface point
-    double param = 0.0;    ///< largest distance from the surface point at the same fraction of the parameters
-    double axis = 0.0;     ///< largest angle between tool axis and the normal at the nearest surface point
+    /// Largest distance of the true tip from the nearest surface point; of a cutter by how much its body
+    /// misses or enters the surface near the contact.
+    double closest = 0.0;
+    double param = 0.0;    ///< largest distance from the tip intended at the same fraction of the parameters
+    double axis = 0.0;     ///< largest angle between tool axis and the one intended at the nearest point
     double length = 0.0;   ///< of the straight move
     double worst_at = 0.5; ///< t of the largest `closest`
 };
@@ -24,8 +26,9 @@ struct ErrorField {
     std::vector<MoveDeviation> moves; ///< one a move: points.size() - 1
 };
 
-/// Times inside each move at which the true pose is compared: t = k / (samples + 1), k = 1 ... samples;
-/// 1 is the mid-point of the thesis. Parallel over moves; the same bytes on any number of threads.
+/// Of `toolpath.tool`. Times inside each move at which the true pose is compared: t = k / (samples + 1), k =
+/// 1 ... samples; 1 is the mid-point of the thesis. Parallel over moves; the same bytes on any number of
+/// threads.
 [[nodiscard]] ErrorField error_field(const geometry::BezierPatch& patch,
                                      const kinematics::MachineModel& machine,
                                      const Toolpath& toolpath,

@@ -9,6 +9,7 @@
 #include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/internal/move_error.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
 #include <algorithm>
@@ -172,8 +173,8 @@ double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& 
 
 } // namespace
 
-KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool flipped)
-    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped) {}
+KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool flipped, Tool tool)
+    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)) {}
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
     std::vector<Vec3> points;
@@ -215,7 +216,7 @@ grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
                                            const Progress& progress) const {
     progress.check();
     try {
-        const Toolpath path = on_machine(machine_, zigzag(patch_, grid, direction, flipped_));
+        const Toolpath path = with_tool(patch_, machine_, tool_, zigzag(patch_, grid, direction, flipped_));
         const AxisPath axes = sequence(machine_, path);
         const ErrorField field = error_field(patch_, machine_, path, axes, finely, progress);
         return summary(field, Distance::closest, MoveKind::track);

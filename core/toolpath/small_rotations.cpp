@@ -6,6 +6,7 @@
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/internal/path_point_text.h"
+#include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,8 @@ public:
          const MachineModel& machine,
          const Toolpath& path,
          std::size_t to)
-        : patch_(patch), machine_(machine), from_(path.points[to - 1]), to_(path.points[to]), n_(to) {}
+        : patch_(patch), machine_(machine), path_(path), from_(path.points[to - 1]), to_(path.points[to]),
+          heading_from_(heading_at(path, to - 1)), heading_to_(heading_at(path, to)), n_(to) {}
 
     [[nodiscard]] PathPoint at(double t) const {
         PathPoint point = to_;
@@ -45,10 +47,11 @@ public:
         if (!normal) {
             refuse_point(n_, point, "the surface has no normal on the way to it");
         }
-        const bool other_side = normal->dot((1.0 - t) * from_.pose.axis + t * to_.pose.axis) < 0.0;
+        const bool other_side = normal->dot((1.0 - t) * from_.normal + t * to_.normal) < 0.0;
         point.contact = patch_.position(uv.x(), uv.y());
         point.normal = other_side ? Vec3(-*normal) : *normal;
-        point.pose = {point.contact, point.normal};
+        const Vec2 heading = (1.0 - t) * heading_from_ + t * heading_to_;
+        point.pose = intended_pose(patch_, machine_, path_, uv, heading, point.normal);
         return point;
     }
 
@@ -64,8 +67,10 @@ public:
 private:
     const geometry::BezierPatch& patch_;
     const MachineModel& machine_;
+    const Toolpath& path_;
     const PathPoint& from_;
     const PathPoint& to_;
+    Vec2 heading_from_, heading_to_;
     std::size_t n_;
 };
 
@@ -142,7 +147,7 @@ Toolpath with_small_rotations(const geometry::BezierPatch& patch,
                 Move(patch, machine, toolpath, n), machine, axes.positions[n - 1], largest_step);
         }
     });
-    Toolpath result{toolpath.direction, {}};
+    Toolpath result{toolpath.direction, toolpath.tool, {}};
     for (std::size_t n = 0; n < between.size(); ++n) {
         result.points.insert(result.points.end(), between[n].begin(), between[n].end());
         result.points.push_back(toolpath.points[n]);

@@ -12,7 +12,7 @@ namespace millwright::toolpath {
 /// `largest_step` (rad, 1e-4 to pi), at equal shares of the rotation: the axes are followed from the move's
 /// first position in `axes` along the parameters between its ends. Then no axis turns by more from point to
 /// point, unless it has to on the singular point itself or is then taken on another branch. A new point has
-/// the node that the move leads to, and its own parameters; its tool stands on the surface along the normal.
+/// the node that the move leads to, and its own parameters; its tool stands as the path's tool is to stand.
 /// Throws Error where a pose between cannot be reached or has no normal; Cancelled.
 [[nodiscard]] Toolpath with_small_rotations(const geometry::BezierPatch& patch,
                                             const kinematics::MachineModel& machine,

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/internal/move_error.h"
+#include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,20 +25,33 @@ std::vector<double> rotary_weights(const MachineModel& machine) {
     return weights;
 }
 
-/// The surface between two path points, seen from the side that the tool is on.
-ChordCurve
-curve_between(const geometry::BezierPatch& patch, const PathPoint& from, const PathPoint& to, int chords) {
-    std::vector<Vec3> points;
-    std::vector<Vec3> normals;
+/// The way that the tip should take to path point `n`, with the tool axis that it should have.
+ChordCurve intended_way(const geometry::BezierPatch& patch,
+                        const MachineModel& machine,
+                        const Toolpath& path,
+                        std::size_t n,
+                        int chords) {
+    const PathPoint& from = path.points.at(n - 1);
+    const PathPoint& to = path.points.at(n);
+    const Vec2 heading_from = heading_at(path, n - 1);
+    const Vec2 heading_to = heading_at(path, n);
+    std::vector<Vec3> tips;
+    std::vector<Vec3> axes;
     for (int c = 0; c <= chords; ++c) {
         const double t = static_cast<double>(c) / chords;
         const Vec2 uv = (1.0 - t) * from.origin.uv + t * to.origin.uv;
-        const Vec3 side = (1.0 - t) * from.pose.axis + t * to.pose.axis;
+        const Vec3 side = (1.0 - t) * from.normal + t * to.normal;
         const Vec3 normal = patch.unit_normal(uv.x(), uv.y()).value_or(side);
-        points.push_back(patch.position(uv.x(), uv.y()));
-        normals.push_back(normal.dot(side) < 0.0 ? Vec3(-normal) : normal);
+        const geometry::ToolPose pose = intended_pose(patch,
+                                                      machine,
+                                                      path,
+                                                      uv,
+                                                      (1.0 - t) * heading_from + t * heading_to,
+                                                      normal.dot(side) < 0.0 ? Vec3(-normal) : normal);
+        tips.push_back(pose.tip);
+        axes.push_back(pose.axis);
     }
-    return {std::move(points), std::move(normals)};
+    return {std::move(tips), std::move(axes)};
 }
 
 } // namespace
@@ -86,12 +100,12 @@ StepCosts error_costs(geometry::BezierPatch patch,
     struct Known {
         geometry::BezierPatch patch;
         MachineModel machine;
-        std::vector<PathPoint> points;
+        Toolpath path;
     };
-    const auto known = std::make_shared<const Known>(Known{std::move(patch), machine, toolpath.points});
+    const auto known = std::make_shared<const Known>(Known{std::move(patch), machine, toolpath});
     return [known, cost, sampling](std::size_t n) -> StepCost {
         const auto curve = std::make_shared<const ChordCurve>(
-            curve_between(known->patch, known->points.at(n - 1), known->points.at(n), sampling.curve));
+            intended_way(known->patch, known->machine, known->path, n, sampling.curve));
         return [known, curve, cost, sampling](const AxisPositions& from, const AxisPositions& to) {
             return cost(move_error(known->machine, from, to, *curve, sampling.tip));
         };

@@ -30,7 +30,8 @@ using StepCosts = std::function<StepCost(std::size_t n)>;
 time_costs(const kinematics::MachineModel& machine, const Toolpath& toolpath, double feed);
 
 /// `cost` of the error that the move will have, as the grid's optimisers measure it: of the true tip from the
-/// surface curve between the points, of the true tool axis from the normal there. Copies what it needs.
+/// way that the path's tool should take between the points, of the true tool axis from the one that it should
+/// have there. Copies what it needs.
 [[nodiscard]] StepCosts error_costs(geometry::BezierPatch patch,
                                     const kinematics::MachineModel& machine,
                                     const Toolpath& toolpath,

@@ -47,16 +47,29 @@ Vec2 heading_at(const Toolpath& path, std::size_t n) {
 }
 
 Vec3 intended_axis(const geometry::BezierPatch& patch,
-                   const Lean& lean,
-                   grid::TrackDirection direction,
+                   const Toolpath& path,
                    const Vec2& uv,
                    const Vec2& heading,
                    const Vec3& normal) {
+    const Lean& lean = path.tool.lean;
     if (lean.upright()) {
         return normal;
     }
     const Vec3 feed = direction_on(patch, uv, heading);
-    return feed.squaredNorm() < 0.5 ? normal : leaning_axis(lean, normal, feed, along_track(direction, uv));
+    return feed.squaredNorm() < 0.5 ? normal
+                                    : leaning_axis(lean, normal, feed, along_track(path.direction, uv));
+}
+
+geometry::ToolPose intended_pose(const geometry::BezierPatch& patch,
+                                 const kinematics::MachineModel& machine,
+                                 const Toolpath& path,
+                                 const Vec2& uv,
+                                 const Vec2& heading,
+                                 const Vec3& normal) {
+    const Vec3 contact = patch.position(uv.x(), uv.y());
+    const Vec3 axis = machine.rotary_axes().empty() ? machine.description().tool_axis
+                                                    : intended_axis(patch, path, uv, heading, normal);
+    return {path.tool.cutter ? tip_for(*path.tool.cutter, contact, normal, axis) : contact, axis};
 }
 
 Toolpath with_tool(const geometry::BezierPatch& patch,
@@ -64,6 +77,7 @@ Toolpath with_tool(const geometry::BezierPatch& patch,
                    const Tool& tool,
                    Toolpath contacts) {
     Toolpath path = std::move(contacts);
+    path.tool = tool;
     if (!tool.lean.upright()) {
         lean_over(patch, tool.lean, path);
     }

@@ -4,7 +4,6 @@
 
 #include "core/geometry/bezier_patch.h"
 #include "core/kinematics/machine_model.h"
-#include "core/toolpath/tool.h"
 #include "core/toolpath/toolpath.h"
 
 namespace millwright::toolpath {
@@ -21,11 +20,19 @@ namespace millwright::toolpath {
 /// In which the parameters change at point `n` of the path, not scaled.
 [[nodiscard]] Vec2 heading_at(const Toolpath& path, std::size_t n);
 
-/// The axis that a tool is to have at the parameters `uv` of a track that goes along `heading` there;
-/// `normal` where it stands along the normal or the heading vanishes.
+/// The pose that the path's tool is to have at the parameters `uv` of a track that goes along `heading`
+/// there; `normal` is that of the surface on the side of the tool. Where the heading vanishes it does not
+/// lean.
+[[nodiscard]] geometry::ToolPose intended_pose(const geometry::BezierPatch& patch,
+                                               const kinematics::MachineModel& machine,
+                                               const Toolpath& path,
+                                               const Vec2& uv,
+                                               const Vec2& heading,
+                                               const Vec3& normal);
+
+/// The axis of that pose on a machine that can turn the tool.
 [[nodiscard]] Vec3 intended_axis(const geometry::BezierPatch& patch,
-                                 const Lean& lean,
-                                 grid::TrackDirection direction,
+                                 const Toolpath& path,
                                  const Vec2& uv,
                                  const Vec2& heading,
                                  const Vec3& normal);

@@ -7,6 +7,7 @@
 
 #include "core/geometry/tool_pose.h"
 #include "core/grid/grid.h"
+#include "core/toolpath/tool.h"
 
 #include <vector>
 
@@ -35,7 +36,8 @@ struct PathPoint {
 
 struct Toolpath {
     grid::TrackDirection direction = grid::TrackDirection::along_v;
-    std::vector<PathPoint> points; ///< nu * nv points, nu * nv - 1 moves
+    Tool tool = {};                ///< that the poses are of
+    std::vector<PathPoint> points; ///< one more than moves
 };
 
 /// Length of the path with straight moves, mm.

@@ -48,6 +48,9 @@ TEST(CutterCommand, RefusesWhatIsNoTool) {
                                "--scallop",
                                "0"});
     EXPECT_EQ(nothing.exit_code, 2);
+    const Ended point = run({"cutter", project, "--out", scratch / "out"});
+    EXPECT_EQ(point.exit_code, 1);
+    EXPECT_THAT(point.err, HasSubstr("name a tool file with --tool"));
     EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 

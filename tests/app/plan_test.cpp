@@ -40,9 +40,28 @@ TEST(PlanCommand, ChoosesTheRotaryAxesForTheWholePath) {
     EXPECT_THAT(ended.out, HasSubstr("\ntravel "));
     const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
     EXPECT_LE(report.at("error").at("optimised").at("largest_rotary_step_deg"), 15.0);
-    EXPECT_GT(report.at("error").at("uniform").at("largest_rotary_step_deg"), 15.0);
+    EXPECT_LE(report.at("error").at("uniform").at("largest_rotary_step_deg"), 15.0);
+    EXPECT_EQ(report.at("machine").at("sequencing"), "travel");
     EXPECT_GT(report.at("points"), 36);
+    ASSERT_EQ(run({"plan", project, "--out", scratch / "plain"}).exit_code, 0);
+    const auto plain = nlohmann::json::parse(content_of(scratch / "plain/report.json"));
+    EXPECT_GT(plain.at("error").at("uniform").at("largest_rotary_step_deg"), 15.0);
+    EXPECT_EQ(plain.at("points"), 36);
     EXPECT_NE(run({"plan", project, "--out", scratch / "out", "--sequencing", "luck"}).exit_code, 0);
+}
+
+TEST(PlanCommand, CutsWithTheToolOfAFile) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended ended =
+        run({"plan", project, "--out", scratch / "out", "--tool", "assets/tools/bull-nose-10.json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm"));
+    EXPECT_THAT(ended.out, HasSubstr("left on the surface"));
+    EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("bull-nose"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
+    EXPECT_EQ(report.at("tool").at("cutter"), "bull-nose");
+    EXPECT_GT(report.at("cut").at("scallop_mm").at("max"), 0.0);
 }
 
 TEST(PlanCommand, WritesOverNoProjectInItsFolder) {

@@ -4,6 +4,7 @@
 #include "core/project/assets.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/tool_fields.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -38,7 +39,10 @@ Vec3 workpiece_offset(const Workbench& now) {
 
 void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_error(ui, now, ask);
+    tool_fields(ui, now, ask);
+    cut_fields(ui, now);
     draw_setup(ui, now, ask);
+    sequencing_fields(ui, now, ask);
     draw_singular(ui, now);
 }
 
@@ -53,11 +57,11 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ask.show([method](actions::Session& session) { session.shown = method; });
     }
     const auto shown = now.shown();
-    if (!shown) {
+    const auto start = now.evaluation(GridMethod::uniform);
+    if (!shown || !start) { // after a change the shown one comes first
         ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
         return;
     }
-    const auto start = now.evaluation(GridMethod::uniform);
     const auto& before = start->closest;
     const auto& error = shown->closest;
     ui.value(

@@ -35,15 +35,18 @@ Project plane(int nu, int nv) {
     return project;
 }
 
-CutStudy study(const Project& project, const ToolInput& tool, double wanted = 0.01) {
-    return study_cut(
-        make_plan(project, {{}, assets_folder()}, {}, Scope::program), project, tool, wanted, {});
+Plan studied(Project project, const ToolInput& tool) {
+    project.tool = tool;
+    Plan plan = make_plan(project, {{}, assets_folder()}, {}, Scope::program);
+    add_cut_study(plan, project, {});
+    return plan;
 }
 
 const ToolInput ball{.cutter = CutterKind::ball, .diameter_mm = 8.0};
 
 TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
-    const CutStudy found = study(plane(5, 11), ball); // tracks 4 mm apart
+    const Plan plan = studied(plane(5, 11), ball); // tracks 4 mm apart
+    const CutStudy& found = *plan.cut;
     const double exact = 4.0 - std::sqrt(16.0 - 4.0);
     EXPECT_NEAR(found.scallops.max, exact, 2e-3);
     EXPECT_NEAR(found.scallops.by_formula, 16.0 / (8.0 * 4.0), 1e-9);
@@ -52,9 +55,9 @@ TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
     EXPECT_LT(found.deepest, 1e-6);
     EXPECT_TRUE(found.bites.empty());
     EXPECT_TRUE(found.local_gouges.empty());
-    const Evaluation& cut = *found.plan.evaluation(GridMethod::uniform);
+    const Evaluation& cut = *plan.evaluation(GridMethod::uniform);
     EXPECT_LT(cut.closest.max, 1e-9);
-    EXPECT_GT(found.plan.trajectory->duration(), 0.0);
+    EXPECT_GT(plan.trajectory->duration(), 0.0);
 }
 
 /// The two bells stand on a ground that they meet in valleys: a thick ball does not fit there, a thin one
@@ -68,7 +71,8 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
     ToolInput tool = ball;
     tool.diameter_mm = 60.0;
     tool.length_mm = 100.0;
-    const CutStudy thick = study(project, tool);
+    const Plan plan = studied(project, tool);
+    const CutStudy& thick = *plan.cut;
     ASSERT_FALSE(thick.bites.empty());
     EXPECT_FALSE(thick.local_gouges.empty());
     const BlockBite& deepest =
@@ -76,15 +80,16 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
             return a.bite.depth < b.bite.depth;
         });
     EXPECT_EQ(deepest.bite.depth, thick.deepest);
-    EXPECT_TRUE(thick.plan.program->blocks.at(static_cast<std::size_t>(deepest.block)).moves());
+    EXPECT_TRUE(plan.program->blocks.at(static_cast<std::size_t>(deepest.block)).moves());
     EXPECT_GT(deepest.line, 0);
-    const auto report = nlohmann::json::parse(cut_report_text(project, tool, thick));
+    const auto report = nlohmann::json::parse(cut_report_text(project, plan));
     EXPECT_EQ(report.at("bites").size(), thick.bites.size());
     EXPECT_EQ(report.at("local_gouges").size(), thick.local_gouges.size());
 
     tool.diameter_mm = 1.0;
     tool.gouge_limit_mm = 0.5;
-    const CutStudy thin = study(project, tool);
+    const Plan with_thin = studied(project, tool);
+    const CutStudy& thin = *with_thin.cut;
     EXPECT_LT(thin.local_gouges.size(), thick.local_gouges.size());
     EXPECT_LT(thin.deepest, 0.2 * thick.deepest);
 }
@@ -92,9 +97,10 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
 TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     ToolInput narrow = ball;
     narrow.diameter_mm = 1.0; // tracks 20 mm apart leave most of the plane as it is
-    const CutStudy found = study(plane(5, 3), narrow);
+    const Plan plan = studied(plane(5, 3), narrow);
+    const CutStudy& found = *plan.cut;
     EXPECT_GT(found.scallops.not_cut, 0.5);
-    std::istringstream lines(surface_csv(found));
+    std::istringstream lines(surface_csv(plan.workpiece->patch, found.swept));
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "u,v,x_mm,y_mm,z_mm,height_mm");
@@ -109,12 +115,29 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     EXPECT_NEAR(found.scallops.not_cut, static_cast<double>(empty) / count, 1e-12);
 }
 
-TEST(CutStudy, RefusesAPointAndFaultyAngles) {
-    Project project = plane(3, 3);
-    EXPECT_THROW((void)study(project, {}), Error);
-    project.machine.file = "rotary-tilt-listing";
-    project.machine.angle_mode = kinematics::AngleMode::faulty_listing;
-    EXPECT_THROW((void)study_cut({}, project, ball, 0.01, {}), Error);
+TEST(CutStudy, OfAPointIsNone) {
+    const Project project = plane(3, 3);
+    const Plan plan = studied(project, {});
+    EXPECT_EQ(plan.cut, nullptr);
+    EXPECT_THROW((void)study_cut(plan, project, {}), Error);
+}
+
+/// Tracks with points that the sequencing put in: the gap is still that of the tracks.
+TEST(CutStudy, MeasuresTheGapBetweenTracksOfDifferentPoints) {
+    Project project = plane(5, 11);
+    project.surface = project_from_preset("two-bell").surface;
+    project.machine.file = "ac-table";
+    project.grid.nu = 20;
+    project.tool = ball;
+    project.tool.diameter_mm = 2.0;
+    const auto highest = [&](double largest_step_deg) {
+        project.sequencing.largest_step_deg = largest_step_deg;
+        const Plan plan = make_plan(project, {{}, assets_folder()}, {}, Scope::program);
+        EXPECT_EQ(largest_step_deg > 0.0, plan.uniform->toolpath.points.size() > 220U);
+        return study_cut(plan, project, {}).scallops.by_formula;
+    };
+    const double plain = highest(0.0);
+    EXPECT_NEAR(highest(10.0), plain, 0.5 * plain);
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 #include "core/base/units.h"
 #include "core/geometry/presets.h"
 #include "core/kinematics/rotary_tilt.h"
-#include "core/project/sequenced_evaluation.h"
 #include "core/toolpath/shortest_sequence.h"
+#include "tests/support/cutters.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +126,8 @@ TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
     using toolpath::SequencingGoal;
     Workpiece workpiece = dome_on("rotary-tilt-listing");
     const auto with = [&](const toolpath::SequencingSettings& settings) {
-        return evaluate(workpiece, uniform(12, 12), settings, 8, Progress());
+        workpiece.sequencing = settings;
+        return evaluate(workpiece, uniform(12, 12), 8, Progress());
     };
     const auto step = [&](const Evaluation& of) {
         return toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, MoveKind::track);
@@ -141,8 +142,24 @@ TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
     EXPECT_GT(finer.toolpath.points.size(), error.toolpath.points.size());
     EXPECT_LT(finer.closest.max, 0.5 * error.closest.max);
     EXPECT_LT(step(finer), step(error));
-    workpiece.angle_mode = kinematics::AngleMode::faulty_text;
-    EXPECT_THROW((void)with({}), Error);
+}
+
+/// A cutter cuts what its body says: on a router a ball's tip runs beside the surface, and touches it.
+TEST(Evaluation, OfACutterIsOfItsBody) {
+    Workpiece workpiece = dome_on("router-xyz");
+    const auto touching = [&] { return evaluate(workpiece, uniform(20, 20), 8, Progress()); };
+    const Evaluation point = touching();
+    workpiece.tool.cutter = test::body(test::ball);
+    const Evaluation ball = touching();
+    double farthest = 0.0;
+    for (std::size_t n = 0; n < ball.toolpath.points.size(); ++n) {
+        const toolpath::PathPoint& there = ball.toolpath.points[n];
+        const Vec3 center = there.pose.tip + 4.0 * Vec3::UnitZ();
+        EXPECT_NEAR((center - there.contact).norm(), 4.0, 1e-9);
+        farthest = std::max(farthest, (there.pose.tip - point.toolpath.points[n].pose.tip).norm());
+    }
+    EXPECT_GT(farthest, 0.1);
+    EXPECT_GT(ball.closest.max, point.closest.max); // its centre runs on a larger dome
 }
 
 TEST(Evaluation, APartOutOfReachIsAnError) {

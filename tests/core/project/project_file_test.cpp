@@ -66,6 +66,37 @@ TEST(ProjectFile, WhatIsWrittenIsRead) {
     EXPECT_EQ(project_from_text(project_text(project), "x"), project);
 }
 
+TEST(ProjectFile, ToolAndSequencingComeBack) {
+    Project project = project_from_preset("dome");
+    EXPECT_EQ(project_text(project).find("\"tool\""), std::string::npos);
+    EXPECT_EQ(project_text(project).find("\"sequencing\""), std::string::npos);
+    project.tool = {.cutter = toolpath::CutterKind::cone,
+                    .diameter_mm = 5.0,
+                    .corner_radius_mm = 0.75,
+                    .half_angle_deg = 8.0,
+                    .length_mm = 31.0,
+                    .holder_diameter_mm = 18.0,
+                    .holder_length_mm = 44.0,
+                    .lead_deg = -3.0,
+                    .tilt_deg = 7.0,
+                    .lead_change_deg = 1.0,
+                    .tilt_change_deg = -2.0,
+                    .scallop_mm = 0.02,
+                    .gouge_limit_mm = 0.3};
+    project.sequencing = {toolpath::SequencingGoal::time, 12.5};
+    EXPECT_EQ(project_from_text(project_text(project), "x"), project);
+}
+
+TEST(ProjectFile, AToolThatCannotBeIsRefusedAtItsPlace) {
+    Project project = project_from_preset("dome");
+    project.tool.cutter = toolpath::CutterKind::bull_nose;
+    project.tool.corner_radius_mm = 1.25;
+    const std::string text = project_text(project);
+    const std::string told = fault_in(replaced(text, "1.25", "4.25"));
+    EXPECT_THAT(told, AllOf(StartsWith("part.json:"), HasSubstr("tool"), HasSubstr("does not fit into")));
+    EXPECT_THAT(fault_in(replaced(text, "bull-nose", "drill")), HasSubstr("tool/cutter"));
+}
+
 TEST(ProjectFile, TheSameProjectGivesTheSameBytes) {
     const Project project = project_from_preset("sine");
     EXPECT_EQ(project_text(project), project_text(project_from_text(project_text(project), "x")));

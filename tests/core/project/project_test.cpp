@@ -55,6 +55,19 @@ TEST(Project, ANumberThatIsNoneIsAFault) {
     EXPECT_THAT(faults_of(project), Contains(HasSubstr("machine/workpiece_offset")));
 }
 
+TEST(Project, FaultyAnglesAreForAPointAndLeaveNoChoice) {
+    Project project = project_from_preset("dome");
+    project.machine.angle_mode = kinematics::AngleMode::faulty_text;
+    EXPECT_THAT(faults_of(project), ElementsAre());
+    project.tool.cutter = toolpath::CutterKind::ball;
+    project.sequencing.goal = toolpath::SequencingGoal::travel;
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("tool/cutter"), HasSubstr("sequencing")));
+    project.machine.angle_mode = kinematics::AngleMode::consistent;
+    EXPECT_THAT(faults_of(project), ElementsAre());
+    project.sequencing.largest_step_deg = 0.001;
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("neither 0 nor at least 0.01")));
+}
+
 TEST(Project, ASurfaceNeedsItsPatches) {
     Project project = project_from_preset("dome");
     project.surface.machined_patch = 1;

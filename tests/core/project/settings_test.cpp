@@ -34,6 +34,7 @@ TEST(Settings, EveryNumberHasARangeThatHoldsItsDefault) {
     expect_sound(elliptic_numbers());
     expect_sound(tracks_numbers());
     expect_sound(chain_numbers());
+    expect_sound(sequencing_numbers());
     expect_sound(program_numbers());
     expect_sound(tool_numbers());
     expect_sound(plot_numbers());

@@ -36,7 +36,7 @@ TEST(ToolSettings, MakeTheToolThatTheyDescribe) {
     EXPECT_EQ(
         tool_text(input),
         "cone, diameter 6 mm, corner radius 0.5 mm, half angle 10 deg, length 25 mm, holder diameter 20 mm, "
-        "holder length 35 mm, lead 5 deg, tilt -3 deg, lead along the track 2 deg");
+        "holder length 35 mm, lead 5 deg, tilt -3 deg, lead change 2 deg");
 }
 
 TEST(ToolSettings, ByDefaultThereIsAPointAlongTheNormal) {

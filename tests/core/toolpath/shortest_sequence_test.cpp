@@ -167,7 +167,8 @@ TEST(ShortestSequence, IsTheBestOfEveryWayThroughTurnsInsideLimits) {
 TEST_P(EachMachine, HasTheLeastErrorOfEveryWay) {
     const MachineModel machine = test::machine(GetParam());
     const Toolpath path = path_on("two-bell", 6, 5);
-    const Toolpath head{path.direction, {path.points.begin() + 6, path.points.begin() + 10}}; // off the poles
+    const Toolpath head{
+        path.direction, path.tool, {path.points.begin() + 6, path.points.begin() + 10}}; // off the poles
     const StepCosts costs = error_costs(test::patch("two-bell"), machine, head, {}, grid::coarse);
     const AxisPath axes = shortest_sequence(machine, head, costs, 0.0, {});
     const double least = EveryWay(machine, head, costs, 0.0).least();
@@ -232,7 +233,7 @@ TEST(ShortestSequence, DoesNotTurnTheFreeAxisOnThePole) {
     }
     const AxisPath best = shortest_sequence(machine, path, travel_costs(machine), 1.0, {});
     EXPECT_NEAR(best.rotary_travel, from_degrees(40.0), 1e-9) << "only A tilts, from side to side";
-    const Toolpath flat{path.direction, {path.points[2], path.points[2]}};
+    const Toolpath flat{path.direction, {}, {path.points[2], path.points[2]}};
     EXPECT_EQ(shortest_sequence(machine, flat, travel_costs(machine), 1.0, {}).rotary_travel, 0.0);
 }
 

@@ -1,13 +1,37 @@
 // The machine: simple bodies, each carried by its axis. The scene's frame is then the machine's.
 
+#include "core/base/numbers.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/layers.h"
 #include "ui/viewport/internal/solids.h"
 #include "ui/viewport/machine_bodies.h"
 
+#include <array>
+
 namespace millwright::viewport {
 
 namespace {
+
+/// Height of the project's tool above its tip, which the machine's own cutter makes room for; 0 for a point.
+double height_of_tool(const Scene& scene) {
+    if (!scene.workpiece || !scene.workpiece->tool.cutter) {
+        return 0.0;
+    }
+    const toolpath::Tool& tool = scene.workpiece->tool;
+    return (tool.holder ? *tool.holder : *tool.cutter).shape().top;
+}
+
+/// What is left of the machine's cutter above the project's tool.
+Solid cutter_above(const kinematics::MachineBody& body, double height) {
+    const auto r = static_cast<float>(0.5 * body.size.x());
+    const auto top = static_cast<float>(0.5 * body.size.z());
+    const auto bottom = static_cast<float>(height - 0.5 * body.size.z());
+    if (bottom >= top) {
+        return {};
+    }
+    const std::array<glm::vec2, 4> profile = {{{0.0F, bottom}, {r, bottom}, {r, top}, {0.0F, top}}};
+    return turned_solid(profile);
+}
 
 Solid solid_of(const kinematics::MachineBody& body) {
     if (body.shape == kinematics::MachineBody::Shape::cylinder) {
@@ -21,14 +45,17 @@ class MachineLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
         const auto machine = machine_of(scene);
-        if (!scene.layers.machine || machine == machine_) {
+        const double height = height_of_tool(scene);
+        if (!scene.layers.machine || (machine == machine_ && exactly_equal(height, height_of_tool_))) {
             return;
         }
         machine_ = machine;
+        height_of_tool_ = height;
         bodies_.clear();
         if (machine_) {
             for (const kinematics::MachineBody& body : machine_->description().bodies) {
-                bodies_.emplace_back(solid_of(body));
+                bodies_.emplace_back(is_cutter(*machine_, body) ? cutter_above(body, height)
+                                                                : solid_of(body));
             }
         }
     }
@@ -70,6 +97,7 @@ private:
     }
 
     std::shared_ptr<const kinematics::MachineModel> machine_;
+    double height_of_tool_ = 0.0;
     std::vector<SolidBuffers> bodies_;
 };
 

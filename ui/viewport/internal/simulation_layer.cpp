@@ -1,5 +1,5 @@
-// The tool at the present moment, and the way that it really took so far. Where the machine is shown its own
-// cutter is the tool.
+// The tool at the present moment, and the way that it really took so far. Where the machine is shown and
+// the project's tool is a point, the machine's own cutter is the tool.
 
 #include "core/kinematics/forward.h"
 #include "ui/viewport/internal/boxes.h"
@@ -15,7 +15,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr double tool_share = 0.035; // radius of the tool to that of the part
+constexpr double tool_share = 0.035; // radius of a tool that is a point to that of the part
 
 Frame pose_frame(const geometry::ToolPose& pose) {
     Frame frame = Frame::Identity();
@@ -27,8 +27,9 @@ Frame pose_frame(const geometry::ToolPose& pose) {
 class SimulationLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!tool_) {
-            tool_.emplace(tool_solid());
+        if (!tool_ || scene.workpiece != tool_of_) {
+            tool_.emplace(has_cutter(scene) ? tool_solid(scene.workpiece->tool) : tool_solid());
+            tool_of_ = scene.workpiece;
         }
         if (!traced(scene) || (scene.shown == shown_ && scene.workpiece == workpiece_)) {
             return;
@@ -45,12 +46,14 @@ public:
         if (traced(scene)) {
             draw_trace(scene, canvas);
         }
-        if (scene.layers.tool && !scene.layers.machine) {
+        if (scene.layers.tool && (!scene.layers.machine || has_cutter(scene))) {
             draw_tool(scene, canvas);
         }
     }
 
 private:
+    static bool has_cutter(const Scene& scene) { return scene.workpiece && scene.workpiece->tool.cutter; }
+
     /// The error layer draws the same way in colours of its own.
     static bool traced(const Scene& scene) {
         return scene.layers.trace && scene.now && scene.now->move >= 0 && !scene.layers.error_path;
@@ -78,12 +81,13 @@ private:
 
     void draw_tool(const Scene& scene, const Canvas& canvas) const {
         const Frame w_T_tool = pose_frame(kinematics::forward(scene.workpiece->machine, axes_now(scene)));
-        const auto size = static_cast<float>(tool_share * radius(canvas.content));
+        const float size = has_cutter(scene) ? 1.0F : static_cast<float>(tool_share * radius(canvas.content));
         const glm::mat4 placed = canvas.s_T_w * glm::mat4(render::to_glm(w_T_tool));
         tool_->draw(canvas, glm::scale(placed, glm::vec3(size)), canvas.colors.tool);
     }
 
     std::optional<SolidBuffers> tool_;
+    std::shared_ptr<const project::Workpiece> tool_of_; // whose tool that is
     std::shared_ptr<const project::Evaluation> shown_;
     std::shared_ptr<const project::Workpiece> workpiece_;
     PathLines trace_;

@@ -1,5 +1,6 @@
 #include "ui/viewport/internal/solids.h"
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "ui/viewport/internal/boxes.h"
 
@@ -38,6 +39,12 @@ void add_triangle(Solid& solid, std::uint32_t a, std::uint32_t b, std::uint32_t 
     solid.triangles.insert(solid.triangles.end(), {a, b, c});
 }
 
+/// Whether the profile has a corner at `at`, and is not just a curve there.
+bool is_edge(const glm::vec2& before, const glm::vec2& at, const glm::vec2& after) {
+    constexpr float cosine_of_curve = 0.94F; // 20 degrees
+    return glm::dot(glm::normalize(at - before), glm::normalize(after - at)) < cosine_of_curve;
+}
+
 /// The band between two corners of the profile.
 void add_band(Solid& solid, const glm::vec2& from, const glm::vec2& to) {
     const glm::vec2 along = to - from;
@@ -55,6 +62,15 @@ void add_band(Solid& solid, const glm::vec2& from, const glm::vec2& to) {
     }
 }
 
+void append(Solid& to, const Solid& part) {
+    const auto first = static_cast<std::uint32_t>(to.vertices.size());
+    to.vertices.insert(to.vertices.end(), part.vertices.begin(), part.vertices.end());
+    to.edges.insert(to.edges.end(), part.edges.begin(), part.edges.end());
+    for (const std::uint32_t corner : part.triangles) {
+        to.triangles.push_back(first + corner);
+    }
+}
+
 } // namespace
 
 Solid tool_solid() {
@@ -66,6 +82,20 @@ Solid tool_solid() {
                                                    {1.7F, 17.8F},
                                                    {0.0F, 17.8F}}};
     return turned_solid(profile);
+}
+
+Solid tool_solid(const toolpath::Tool& tool) {
+    expects(tool.cutter.has_value(), "a tool with a cutter is drawn");
+    constexpr double chord_share = 1e-3; // of the radius: steps of five degrees
+    Solid solid;
+    for (const auto& body : {tool.cutter, tool.holder}) {
+        std::vector<glm::vec2> profile;
+        for (const Vec2& p : body ? body->outline(chord_share * body->shape().radius) : std::vector<Vec2>()) {
+            profile.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+        }
+        append(solid, turned_solid(profile));
+    }
+    return solid;
 }
 
 void add_quad(Solid& solid, const std::array<glm::vec3, 4>& corners) {
@@ -102,7 +132,9 @@ Solid box_solid(const glm::vec3& min, const glm::vec3& max) {
 Solid turned_solid(std::span<const glm::vec2> profile) {
     Solid solid;
     for (std::size_t k = 0; k < profile.size(); ++k) {
-        add_rim(solid, profile[k]);
+        if (k == 0 || k + 1 == profile.size() || is_edge(profile[k - 1], profile[k], profile[k + 1])) {
+            add_rim(solid, profile[k]);
+        }
         if (k + 1 < profile.size()) {
             add_band(solid, profile[k], profile[k + 1]);
         }

@@ -1,7 +1,6 @@
-#include "core/toolpath/tool_error.h"
-
 #include "core/geometry/closest_point.h"
 #include "core/toolpath/actual_trajectory.h"
+#include "core/toolpath/error_field.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 #include "tests/support/cutters.h"
@@ -26,12 +25,12 @@ ErrorField field_of(const geometry::BezierPatch& patch,
                     const Tool& tool,
                     const Toolpath& contacts) {
     const Toolpath path = with_tool(patch, machine, tool, contacts);
-    return tool_error(patch, machine, tool, path, sequence(machine, path), 9, {});
+    return error_field(patch, machine, path, sequence(machine, path), 9, {});
 }
 
 /// A router with a ball goes straight from tip to tip: on a cylinder of radius R it cuts a chord of the
 /// circle R + r of its centre, whose sagitta is known.
-TEST(ToolError, OfABallOverACylinderIsTheSagittaOfItsCentresWay) {
+TEST(CutterError, OfABallOverACylinderIsTheSagittaOfItsCentresWay) {
     constexpr double R = 30.0; // the quarter of a circle as a rational quadratic, symmetric to the vertical
     geometry::ControlNet net = geometry::ControlNet::sized(2, 3);
     const double s = std::sqrt(0.5);
@@ -56,7 +55,7 @@ TEST(ToolError, OfABallOverACylinderIsTheSagittaOfItsCentresWay) {
 
 /// Of a ball by the closest surface point of its centre, at every moment that is looked at. Where the centre
 /// itself is in the part, the shank cuts too.
-TEST(ToolError, OfABallIsThatOfItsCentre) {
+TEST(CutterError, OfABallIsThatOfItsCentre) {
     const auto patch = test::patch("dome");
     const auto machine = test::machine("ac-table");
     const geometry::ClosestPointSearch search(patch);
@@ -87,7 +86,7 @@ TEST(ToolError, OfABallIsThatOfItsCentre) {
 }
 
 /// The axis is compared with the one that was asked for, not with the normal.
-TEST(ToolError, AToolThatLeansAsItShouldHasNoDeviationAtItsNodes) {
+TEST(CutterError, AToolThatLeansAsItShouldHasNoDeviationAtItsNodes) {
     const auto patch = test::patch("dome");
     const auto machine = test::machine("ac-table");
     const Tool tool{.cutter = test::body(test::bull_nose), .lean = ten_degrees};

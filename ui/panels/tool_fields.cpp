@@ -1,0 +1,118 @@
+#include "ui/panels/tool_fields.h"
+
+#include "core/base/text.h"
+#include "core/project/cut_study.h"
+#include "core/project/tool_settings.h"
+#include "core/toolpath/shortest_sequence.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::Project;
+using toolpath::CutterKind;
+
+bool is_asked_for(const project::ToolInput& tool, std::string_view id) {
+    const bool of_no_holder = id == "holder_length_mm" && !(tool.holder_diameter_mm > 0.0);
+    return project::has_number(tool.cutter, id) && !of_no_holder;
+}
+
+void bites_text(Ui& ui, const project::CutStudy& cut) {
+    std::ptrdiff_t of_holder = 0;
+    for (const project::BlockBite& bite : cut.bites) {
+        of_holder += bite.by_holder ? 1 : 0;
+    }
+    const std::ptrdiff_t of_cutter = std::ssize(cut.bites) - of_holder;
+    ui.value("deepest", "Deepest cut", length_text(cut.deepest), "mm");
+    ui.value("bites", "Too deep", fmt::format("{} blocks", of_cutter));
+    ui.value("holder_bites", "Holder in the part", fmt::format("{} blocks", of_holder));
+    ui.value("local", "Does not fit", fmt::format("{} nodes", cut.local_gouges.size()));
+    if (!cut.bites.empty() || !cut.local_gouges.empty()) {
+        (void)widgets::banner(
+            ui, "gouges", {widgets::Severity::warning, "This tool gouges the part on this path.", {}});
+    }
+}
+
+} // namespace
+
+void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("tool", "Tool");
+    if (!section) {
+        return;
+    }
+    const project::ToolInput& tool = now.project.tool;
+    choice_field<CutterKind>(ui,
+                             ask,
+                             "cutter",
+                             "Cutter",
+                             "Choose the cutter",
+                             project::cutter_kinds(),
+                             tool.cutter,
+                             [](Project& p, CutterKind kind) { p.tool.cutter = kind; });
+    for (const auto& setting : project::tool_numbers()) {
+        if (is_asked_for(tool, setting.id)) {
+            number_fields<project::ToolInput>(
+                ui, ask, {&setting, 1}, tool, [](Project& p) -> project::ToolInput& { return p.tool; });
+        }
+    }
+}
+
+void cut_fields(Ui& ui, const Workbench& now) {
+    if (now.project.tool.cutter == CutterKind::point) {
+        return;
+    }
+    const auto section = ui.section("cut", "What the tool leaves");
+    if (!section) {
+        return;
+    }
+    if (!now.plan || !now.plan->plan.cut) {
+        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        return;
+    }
+    const project::CutStudy& cut = *now.plan->plan.cut;
+    ui.value("scallop_max", "Highest left", length_text(cut.scallops.max), "mm");
+    ui.value("scallop_mean", "Mean left", length_text(cut.scallops.mean), "mm");
+    ui.value("not_cut", "Not cut", fixed(100.0 * cut.scallops.not_cut, 1), "%");
+    if (std::isfinite(cut.step_over)) {
+        ui.value("step_over", "Step-over", length_text(cut.step_over), "mm");
+    }
+    bites_text(ui, cut);
+}
+
+void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("sequencing", "Rotary axes along the path");
+    if (!section) {
+        return;
+    }
+    const project::SequencingInput& input = now.project.sequencing;
+    choice_field<toolpath::SequencingGoal>(
+        ui,
+        ask,
+        "goal",
+        "Sequencing",
+        "Choose the sequencing",
+        project::sequencing_goals(),
+        input.goal,
+        [](Project& p, toolpath::SequencingGoal goal) { p.sequencing.goal = goal; });
+    number_fields<project::SequencingInput>(
+        ui, ask, project::sequencing_numbers(), input, [](Project& p) -> project::SequencingInput& {
+            return p.sequencing;
+        });
+    const auto shown = now.shown();
+    if (shown && now.plan->plan.workpiece) {
+        const double step = toolpath::largest_rotary_step(
+            now.plan->plan.workpiece->machine, shown->toolpath, shown->axes, toolpath::MoveKind::track);
+        ui.value("points", "Points", fmt::format("{}", shown->toolpath.points.size()));
+        ui.value("travel", "Rotation", angle_text(shown->axes.rotary_travel), "deg");
+        ui.value("step", "Now at most", angle_text(step), "deg");
+    }
+}
+
+} // namespace millwright::panels
