@@ -168,19 +168,6 @@ int first_parameter(std::string_view name) {
     return name == "G28" ? 5161 : name == "G30" ? 5181 : name == "G92" ? 5211 : 0;
 }
 
-/// A % at the begin and at the end of a program is left out when it is sent to Grbl.
-std::string without_percent_lines(std::string_view text) {
-    std::string kept(text);
-    for (std::size_t begin = 0; begin < kept.size();) {
-        const std::size_t end = std::min(kept.find('\n', begin), kept.size());
-        if (kept[begin] == '%') {
-            kept.replace(begin, end - begin, end - begin, ' ');
-        }
-        begin = end + 1;
-    }
-    return kept;
-}
-
 } // namespace
 
 Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
@@ -205,10 +192,7 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
         }
     }
     Surveyor surveyor(found, reading.start);
-    const std::string sent =
-        settings.dialect == gcode::Dialect::grbl ? without_percent_lines(text) : std::string();
-    gcode::Interpreter reader(
-        sent.empty() ? text : std::string_view(sent), file, std::move(reading), surveyor);
+    gcode::Interpreter reader(text, file, std::move(reading), surveyor);
     reader.run();
     found.errors = reader.errors();
     return found;

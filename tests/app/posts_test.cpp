@@ -13,6 +13,7 @@ namespace millwright::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -60,6 +61,27 @@ TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("N40 G3 X-10.000 Y0.000 I-10.000 J0.000 F"));
     EXPECT_THAT(ended.err, HasSubstr("1 arcs\n"));
+}
+
+/// Somebody else's first move may be a feed, and the machine may have no table to turn.
+TEST_F(Posts, ConvertWritesTipsOfProgramsThatBeginWithAFeedForMachinesWithoutRotaryAxes) {
+    write_content(part, "G21 F100\nM3 S100\nG1 X1\nM2\n");
+    for (const char* machine : {"router-xyz", "forming-table"}) {
+        for (const char* post : {"heidenhain", "fanuc-tcp", "linuxcnc-tcp"}) {
+            const Ended ended = convert(machine, post);
+            EXPECT_EQ(ended.exit_code, 0) << machine << " " << post << ": " << ended.err;
+            EXPECT_THAT(ended.out, ContainsRegex("X[+]?1\\.000")) << machine << " " << post;
+        }
+    }
+}
+
+TEST_F(Posts, ConvertReadsFeedsOfGrblInTheUnitOfTheirOwnLine) {
+    write_content(part, "G20\nG0 X0.5\nG21 G1 X50 F1000\n");
+    const Ended millimetres = convert("router-xyz", "grbl", {"--dialect", "grbl"});
+    EXPECT_EQ(millimetres.exit_code, 0) << millimetres.err;
+    EXPECT_THAT(millimetres.out, HasSubstr("F1000.0"));
+    write_content(part, "G20 G1 X3 F100\nG0 X0\nM2\n");
+    EXPECT_THAT(convert("router-xyz", "grbl", {"--dialect", "grbl"}).out, HasSubstr("F2540.0"));
 }
 
 TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise) {

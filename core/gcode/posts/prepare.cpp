@@ -196,6 +196,7 @@ private:
         entry.role = block.role;
         entry.source_line = block.source_line;
         entry.path = block.path;
+        entry.target = here();
         if (!machine_.rotary_axes().empty()) {
             if (!retracted_) {
                 retract(entry);

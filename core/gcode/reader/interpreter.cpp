@@ -40,6 +40,11 @@ bool is_percent(std::string_view line) {
     return cursor.take('%') && cursor.at_end();
 }
 
+/// Left out when a program is sent to Grbl, wherever it stands.
+bool is_grbl_percent(std::string_view line) {
+    return is_percent(line.substr(0, line.find_first_of("(;")));
+}
+
 bool says_the_end(std::string_view line) {
     constexpr double m2 = 2.0;
     constexpr double m30 = 30.0;
@@ -218,6 +223,9 @@ void Interpreter::Parts::execute(std::string_view text) {
     }
     Cursor cursor(text);
     if (cursor.at_end()) {
+        return;
+    }
+    if (is_grbl() && is_grbl_percent(text)) {
         return;
     }
     if (!is_grbl() && cursor.peek() == '%' && is_percent(text)) {

@@ -191,6 +191,24 @@ void apply_diameter_mode(const ModalState& s, Block& block) {
     }
 }
 
+/// Grbl reads F in the unit that its line sets, LinuxCNC in the one before.
+bool feed_waits_for_unit(const Run& run, const Block& block) {
+    return run.settings.dialect == Dialect::grbl && block.code(GGroup::units) != no_code;
+}
+
+void take_feed(Run& run, const Block& block) {
+    if (block.has('F') && run.state.feed_mode != FeedMode::inverse_time) {
+        set_feed_rate(run, block['F']);
+    }
+}
+
+void change_units(Run& run, const Block& block, int code) {
+    set_units(run, code);
+    if (feed_waits_for_unit(run, block)) {
+        take_feed(run, block);
+    }
+}
+
 struct Step {
     GGroup group;
     void (*execute)(Run& run, const Block& block, int code);
@@ -199,7 +217,7 @@ struct Step {
 // In LinuxCNC's order.
 constexpr std::array<Step, 11> steps{{
     {GGroup::plane, set_plane},
-    {GGroup::units, [](Run& run, const Block&, int code) { set_units(run, code); }},
+    {GGroup::units, change_units},
     {GGroup::lathe_diameter, [](Run& run, const Block&, int code) { set_diameter_mode(run, code); }},
     {GGroup::cutter_compensation, set_compensation},
     {GGroup::tool_length, set_tool_length},
@@ -254,8 +272,8 @@ void execute_settings(Run& run, const Block& block) {
     if (const int code = block.code(GGroup::feed_mode); code != no_code) {
         set_feed_mode(run, code);
     }
-    if (block.has('F') && run.state.feed_mode != FeedMode::inverse_time) {
-        set_feed_rate(run, block['F']);
+    if (!feed_waits_for_unit(run, block)) {
+        take_feed(run, block);
     }
     if (block.has('S')) {
         set_spindle_speed(run, block['S']);
@@ -273,7 +291,7 @@ void execute_line(Run& run, ParsedLine& line) {
         apply_grbl_rules(block, run.state);
     }
     refuse_codes_of_others(run, block);
-    apply_word_rules(block, run.state);
+    apply_word_rules(block, run.state, run.settings.dialect);
     if (!line.assignments.empty()) {
         set_parameters(run, line.assignments);
     }

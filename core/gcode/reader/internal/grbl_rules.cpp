@@ -20,6 +20,7 @@ constexpr std::array g_codes{0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 2
                              300, 301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560,
                              570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
 constexpr std::array m_codes{0, 1, 2, 3, 4, 5, 7, 8, 9, 30};
+constexpr int dynamic_length = 431;
 constexpr std::uint32_t letters = words_of("FGIJKLMNPRSTXYZ");
 
 /// Of a code that it does not know. One with a fraction it takes for the code before the point first.
@@ -65,11 +66,35 @@ void check_letters(const Block& block) {
 }
 
 void check_tool_length(const Block& block) {
-    constexpr int dynamic = 431;
+    const int code = block.code(GGroup::tool_length);
+    if (code == no_code) {
+        return;
+    }
+    constexpr int g80 = 800;
+    const int column = block.column_of(GGroup::tool_length);
+    const int motion = block.code(GGroup::motion);
+    if (motion != no_code && motion != g80) {
+        refuse(column,
+               fmt::format("{} and {} both use axis words and cannot stand in one line of Grbl (error 24)",
+                           g_name(code),
+                           g_name(motion)));
+    }
+    if (code != dynamic_length && block.has_any(axis_words)) {
+        refuse(column, "Grbl does nothing with axis words beside G49");
+    }
     const bool only_z = block.has('Z') && !block.has_any(words_of("XYABCUVW"));
-    if (block.code(GGroup::tool_length) == dynamic && !only_z) {
-        refuse(block.column_of(GGroup::tool_length),
-               "G43.1 of Grbl needs Z and no other axis word (error 37)");
+    if (code == dynamic_length && !only_z) {
+        refuse(column, "G43.1 of Grbl needs Z and no other axis word (error 37)");
+    }
+}
+
+/// The target counts from the offset that the same line takes away.
+void check_g92(const Block& block) {
+    constexpr int g92_1 = 921;
+    if (block.code(GGroup::non_modal) == g92_1 && block.has_any(axis_words)) {
+        refuse(block.column_of(GGroup::non_modal),
+               "Grbl moves by the old G92 in a line with G92.1",
+               "write it in two lines");
     }
 }
 
@@ -77,12 +102,15 @@ bool is_arc(int motion) {
     return motion == 20 || motion == 30;
 }
 
-/// The motion of this line, if it is an arc: its own, or the one in force.
+/// Whether the motion of this line, its own or the one in force, is an arc.
 bool makes_arc(const Block& block, const ModalState& state) {
     const int motion = block.code(GGroup::motion);
-    return motion != no_code ? is_arc(motion)
-                             : is_arc(state.motion) && block.has_any(axis_words) &&
-                                   block.code(GGroup::non_modal) == no_code;
+    if (motion != no_code) {
+        return is_arc(motion);
+    }
+    const bool axes_are_taken =
+        block.code(GGroup::non_modal) != no_code || block.code(GGroup::tool_length) == dynamic_length;
+    return is_arc(state.motion) && block.has_any(axis_words) && !axes_are_taken;
 }
 
 struct PlaneWords {
@@ -176,6 +204,7 @@ void apply_grbl_rules(const Block& block, const ModalState& state) {
     check_letters(block);
     check_arc(block, state);
     check_tool_length(block);
+    check_g92(block);
     check_g10(block);
 }
 

@@ -164,7 +164,7 @@ void execute_coolant(Run& run, int code) {
 
 void set_feed_override(Run& run, bool on) {
     run.out.send(on ? CommandKind::enable_feed_override : CommandKind::disable_feed_override);
-    run.state.feed_override = on;
+    run.state.feed_override = run.feed_override_enabled = on;
 }
 
 void set_speed_override(Run& run, bool on) {

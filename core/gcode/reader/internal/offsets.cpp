@@ -55,7 +55,11 @@ AxisValues rotated(AxisValues values, double degrees) {
 }
 
 AxisValues relative_to_system(const AxisValues& machine, const ModalState& state) {
-    return in_system(machine - state.tool_offset, state.g5x_offset, state.rotation_deg, state.g92_offset);
+    AxisValues length = state.tool_offset;
+    for (const Axis rotary : {Axis::a, Axis::b, Axis::c}) {
+        length[rotary] = 0.0;
+    }
+    return in_system(machine - length, state.g5x_offset, state.rotation_deg, state.g92_offset);
 }
 
 void set_units(Run& run, int code) {

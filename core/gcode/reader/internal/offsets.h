@@ -8,7 +8,8 @@ namespace millwright::gcode::internal {
 /// Turns X and Y about the origin by `degrees`, counter-clockwise.
 [[nodiscard]] AxisValues rotated(AxisValues values, double degrees);
 
-/// Where the point `machine` (machine coordinates, program unit) is in the active coordinate system.
+/// Where the point `machine` (machine coordinates, program unit) is in the active coordinate system, for G53,
+/// G28 and G30. As in LinuxCNC, the tool offset along A, B and C is not taken off.
 [[nodiscard]] AxisValues relative_to_system(const AxisValues& machine, const ModalState& state);
 
 void set_units(Run& run, int code);                            ///< G20, G21

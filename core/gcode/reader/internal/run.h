@@ -22,6 +22,7 @@ struct NurbsBeingDefined {
 /// M70 and M73.
 struct SavedModes {
     ModalState state;
+    bool g92_active = false;
     bool restore_on_return = false;
 };
 
@@ -38,8 +39,9 @@ struct Run {
     ToolTable tools;
     Outbox out;
     NurbsBeingDefined nurbs;
-    bool after_spline = false;             ///< the last motion was G5
-    std::optional<SavedModes> saved;       ///< of the subroutine being executed
+    bool feed_override_enabled = true; ///< G76 enables it and says nothing of that to `state`, as in LinuxCNC
+    bool after_spline = false;         ///< the last motion was G5
+    std::optional<SavedModes> saved;   ///< of the subroutine being executed
     Vec2 compensated_begin = Vec2::Zero(); ///< where the waiting moves begin, in the plane
     bool compensated_begin_known = false;
     Vec2 flushed_to = Vec2::Zero(); ///< where the last compensated move that was sent ended, in the plane

@@ -5,6 +5,7 @@
 #include "core/gcode/reader/internal/codes.h"
 #include "core/gcode/reader/internal/execute.h"
 #include "core/gcode/reader/internal/refusal.h"
+#include "core/gcode/reader/internal/variables.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,16 @@ constexpr int path_code(PathMode mode) {
 
 constexpr int system_code(int system) {
     return system < 7 ? 530 + 10 * system : 584 + system;
+}
+
+/// As LinuxCNC remembers it: not which offset.
+constexpr int tool_length_code(const AxisValues& offset) {
+    for (std::size_t n = 0; n < axis_count; ++n) {
+        if (!exactly_equal(offset[n], 0.0)) {
+            return 430;
+        }
+    }
+    return 490;
 }
 
 constexpr int spindle_code(SpindleTurning turning) {
@@ -60,6 +71,7 @@ std::string g_words(const ModalState& now, const ModalState& saved) {
     difference.g([](const ModalState& s) { return s.incremental ? 910 : 900; });
     difference.g([](const ModalState& s) { return feed_mode_code(s.feed_mode); });
     difference.g([](const ModalState& s) { return system_code(s.coordinate_system); });
+    difference.g([](const ModalState& s) { return tool_length_code(s.tool_offset); });
     difference.g([](const ModalState& s) { return s.retract_to_r ? 990 : 980; });
     difference.g([](const ModalState& s) { return path_code(s.path_mode); });
     difference.g([](const ModalState& s) { return s.constant_surface_speed ? 960 : 970; });
@@ -120,27 +132,35 @@ std::vector<std::string> m_words(const ModalState& now, const ModalState& saved)
     return words;
 }
 
+bool g92_is_active(const Run& run) {
+    return run.variables.stored(parameter_g92_active) > 0.0;
+}
+
 } // namespace
 
 void execute_saved_modes(Run& run, const Block& block, int code) {
     if (code == 70 || code == 73) {
-        run.saved = SavedModes{run.state, code == 73};
+        run.saved = SavedModes{run.state, g92_is_active(run), code == 73};
     } else if (code == 71) {
         run.saved.reset();
     } else if (!run.saved) {
         refuse(block.column_of(MGroup::spindle), "M72 without an M70 or M73 before it");
     } else {
-        restore_modes(run, ModalState(run.saved->state));
+        restore_modes(run, SavedModes(*run.saved));
     }
 }
 
-void restore_modes(Run& run, const ModalState& saved) {
+void restore_modes(Run& run, const SavedModes& modes) {
+    const ModalState& saved = modes.state;
     if (run.state.unit != saved.unit) {
         execute_text(run, saved.unit == LengthUnit::mm ? "G21" : "G20");
     }
     const ModalState now = run.state;
     // LinuxCNC writes the first M-code into the line of the others, and a line to each further one.
     std::string line = number_words(now, saved) + g_words(now, saved);
+    if (g92_is_active(run) != modes.g92_active) {
+        line += modes.g92_active ? " G92.3" : " G92.2";
+    }
     for (const std::string& word : m_words(now, saved)) {
         execute_text(run, line + " " + word);
         line.clear();

@@ -9,6 +9,6 @@ namespace millwright::gcode::internal {
 void execute_saved_modes(Run& run, const Block& block, int code);
 
 /// Makes what was in force in `saved` be in force again, by the codes that do so.
-void restore_modes(Run& run, const ModalState& saved);
+void restore_modes(Run& run, const SavedModes& saved);
 
 } // namespace millwright::gcode::internal

@@ -127,7 +127,7 @@ void ControlFlow::pop_frame() {
     const std::optional<SavedModes> saved = std::exchange(run_.saved, std::move(frame.caller_saved));
     files_.go_to(frame.return_to);
     if (saved && saved->restore_on_return) {
-        restore_modes(run_, saved->state);
+        restore_modes(run_, *saved);
     }
 }
 

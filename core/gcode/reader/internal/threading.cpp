@@ -66,6 +66,7 @@ void cut_pass(const Thread& t, double depth) {
     t.run.out.send(CommandKind::stop_speed_feed_synch);
     t.go(MoveKind::traverse, outside, end_z);
     t.run.out.send(CommandKind::enable_feed_override);
+    t.run.feed_override_enabled = true;
 }
 
 void check_words(const Block& block) {

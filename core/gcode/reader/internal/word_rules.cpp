@@ -41,11 +41,13 @@ void expect_offset_axes(const Block& block, int non_modal) {
     }
 }
 
-void check_given_motion(const Block& block, int motion, int non_modal) {
+void check_given_motion(const Block& block, int motion, int non_modal, Dialect dialect) {
     const int column = block.column_of(GGroup::motion);
     constexpr int g80 = 800;
+    constexpr int g43_1 = 431;
     if (motion == g80) {
-        if (block.moves_axes() && !takes_axes(non_modal)) {
+        const bool of_length = dialect == Dialect::grbl && block.code(GGroup::tool_length) == g43_1;
+        if (block.moves_axes() && !takes_axes(non_modal) && !of_length) {
             refuse(column, "G80 takes no axis words");
         }
         expect_offset_axes(block, non_modal);
@@ -80,11 +82,11 @@ int modal_motion(const Block& block, const ModalState& state) {
     return centre_only ? state.motion : no_code;
 }
 
-void find_motion(Block& block, const ModalState& state) {
+void find_motion(Block& block, const ModalState& state, Dialect dialect) {
     const int given = block.code(GGroup::motion);
     const int non_modal = block.code(GGroup::non_modal);
     if (given != no_code) {
-        check_given_motion(block, given, non_modal);
+        check_given_motion(block, given, non_modal, dialect);
         block.motion = given;
     } else if (takes_axes(non_modal)) {
         expect_offset_axes(block, non_modal);
@@ -126,8 +128,16 @@ void check_g10(const Block& block) {
     }
 }
 
-void check_g53(const Block& block, const ModalState& state) {
+void check_g53(const Block& block, const ModalState& state, Dialect dialect) {
     const int column = block.column_of(GGroup::non_modal);
+    if (dialect == Dialect::grbl) {
+        const int given =
+            block.code(GGroup::motion); // G53 may stand alone there, and is absolute under G91 too
+        if (!one_of(given == no_code ? state.motion : given, {0, 10})) {
+            refuse(column, "G53 goes with G0 or G1 only (error 30)");
+        }
+        return;
+    }
     if (block.motion != 0 && block.motion != 10) {
         refuse(column, "G53 goes with G0 or G1 only");
     }
@@ -138,7 +148,7 @@ void check_g53(const Block& block, const ModalState& state) {
     }
 }
 
-void check_non_modal(const Block& block, const ModalState& state) {
+void check_non_modal(const Block& block, const ModalState& state, Dialect dialect) {
     const int column = block.column_of(GGroup::non_modal);
     switch (block.code(GGroup::non_modal)) {
     case 40:
@@ -158,7 +168,7 @@ void check_non_modal(const Block& block, const ModalState& state) {
         }
         break;
     case 530:
-        check_g53(block, state);
+        check_g53(block, state, dialect);
         break;
     default:
         break;
@@ -319,13 +329,13 @@ void check_motion_words(const Block& block) {
 
 } // namespace
 
-void apply_word_rules(Block& block, const ModalState& state) {
+void apply_word_rules(Block& block, const ModalState& state, Dialect dialect) {
     if (block.polar()) {
         check_polar(block, state);
     }
-    find_motion(block, state);
+    find_motion(block, state, dialect);
     if (block.code(GGroup::non_modal) != no_code) {
-        check_non_modal(block, state);
+        check_non_modal(block, state, dialect);
     }
     if (block.has_any(optional_words)) {
         check_uses(block);

@@ -1,6 +1,7 @@
 // What must and must not stand together in one line, and which motion the line makes.
 #pragma once
 
+#include "core/gcode/reader/dialect.h"
 #include "core/gcode/reader/internal/block.h"
 #include "core/gcode/reader/modal_state.h"
 
@@ -8,6 +9,6 @@ namespace millwright::gcode::internal {
 
 /// Finds the line's motion (Block::motion) and checks its words against its codes, as LinuxCNC does before it
 /// executes anything. Throws Refusal.
-void apply_word_rules(Block& block, const ModalState& state);
+void apply_word_rules(Block& block, const ModalState& state, Dialect dialect);
 
 } // namespace millwright::gcode::internal

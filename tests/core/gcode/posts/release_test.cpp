@@ -9,6 +9,7 @@
 #include "core/gcode/writer.h"
 #include "tests/support/programs.h"
 #include "tests/support/random_paths.h"
+#include "tests/support/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -121,6 +122,46 @@ TEST(Release, ReadsEveryRandomProgramBack) {
             EXPECT_NO_THROW((void)release(program, machine, format, {.text = {.line_numbers = n % 2 == 0}}))
                 << post;
         }
+    }
+}
+
+/// Programs of other people begin as they like. What a control or a machine cannot do is refused in words.
+TEST(Release, WritesOrRefusesEverySampleForEveryControlOnMachinesWithAndWithoutRotaryAxes) {
+    for (const char* name : {"router-xyz", "ac-table"}) {
+        const auto machine = test::machine(name);
+        int written = 0;
+        for (const test::SampleProgram& sample : test::sample_programs(machine)) {
+            for (const char* post : posts) {
+                SCOPED_TRACE(sample.name + " for " + post + " on " + name);
+                try {
+                    const PostFormat format = post_named(post);
+                    const ReleasedText text = release(sample.program, machine, format);
+                    EXPECT_EQ(text.program.start.size(), machine.axis_count());
+                    for (const Block& block : text.program.blocks) {
+                        EXPECT_TRUE(block.target.size() == machine.axis_count() && block.target.allFinite());
+                    }
+                    ++written;
+                } catch (const Error& error) {
+                    EXPECT_STRNE(error.what(), "");
+                }
+            }
+        }
+        EXPECT_GE(written, 100) << name;
+    }
+}
+
+/// Where the tip is before the first feed, the program has to say; there may be no table to turn.
+TEST(Release, WritesAFirstFeedForTheTipOfAMachineWithoutRotaryAxes) {
+    const auto machine = test::machine("router-xyz");
+    Program program = test::empty_program(machine);
+    test::add_move(program, kinematics::AxisPositions(Vec3(1.0, 0.0, 0.0)), 0.6);
+    test::add_block(program, BlockKind::end);
+    for (const char* post : {"fanuc-tcp", "heidenhain", "linuxcnc-tcp"}) {
+        const ReleasedText text = release(program, machine, post_named(post));
+        ASSERT_EQ(text.program.block_count(), 3) << post;
+        EXPECT_EQ(text.program.blocks[0].kind, BlockKind::rapid) << post;
+        EXPECT_EQ(text.program.blocks[0].target, program.start) << post;
+        EXPECT_EQ(text.program.blocks[1].target, program.blocks[0].target) << post;
     }
 }
 

@@ -71,6 +71,14 @@ TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
     EXPECT_EQ(arc("G19 G3 Y2 J1\nY4 K0 J1"), "");
 }
 
+TEST(Grbl, RefusesAToolLengthOrTheEndOfG92BesideAMotion) {
+    EXPECT_THAT(refusal("G43.1 G1 Z1 F100"), HasSubstr("G43.1 and G1 both use axis words"));
+    EXPECT_THAT(refusal("G49 G0"), HasSubstr("(error 24)"));
+    EXPECT_THAT(refusal("G49 X1"), HasSubstr("Grbl does nothing with axis words beside G49"));
+    EXPECT_THAT(refusal("G92 X1\nG92.1 G0 X1"), HasSubstr("Grbl moves by the old G92"));
+    EXPECT_EQ(refusal("G43.1 G80 Z1\nG49 G80\nG92.1 G80"), "");
+}
+
 TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
     EXPECT_THAT(refusal("G10 L2 P1"), HasSubstr("(error 26)"));
     EXPECT_THAT(refusal("G10 X1"), HasSubstr("(error 28)"));
@@ -79,6 +87,41 @@ TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
     EXPECT_THAT(refusal("G10 L3 P1 X1"), HasSubstr("(error 20)"));
     EXPECT_THAT(refusal("G10 L2 P1 X1 R5"), HasSubstr("(error 20)"));
     EXPECT_THAT(refusal("G10 L20 P1 X1 R5"), HasSubstr("(error 36)"));
+}
+
+/// LinuxCNC reads F before the unit changes.
+TEST(Grbl, TakesAFeedInTheUnitOfItsOwnLine) {
+    const std::string text = "G20 G0 X.5\nG21 G1 X50 F1000\n";
+    const auto program = read_grbl(text);
+    EXPECT_EQ(program.lines_of("SET_FEED_RATE"), std::vector<std::string>{"SET_FEED_RATE(1000.0000)"});
+    EXPECT_EQ(program.state.feed_rate, 1000.0);
+    EXPECT_EQ(program.lines_of("USE_LENGTH_UNITS").size(), 3U); // at the start and of each line
+    EXPECT_EQ(test::read_all(text).state.feed_rate, 25400.0);
+    EXPECT_EQ(read_grbl("G21 F2540\nG20").state.feed_rate, 100.0);
+}
+
+TEST(Grbl, TakesG53AsAbsoluteInIncrementalMode) {
+    const auto program = read_grbl("G92 X-1\nG91\nG0 X5 Z-5\nG53 G0 Z-1\n");
+    ASSERT_EQ(program.errors.size(), 0U);
+    EXPECT_EQ(program.moves.back().target[Axis::x], 4.0);
+    EXPECT_EQ(program.moves.back().target[Axis::z], -1.0);
+    EXPECT_THAT(test::error_of("G91 G53 G0 Z-1"), HasSubstr("G53 cannot be used in incremental mode"));
+}
+
+TEST(Grbl, LeavesTheAxisWordOfAToolLengthToIt) {
+    const auto program = read_grbl("G1 F100 X0\nG2 X20 Y0 R15\nG43.1 Z3\n");
+    ASSERT_EQ(program.errors.size(), 0U);
+    EXPECT_EQ(program.moves.size(), 2U);
+    EXPECT_EQ(program.state.tool_offset[Axis::z], 3.0);
+}
+
+/// They are not sent.
+TEST(Grbl, ReadsOverPercentSigns) {
+    EXPECT_EQ(read_grbl("%\nG0 X1\n% (again)\nG0 X2\n %\n").moves.size(), 2U);
+    EXPECT_EQ(refusal("%\nG0 X1\n%\n"), "");
+    EXPECT_THAT(refusal("G0 X1 %"), HasSubstr("'%' in a program (error 1)"));
+    EXPECT_THAT(refusal("%O1000"), HasSubstr("'%' in a program (error 1)"));
+    EXPECT_THAT(refusal("%\n%\n"), HasSubstr("there is nothing in the program"));
 }
 
 TEST(Grbl, CountsTheCharactersThatItKeeps) {

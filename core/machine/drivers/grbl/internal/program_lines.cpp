@@ -47,7 +47,7 @@ std::string bare_text(std::string_view line, Place place) {
             fail(place, "this is no character of a program", "is it a text file?");
         }
     }
-    return text.starts_with('%') ? std::string() : text;
+    return text == "%" ? std::string() : text;
 }
 
 std::string without_line_number(std::string_view text) {

@@ -211,8 +211,8 @@ private:
             }
             use(axis_letters.substr(n, 1));
             const double way = *word * unit();
-            const double absolute = words_.non_modal == 530 ? way : way + offset[n];
-            target_[n] = modes().absolute ? absolute : target_[n] + way;
+            const bool in_machine = words_.non_modal == 530; // in incremental mode too
+            target_[n] = in_machine ? way : way + (modes().absolute ? offset[n] : target_[n]);
         }
         return fine;
     }

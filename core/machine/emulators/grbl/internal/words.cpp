@@ -141,9 +141,8 @@ private:
         case 921:
             return set(words().non_modal, code);
         case 431:
+        case 490: // which makes nothing of them
             return set_with_axes(words().tool_length, code, AxisUse::tool_length);
-        case 490:
-            return set(words().tool_length, code);
         default:
             return read_mode(code);
         }

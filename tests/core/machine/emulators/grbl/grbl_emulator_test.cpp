@@ -65,6 +65,14 @@ TEST_F(Grbl, MovesWhereItIsToldAndRemembersIt) {
     EXPECT_NEAR(truth.travelled, std::hypot(10.0, 5.0), 1e-6);
 }
 
+TEST_F(Grbl, TakesG53ForAMachinePositionInIncrementalModeToo) {
+    for (const char* line : {"G0 X5 Z-5", "G92 X0", "G91 X2", "G53 G0 X1 Z-1"}) {
+        EXPECT_EQ(answer(grbl, line), "ok\r\n") << line;
+    }
+    run_until_rest(grbl);
+    EXPECT_EQ(grbl.position(), (std::array{1.0, 0.0, -1.0}));
+}
+
 TEST_F(Grbl, TakesTheTimeThatItsAccelerationsAllow) {
     (void)answer(grbl, "G1 X50 F1200");
     const double begin = grbl.time();
@@ -120,6 +128,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                                          Wrong{"G1.05", 23},
                                          Wrong{"M3.1", 23},
                                          Wrong{"G0G10X1", 24},
+                                         Wrong{"G0G49X1", 24},
                                          Wrong{"X1X2", 25},
                                          Wrong{"G92", 26},
                                          Wrong{"N10000000", 27},
