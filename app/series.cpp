@@ -1,6 +1,7 @@
 #include "app/series.h"
 
 #include "app/finite_number.h"
+#include "app/given_options.h"
 #include "app/held_story.h"
 #include "app/question.h"
 #include "core/base/error.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -51,7 +53,7 @@ public:
             queue_->remove_done();
             std::vector<machine::Job> jobs; // all, before the first is in the queue
             for (const std::string& file : choice_.files) {
-                jobs.push_back(steps_.make(file, jobs.empty() ? choice_.from_line : 1));
+                jobs.push_back(made(file, jobs.empty() ? choice_.from_line : 1));
             }
             for (machine::Job& job : jobs) {
                 (void)queue_->add(std::move(job));
@@ -97,6 +99,11 @@ private:
     bool on_disk_ = false;
     std::unique_ptr<JobQueue> queue_;
 
+    [[nodiscard]] machine::Job made(const std::string& file, int from_line) const {
+        machine::Job job = steps_.make(file, from_line);
+        job.options = choice_.options;
+        return job;
+    }
     [[nodiscard]] std::vector<QueuedJob> left() const {
         std::vector<QueuedJob> jobs = queue_->jobs();
         std::erase_if(jobs, [](const QueuedJob& job) { return job.state == QueueState::done; });
@@ -134,7 +141,7 @@ private:
     /// A program that cannot be had again as it was queued holds all others, unless a person leaves it out.
     void load_or_leave_out(const QueuedJob& job) {
         try {
-            queue_->load(job.id, steps_.make(job.project, job.from_line));
+            queue_->load(job.id, made(job.project, job.from_line));
         } catch (const Error& error) {
             if (choice_.confirmed ||
                 question(fmt::format("{} cannot go on: {}\ns: leave it out, anything else: not now > ",
@@ -240,6 +247,19 @@ void add_series_options(CLI::App& command, SeriesChoice& choice, const std::stri
             throw CLI::ValidationError("--continue", "goes on with what is left, and takes no files");
         }
     });
+}
+
+std::string options_to_go_on(const CLI::App& command) {
+    constexpr std::array<std::string_view, 9> said_otherwise{"--driver",
+                                                             "--port",
+                                                             "--log",
+                                                             "--from-line",
+                                                             "--continue",
+                                                             "--yes",
+                                                             "--clearance",
+                                                             "--at",
+                                                             "--trust-position"};
+    return given_options(command, said_otherwise);
 }
 
 void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {

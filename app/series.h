@@ -21,6 +21,7 @@ namespace millwright::app {
 struct SeriesChoice {
     std::vector<std::string> files;
     std::string log = project::job_logs_place().string();
+    std::string options;    ///< the others of the command, for the logs
     int from_line = 1;      ///< of the first file
     bool go_on = false;     ///< with what is left of an earlier command
     bool confirmed = false; ///< nobody is asked
@@ -28,6 +29,9 @@ struct SeriesChoice {
 
 /// Adds them to `command`; `files` tells what FILE is. `choice` must outlive the command line.
 void add_series_options(CLI::App& command, SeriesChoice& choice, const std::string& files);
+
+/// What of a command's options says how to go on with its job: those that no log, line or place says.
+[[nodiscard]] std::string options_to_go_on(const CLI::App& command);
 
 /// --clearance, of RunFromSettings.
 void add_clearance_option(CLI::App& command, std::optional<double>& clearance);

@@ -2,8 +2,10 @@
 
 #include "app/emulation.h"
 #include "app/record_choice.h"
+#include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/table/table_emulator.h"
+#include "core/machine/links/faults.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
@@ -38,6 +40,10 @@ int emulate_table(const TableChoice& choice) {
     const kinematics::MachineModel model = kinematics::read_machine(
         project::machine_path(choice.machine, std::filesystem::current_path(), project::assets_folder()));
     const machine::RecordFormat format = record_of(choice.record).value();
+    if (machine::read_fault_spec(choice.wire.faults).lost_ok > 0.0 && format.answer != "ok") {
+        throw Error(
+            "the fault lost-ok loses an answer 'ok', which this table does not give", {}, "give --answer ok");
+    }
     return serve(
         choice.wire,
         model.name(),

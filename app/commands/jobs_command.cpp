@@ -1,5 +1,6 @@
 #include "app/commands/jobs_command.h"
 
+#include "app/given_options.h"
 #include "core/base/error.h"
 #include "core/machine/way_on.h"
 #include "core/project/recent_files.h"
@@ -17,6 +18,8 @@ namespace millwright::app {
 
 namespace {
 
+using machine::LogStart;
+
 struct Options {
     std::string folder = project::job_logs_place().string();
     bool json = false;
@@ -32,6 +35,7 @@ nlohmann::ordered_json as_json(const machine::JobStory& story) {
             {"program", story.start.project},
             {"driver", story.start.driver},
             {"port", story.start.address},
+            {"options", story.start.options},
             {"started_at", story.start.started_at},
             {"end", state_of(story)},
             {"blocks", story.start.blocks},
@@ -45,17 +49,25 @@ nlohmann::ordered_json as_json(const machine::JobStory& story) {
 void say_how_it_goes_on(const machine::JobStory& story) {
     const machine::WayOn way = machine::way_on(story);
     const bool from_line = way.why_the_beginning.empty();
+    const LogStart& start = story.start;
+    const bool from_here = from_line && (start.driver == "stream" || start.driver == "records");
     fmt::print("    Look at the machine and the part. {}\n"
-               "    millwright {} {} --driver {}{}{}\n",
+               "    millwright {} {} --driver {}{}{}{}{}\n",
                from_line ? "To go on before the first line that is not certain:"
                          : fmt::format("It runs again from its beginning alone: {}.", way.why_the_beginning),
-               story.start.project.ends_with(".json") ? "run" : "send",
-               story.start.project,
-               story.start.driver,
-               story.start.address.empty() ? " ..." : " --port " + story.start.address,
+               start.project.ends_with(".json") ? "run" : "send",
+               shell_word(start.project),
+               start.driver,
+               start.address.empty() ? (start.driver == "virtual" ? "" : " ...")
+                                     : " --port " + shell_word(start.address),
+               start.options.empty() ? "" : " " + start.options,
                from_line
                    ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
-                   : std::string());
+                   : std::string(),
+               from_here ? " --at X,Y,Z" : "");
+    if (from_here) {
+        fmt::print("    with the place of X, Y and Z where the table stands: it does not tell it.\n");
+    }
     if (from_line && !story.position_doubt.empty()) {
         fmt::print(
             "    --trust-position belongs to it if you have brought the machine to where its controller "

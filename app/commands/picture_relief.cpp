@@ -47,6 +47,7 @@ plot::ReliefPlan plan_of(const Options& options, const plot::ToolTip& tip) {
     plan.relief.plunging = from_mm_per_min(options.cutting.plunge_mm_per_min);
     plan.relief.safe_height = options.cutting.safe_height;
     plan.plate = options.frame;
+    plan.through = options.cutting.preview.through;
     plan.frame_margin = options.frame_margin;
     plan.tabs = options.tabs;
     return plan;

@@ -108,7 +108,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
         ->check(CLI::Range(1.0, 1e11))
         ->capture_default_str();
     add_post_options(command, options->post);
-    command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+    command.callback([&chosen, &command, options] {
+        options->series.options = options_to_go_on(command);
+        chosen = [options] { return run(*options); };
+    });
 }
 
 } // namespace millwright::app

@@ -8,6 +8,7 @@
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/pmac/motion_program.h"
+#include "core/machine/feed_check.h"
 #include "core/machine/file_job.h"
 #include "core/machine/run_from_line.h"
 #include "core/project/assets.h"
@@ -47,6 +48,16 @@ void check_model(const Options& options) {
     }
     if (!moved && (!options.model.empty() || !options.at.empty())) {
         throw Error("a machine and where it stands are for the drivers virtual, stream and records");
+    }
+}
+
+/// Records and coordinates go straight from where the machine stands, and it does not tell where that is.
+void check_place(const Options& options) {
+    const std::string& driver = options.machine.driver;
+    if (options.series.from_line > 1 && options.at.empty() && (driver == "stream" || driver == "records")) {
+        throw Error("to begin at a line it has to be known where the machine stands, which it does not tell",
+                    {},
+                    "read X, Y and Z at the machine and give them with --at X,Y,Z");
     }
 }
 
@@ -133,6 +144,9 @@ int send_motion(const Options& options) {
         if (const auto faults = machine::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }
+        if (const auto slowed = machine::feeds_not_reached(job)) {
+            fmt::print(stderr, "millwright: {}\n", to_text(*slowed));
+        }
         if (options.machine.driver != "virtual") {
             say_what_is_by_hand(job);
         }
@@ -148,6 +162,7 @@ int send_motion(const Options& options) {
 int send(const Options& options) {
     check(options.machine);
     check_model(options);
+    check_place(options);
     return is_moved_from_here(options) ? send_motion(options) : send_text(options);
 }
 
@@ -176,7 +191,8 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->type_name("LETTERS")
         ->capture_default_str();
     add_clearance_option(command, options->clearance);
-    command.callback([&chosen, options] {
+    command.callback([&chosen, &command, options] {
+        options->series.options = options_to_go_on(command);
         options->machine.controller.driver = options->machine.driver;
         chosen = [options] { return send(*options); };
     });

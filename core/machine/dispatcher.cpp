@@ -313,6 +313,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
                        .planned_time = trajectory ? trajectory->duration() : 0.0,
+                       .options = job.options,
                        .from_line = job.from_line});
     progress.check();
     Watch watch(*this, job, log, trajectory, before);

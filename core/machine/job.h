@@ -24,8 +24,9 @@ struct Job {
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const gcode::Listing> listing;
     motion::PlannerSettings planner;
-    int from_line = 1; ///< of the file; more than 1: the lines above are an approach (run_from_line.h)
-    std::string hash;  ///< program_hash() of the whole file; empty: of the listing
+    int from_line = 1;   ///< of the file; more than 1: the lines above are an approach (run_from_line.h)
+    std::string options; ///< of the command that asked for it, for its log; may be empty
+    std::string hash;    ///< program_hash() of the whole file; empty: of the listing
 
     [[nodiscard]] int block_count() const;
 };

@@ -83,7 +83,8 @@ LogStart start_from(const JsonValue& value) {
                        "blocks",
                        "planned_time_s",
                        "from_line",
-                       "address"});
+                       "address",
+                       "options"});
     if (value.at("record").text() != "start" || value.at("format").text() != format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -111,6 +112,9 @@ LogStart start_from(const JsonValue& value) {
     start.planned_time = value.at("planned_time_s").number(0.0);
     if (const auto address = value.find("address")) {
         start.address = address->text();
+    }
+    if (const auto options = value.find("options")) {
+        start.options = options->text();
     }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
@@ -252,6 +256,9 @@ void JobLog::write(const LogStart& start) {
               {"planned_time_s", rounded(start.planned_time)}};
     if (!start.address.empty()) {
         line["address"] = start.address;
+    }
+    if (!start.options.empty()) {
+        line["options"] = start.options;
     }
     if (start.from_line > 1) {
         line["from_line"] = start.from_line;

@@ -21,7 +21,8 @@ struct LogStart {
     std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
     int blocks = 0;
     double planned_time = 0.0;
-    int from_line = 1; ///< of the program's file; more than 1: it was not run from its beginning
+    std::string options; ///< Job::options
+    int from_line = 1;   ///< of the program's file; more than 1: it was not run from its beginning
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };

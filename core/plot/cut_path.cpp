@@ -14,7 +14,7 @@ namespace millwright::plot {
 namespace {
 
 void check(const CutSettings& settings) {
-    const auto refuse = [](const Level& level, const char* what) {
+    const auto refuse = [](const Level& level, const std::string& what) {
         throw Error(fmt::format("pen {}: {}", level.pen, what));
     };
     for (const Level& level : settings.levels) {
@@ -32,6 +32,10 @@ void check(const CutSettings& settings) {
         const bool sized = tabs.width > 0.0 && tabs.height > 0.0 && std::isfinite(tabs.width + tabs.height);
         if (tabs.count < 0 || !sized) {
             refuse(level, "tabs have to have a width and a height above 0 mm");
+        }
+        if (tabs.count > 0 && tabs.height > level.depth) {
+            refuse(level,
+                   fmt::format("tabs of {} mm stand above what is cut {} mm deep", tabs.height, level.depth));
         }
     }
     if (!(settings.safe_height > 0.0) || !std::isfinite(settings.safe_height)) {

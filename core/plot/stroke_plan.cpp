@@ -95,6 +95,24 @@ ShapedStrokes shaped(const Strokes& drawn, const StrokePlan& plan) {
     return result;
 }
 
+namespace {
+
+/// What links must not cross: the outlines, and where the middle of the tool has to keep off them.
+std::vector<Ring> link_bounds(const Strokes& drawn, const StrokePlan& plan) {
+    std::vector<Ring> rings = closed_outlines(drawn);
+    if (plan.side != CutterSide::on_line) {
+        const double radius = plan.tool_diameter / 2.0;
+        for (const auto& [pen, found] : by_pen(drawn)) {
+            const Region kept =
+                offset(found.closed, plan.side == CutterSide::inside ? -radius : radius, plan.corners);
+            rings.insert(rings.end(), kept.begin(), kept.end());
+        }
+    }
+    return rings;
+}
+
+} // namespace
+
 Strokes linked(const Strokes& shaped, const Strokes& drawn, const StrokePlan& plan) {
     if (!(plan.link > 0.0)) {
         return shaped;
@@ -102,7 +120,7 @@ Strokes linked(const Strokes& shaped, const Strokes& drawn, const StrokePlan& pl
     LinkSettings settings;
     settings.distance = plan.link;
     if (plan.link_inside) {
-        settings.outlines = closed_outlines(drawn);
+        settings.outlines = link_bounds(drawn, plan);
     }
     return link(shaped, settings).strokes;
 }

@@ -6,8 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <thread>
 
 namespace millwright::test {
@@ -61,6 +64,11 @@ send_words(const std::string& file, const std::string& port, const ScratchFolder
             (folder / "jobs").string()};
 }
 
+std::vector<std::string> words_of(const std::string& line) {
+    std::istringstream text(line);
+    return {std::istream_iterator<std::string>(text), std::istream_iterator<std::string>()};
+}
+
 // The sign of the thesis in small: the table refuses a record, the job ends there and says how far it got,
 // and goes on from the next line: no position is lost or gone to twice.
 TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
@@ -85,9 +93,17 @@ TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
     const Ended listed = run({"jobs", (folder / "jobs").string(), "--json"});
     EXPECT_THAT(listed.out, HasSubstr("\"next_line\": 13"));
 
+    // What is printed is a whole command but for where the table stands, without which nothing is sent.
+    const std::string told = run({"jobs", (folder / "jobs").string()}).out;
+    const auto from = told.find("    millwright send ") + 15;
+    auto words = words_of(told.substr(from, told.find('\n', from) - from));
+    words.insert(words.end(), {"--log", (folder / "jobs").string()});
     auto second = table({});
-    auto words = send_words(file.string(), port, folder);
-    words.insert(words.end(), {"--from-line", "13", "--at", "10,0,5"});
+    std::vector<std::string> nowhere = words;
+    std::erase(nowhere, "--at");
+    std::erase(nowhere, "X,Y,Z");
+    EXPECT_THAT(run(nowhere).err, HasSubstr("give them with --at X,Y,Z"));
+    std::ranges::replace(words, "X,Y,Z", "10,0,5");
     const Ended resumed = run(words);
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     // Ten positions are left; the approach stands there already.

@@ -98,7 +98,8 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
     if (found == 0) {
         ui.note(opened.motion && opened.machine
-                    ? fmt::format("Checked: axes, limits and feeds are within those of {}.",
+                    ? fmt::format("Checked: axes and travel are within those of {}. Feeds beyond its "
+                                  "axes are slowed.",
                                   opened.machine->name())
                     : "Checked: the program can be read.");
         return;

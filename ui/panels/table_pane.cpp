@@ -263,10 +263,13 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         action_button(ui, now, ask, catalogue_, "plot.play_table", widgets::Rank::primary, "Play");
         action_button(ui, now, ask, catalogue_, "plot.stop_table", widgets::Rank::danger, "Stop");
     }
+    const actions::TableView table = now.plot.table().view();
+    if (table.there && !table.status.sentence.empty()) {
+        ui.words(table.status.sentence, widgets::Tone::danger);
+    }
     const Rect all = ui.rest();
     const float gap = ui.px(24.0F);
     const float part = (all.w - 2.0F * gap) / 3.0F;
-    const actions::TableView table = now.plot.table().view();
     {
         const auto width = ui.width(part);
         draw_choice(ui, now, ask);

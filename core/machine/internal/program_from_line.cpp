@@ -182,11 +182,25 @@ private:
 
     [[nodiscard]] double plunge_feed() const {
         double slowest = std::min(feed(), gcode::ProgramSettings{}.plunge_feed);
+        const AxisPositions* from = &job_.program->start;
         for (const Block& block : job_.program->blocks) {
-            const bool plunges = block.role == gcode::MoveRole::plunge && block.feed > 0.0;
+            const bool plunges =
+                block.feed > 0.0 && (block.role == gcode::MoveRole::plunge || goes_down(*from, block));
             slowest = plunges ? std::min(slowest, block.feed) : slowest;
+            from = block.target.size() > 0 ? &block.target : from;
         }
         return slowest;
+    }
+
+    /// Along the axis that pulls the tool off the part, alone: how files that are read plunge.
+    [[nodiscard]] bool goes_down(const AxisPositions& from, const Block& block) const {
+        if (block.kind != BlockKind::feed || block.target.size() != from.size()) {
+            return false;
+        }
+        AxisPositions way = block.target - from;
+        const bool down = retract_.sense * way[retract_.axis] < 0.0;
+        way[retract_.axis] = 0.0;
+        return down && !(way.cwiseAbs().maxCoeff() > 0.0);
     }
 };
 

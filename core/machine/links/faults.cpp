@@ -104,14 +104,28 @@ bool FaultyWire::disconnected() const {
     return on_ && spec_.disconnect && sent_ >= *spec_.disconnect;
 }
 
+namespace {
+
+/// How many bytes the acknowledgement takes with which `bytes` begin; 0: they do not.
+std::size_t ack_length(std::string_view bytes) {
+    for (const std::string_view ack : {"ok\r\n", "ok\n", "ok\r"}) {
+        if (bytes.starts_with(ack)) {
+            return ack.size();
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
 /// A lost acknowledgement leaves no trace at all, not even the end of its line.
 std::string FaultyWire::without_lost_acks(std::string_view bytes) {
-    constexpr std::string_view ack = "ok\r\n";
     std::string kept;
     while (!bytes.empty()) {
-        const bool lost =
-            bytes.starts_with(ack) && (kept.empty() || kept.back() == '\n') && happens(spec_.lost_ok);
-        const std::size_t count = lost ? ack.size() : 1;
+        const bool begins = kept.empty() || kept.back() == '\n' || kept.back() == '\r';
+        const std::size_t ack = begins ? ack_length(bytes) : 0;
+        const bool lost = ack > 0 && happens(spec_.lost_ok);
+        const std::size_t count = lost ? ack : 1;
         if (lost) {
             ++faults_;
         } else {

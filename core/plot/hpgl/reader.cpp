@@ -52,7 +52,11 @@ private:
             leave_out(*row, command.byte);
             return;
         }
-        if (!follow(*row, command) && row->moves) {
+        const bool followed = follow(*row, command);
+        if (row->places) {
+            run_.misplace(row->name, !followed);
+        }
+        if (!followed && (row->moves || row->places)) {
             lose();
         }
     }
@@ -81,13 +85,23 @@ private:
             numbers.arguments.remove_prefix(1); // the character, and the comma behind it
             numbers.arguments.remove_prefix(numbers.arguments.starts_with(',') ? 1 : 0);
         }
+        if (command.stray) {
+            problems_.add(*command.stray,
+                          fmt::format("{}: a letter in the middle of a number", command.name));
+            return false;
+        }
         const LineEnds ends = run_.settings.line_ends;
-        auto fault = read_numbers(numbers, ends == LineEnds::join, numbers_);
+        const auto most = 2 * static_cast<std::size_t>(run_.settings.most_points) + 2;
+        auto fault = read_numbers(numbers, ends == LineEnds::join, most, numbers_);
+        if (fault && numbers_.size() == most) {
+            throw Error(
+                problems_.at(fault->byte, "the plot has more points than are allowed", "it may be damaged"));
+        }
         const bool fits = !fault && row.count.allows(numbers_.size());
         const bool wrapped = numbers.arguments.find_first_of("\r\n") != std::string_view::npos;
         if (!fits && wrapped && ends == LineEnds::automatic) {
             std::vector<double> joined;
-            if (!read_numbers(numbers, true, joined) && row.count.allows(joined.size())) {
+            if (!read_numbers(numbers, true, most, joined) && row.count.allows(joined.size())) {
                 numbers_ = std::move(joined);
                 fault.reset();
             }

@@ -19,28 +19,54 @@ std::vector<double> lengths_of(const std::vector<Vec2>& points) {
     return lengths;
 }
 
-/// The speed through each point. A corner may change the velocity by what the acceleration does in a period;
-/// the short chords of an arc count as the arc that they stand for. With a limit of the jerk a real corner is
-/// stopped at.
+// Of the acceleration, where the way bends: across it and along it, together no more than the whole.
+constexpr double across_share = 0.6;
+constexpr double along_share = 0.8;
+constexpr double sharp =
+    0.35; ///< a turn of 20 degrees: across is no longer square to along, and it is stopped
+
+bool bends(double change) {
+    constexpr double straight = 1e-12;
+    return change > straight && change < sharp;
+}
+
+/// How fast the way may become faster.
+double along(const std::vector<Vec2>& points, const SpeedLimits& limits) {
+    for (std::size_t n = 1; n + 1 < points.size(); ++n) {
+        if (bends(turn(points[n - 1], points[n], points[n + 1]))) {
+            return along_share * limits.acceleration;
+        }
+    }
+    return limits.acceleration;
+}
+
+/// The speed through each point. A bend may change the velocity by what its share of the acceleration does in
+/// a period; the short chords of an arc count as the arc that they stand for. A corner is stopped at; with a
+/// limit of the jerk also a bend that is no arc.
 std::vector<double> corner_speeds(const std::vector<Vec2>& points,
                                   const std::vector<double>& lengths,
-                                  const SpeedLimits& limits) {
+                                  const SpeedLimits& limits,
+                                  double acceleration) {
     std::vector<double> speeds(points.size(), 0.0);
     for (std::size_t n = 1; n + 1 < points.size(); ++n) {
-        constexpr double straight = 1e-12;
-        const double change = std::max(turn(points[n - 1], points[n], points[n + 1]), straight);
-        const double at_once = limits.acceleration * limits.period / change;
-        const double as_arc = std::sqrt(limits.acceleration * std::min(lengths[n - 1], lengths[n]) / change);
+        const double change = turn(points[n - 1], points[n], points[n + 1]);
+        if (!bends(change)) {
+            speeds[n] = change < sharp ? limits.velocity : 0.0;
+            continue;
+        }
+        const double across = across_share * limits.acceleration;
+        const double at_once = across * limits.period / change;
+        const double as_arc = std::sqrt(across * std::min(lengths[n - 1], lengths[n]) / change);
         const bool corner = at_once <= as_arc && at_once < limits.velocity;
         speeds[n] = corner && limits.jerk ? 0.0 : std::min({limits.velocity, at_once, as_arc});
     }
     for (std::size_t n = 1; n < points.size(); ++n) {
-        speeds[n] = std::min(
-            speeds[n], std::sqrt(speeds[n - 1] * speeds[n - 1] + 2.0 * limits.acceleration * lengths[n - 1]));
+        speeds[n] = std::min(speeds[n],
+                             std::sqrt(speeds[n - 1] * speeds[n - 1] + 2.0 * acceleration * lengths[n - 1]));
     }
     for (std::size_t n = points.size() - 1; n > 0; --n) {
-        speeds[n - 1] = std::min(
-            speeds[n - 1], std::sqrt(speeds[n] * speeds[n] + 2.0 * limits.acceleration * lengths[n - 1]));
+        speeds[n - 1] =
+            std::min(speeds[n - 1], std::sqrt(speeds[n] * speeds[n] + 2.0 * acceleration * lengths[n - 1]));
     }
     return speeds;
 }
@@ -49,13 +75,14 @@ std::vector<double> corner_speeds(const std::vector<Vec2>& points,
 
 SpeedProfile::SpeedProfile(const std::vector<Vec2>& points, const SpeedLimits& limits) {
     const std::vector<double> lengths = lengths_of(points);
-    const std::vector<double> speeds = corner_speeds(points, lengths, limits);
+    const double acceleration = along(points, limits);
+    const std::vector<double> speeds = corner_speeds(points, lengths, limits, acceleration);
     // The acceleration may jump from one limit to the other: its mean over this time changes by the jerk
     // then.
-    window_ = limits.jerk ? 2.0 * limits.acceleration / *limits.jerk : 0.0;
+    window_ = limits.jerk ? 2.0 * acceleration / *limits.jerk : 0.0;
     phases_.push_back({});
     for (std::size_t n = 0; n < lengths.size(); ++n) {
-        add(lengths[n], speeds[n], speeds[n + 1], limits.velocity, limits.acceleration);
+        add(lengths[n], speeds[n], speeds[n + 1], limits.velocity, acceleration);
         const bool standing = n + 1 == lengths.size() || !(speeds[n + 1] > 0.0);
         if (standing && window_ > 0.0) {
             add_phase(0.0, window_); // until the mean has arrived too

@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,20 @@ CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     return cut_path({frame(field, relief.tip.diameter, plan.frame_margin)}, settings);
 }
 
+/// What is deeper than the plate is in the bed.
+void check_depth(const CutPath& path, double plate) {
+    double deepest = 0.0;
+    for (const CutPoint& point : path) {
+        deepest = std::max(deepest, -point.at.z());
+    }
+    constexpr double rounding = 1e-5; // of heights in single precision
+    if (deepest > plate + rounding) {
+        throw Error(fmt::format("the relief is {:.3f} mm deep and the plate {:.3f} mm thick", deepest, plate),
+                    {},
+                    "less depth or a thicker plate");
+    }
+}
+
 } // namespace
 
 double usual_step_over(const ToolTip& tip, double pitch) {
@@ -42,6 +58,9 @@ CutPath relief_path(const HeightField& field, const ReliefPlan& plan, const Prog
     settings.step_over = settings.step_over.value_or(usual_step_over(settings.tip, field.pitch));
     CutPath path = relief(field, settings, progress);
     if (plan.plate) {
+        if (!plan.through) {
+            check_depth(path, *plan.plate);
+        }
         const CutPath around = frame_path(field, plan);
         path.insert(path.end(), around.begin(), around.end());
     }

@@ -13,6 +13,7 @@ namespace millwright::plot {
 struct ReliefPlan {
     ReliefSettings relief = {};       ///< step_over not given: usual_step_over()
     std::optional<double> plate = {}; ///< the picture is cut out of a plate so thick; not given: it stays
+    bool through = false;             ///< the relief may be deeper than that plate
     double frame_margin = 1.0;
     Tabs tabs = {.count = 4}; ///< that hold the frame
 };

@@ -4,10 +4,13 @@
 #include "core/base/error.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/ordering.h"
+#include "core/plot/stroke_plan.h"
 #include "core/plot/work_time.h"
 #include "tests/core/plot/thesis_drawings.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace millwright::plot {
 namespace {
@@ -176,6 +179,59 @@ TEST(WorkTimes, AreThoseOfTheThesis) {
     EXPECT_EQ(minutes_and_seconds(16823.0), "4:40:23");
     EXPECT_EQ(time_for_people(3598.6), "59:59 min");
     EXPECT_EQ(time_for_people(3599.1), "1:00:00 h");
+}
+
+/// A star of seven points with a round hole.
+constexpr const char* holed_star = "IN;SP1;PU7575,6000;PD9153,7519,6982,7231,6779,9412,5650,7536,3818,8736,"
+                                   "4581,6683,2500,6000,4581,5317,3818,"
+                                   "3264,5650,4464,6779,2588,6982,4769,9153,4481,7575,6000;PU;PU6500,6000;"
+                                   "PD6476,6155,6405,6294,6294,6405,6155,"
+                                   "6476,6000,6500,5845,6476,5706,6405,5595,6294,5524,6155,5500,6000,5524,"
+                                   "5845,5595,5706,5706,5595,5845,5524,"
+                                   "6000,5500,6155,5524,6294,5595,6405,5706,6476,5845,6500,6000;PU;SP0;";
+
+double distance_to(const Vec2& a, const Vec2& b, const Vec2& p) {
+    const Vec2 way = b - a;
+    const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + t * way - p).norm();
+}
+
+/// The least distance of what is cut from what is drawn, sampled.
+double least_distance(const Strokes& cut, const Strokes& drawn) {
+    double least = 1e9;
+    for (const Stroke& stroke : cut) {
+        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
+            for (int k = 0; k <= 16; ++k) {
+                const Vec2 p = stroke.points[n - 1] + k / 16.0 * (stroke.points[n] - stroke.points[n - 1]);
+                for (const Stroke& outline : drawn) {
+                    for (std::size_t m = 1; m < outline.points.size(); ++m) {
+                        least = std::min(least, distance_to(outline.points[m - 1], outline.points[m], p));
+                    }
+                }
+            }
+        }
+    }
+    return least;
+}
+
+TEST(GapLinking, LinksOfACompensatedToolStayItsRadiusFromTheOutline) {
+    const Strokes drawn = strokes_of(holed_star);
+    for (const bool order : {false, true}) {
+        for (const double link : {3.0, 6.0}) {
+            SCOPED_TRACE(link);
+            StrokePlan plan;
+            plan.side = CutterSide::inside;
+            plan.hatch_pitch = 1.5;
+            plan.order = order;
+            plan.link = link;
+            const Strokes crossing = planned(drawn, plan, Progress()).strokes;
+            EXPECT_LT(least_distance(crossing, drawn), 1.4); // else this shows nothing
+            plan.link_inside = true;
+            const Strokes inside = planned(drawn, plan, Progress()).strokes;
+            EXPECT_LT(inside.size(), shaped(drawn, plan).strokes.size());
+            EXPECT_GT(least_distance(inside, drawn), 1.5 - 1e-5);
+        }
+    }
 }
 
 } // namespace

@@ -84,6 +84,25 @@ std::optional<Record> RecordText::read(std::string_view line) const {
     return line == behind_ ? std::optional(record) : std::nullopt;
 }
 
+void RecordText::expect_all_told(const gcode::Program& program, const kinematics::MachineModel& model) const {
+    std::vector<bool> silent(axes_, true);
+    for (const Field& field : fields_) {
+        if (field.axis >= 0) {
+            silent[static_cast<std::size_t>(field.axis)] = false;
+        }
+    }
+    for (const gcode::Block& block : program.blocks) {
+        for (int n = 0; n < model.axis_count(); ++n) {
+            const bool moves = block.target.size() > n && std::abs(block.target[n] - program.start[n]) > 0.0;
+            if (moves && silent[static_cast<std::size_t>(n)]) {
+                throw Error(fmt::format("the program moves {}, which no record tells", model.axis(n).letter),
+                            {},
+                            fmt::format("put {{{}}} into the record", model.axis(n).letter));
+            }
+        }
+    }
+}
+
 double RecordPath::unit_of(int decimals) {
     return std::pow(10.0, -decimals);
 }

@@ -3,6 +3,7 @@
 // times s.
 #pragma once
 
+#include "core/gcode/program.h"
 #include "core/kinematics/machine_model.h"
 
 #include <cstdint>
@@ -43,6 +44,8 @@ public:
     [[nodiscard]] std::string written(const Record& record) const;
     /// Nothing if the line is no such record.
     [[nodiscard]] std::optional<Record> read(std::string_view line) const;
+    /// Throws Error if `program` moves an axis of `model` that no record tells: it would stay where it is.
+    void expect_all_told(const gcode::Program& program, const kinematics::MachineModel& model) const;
 
 private:
     /// A value, and the text in front of it.

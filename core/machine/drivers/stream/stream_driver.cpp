@@ -248,6 +248,9 @@ template <class Act> auto StreamDriver::between_records(const Act& act) {
 }
 
 void StreamDriver::start(Work work) {
+    if (record_text_ && work.program) {
+        record_text_->expect_all_told(*work.program, *model_);
+    }
     between_records([&] { machine_.start(std::move(work)); });
 }
 

@@ -21,6 +21,9 @@ constexpr CommandRow moving(std::string_view name, Count count, Handler follow) 
 constexpr CommandRow setting(std::string_view name, Count count, Handler follow) {
     return {.name = name, .arguments = numbers, .count = count, .follow = follow};
 }
+constexpr CommandRow placing(std::string_view name, Count count, Handler follow) {
+    return {.name = name, .arguments = numbers, .count = count, .follow = follow, .places = true};
+}
 constexpr CommandRow
 written(std::string_view name, Arguments arguments, Count count, Handler follow, bool moves) {
     return {.name = name, .arguments = arguments, .count = count, .follow = follow, .moves = moves};
@@ -88,10 +91,10 @@ constexpr std::array rows = {
     left_out("GM", a_device),
     left_out("IM", a_device),
     setting("IN", {0, 1}, initialise),
-    setting("IP", {0, 4, 2}, input_points),
-    setting("IR", {0, 4, 2}, input_relative_points),
+    placing("IP", {0, 4, 2}, input_points),
+    placing("IR", {0, 4, 2}, input_relative_points),
     left_out("IV", a_font),
-    setting("IW", {0, 4, 4}, input_window),
+    placing("IW", {0, 4, 4}, input_window),
     left_out("KY", a_device),
     left_out("LA", a_line_end),
     written("LB", Arguments::label, {}, label, true),
@@ -134,13 +137,13 @@ constexpr std::array rows = {
     left_out("QL", a_device),
     moving("RA", {2, 2}, fill_rectangle_absolute),
     left_out("RF", a_colour),
-    setting("RO", {0, 1}, rotate),
+    placing("RO", {0, 1}, rotate),
     left_out("RP", a_page),
     moving("RR", {2, 2}, fill_rectangle_relative),
     moving("RT", {4, 5}, three_point_arc_relative),
     left_out("SA", a_font),
     left_out("SB", a_font),
-    setting("SC", {0, 7}, scale),
+    placing("SC", {0, 7}, scale),
     left_out("SD", a_font),
     setting("SI", {0, 2, 2}, character_size),
     setting("SL", {0, 1}, character_slant),

@@ -26,8 +26,9 @@ struct CommandRow {
     std::string_view name;
     Arguments arguments = Arguments::numbers;
     Count count;
-    Handler follow = nullptr;  ///< none: it is left out
-    bool moves = false;        ///< the pen: where this is wrong, nobody knows where it would be
+    Handler follow = nullptr; ///< none: it is left out
+    bool moves = false;       ///< the pen: where this is wrong, nobody knows where it would be
+    bool places = false; ///< where coordinates lie: where this is wrong, none are known until it is put right
     std::string_view why = {}; ///< it is left out
 };
 

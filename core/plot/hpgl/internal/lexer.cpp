@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -60,7 +61,7 @@ std::optional<Command> Lexer::next() {
         const char c = look();
         if (c == escape) {
             skip_escape();
-        } else if (c == '@') {
+        } else if (bytes_.substr(at_).starts_with("@PJL")) {
             skip_line();
         } else if (c == ';') {
             separator();
@@ -177,10 +178,28 @@ void Lexer::read_numbers(Command& command) {
     }
     command.arguments = bytes_.substr(from, at_ - from);
     command.terminated = !at_end() || command.arguments.empty() || is_blank(command.arguments.back());
+    if (!at_end() && is_stray(at_)) {
+        command.stray = here();
+        at_ = std::min(bytes_.find(';', at_), bytes_.size());
+    }
     if (!at_end() && look() == ';') {
         ++at_;
         after_command_ = false;
     }
+}
+
+// 1x500 and 1O0 are damaged numbers, not a 1 and then something else.
+bool Lexer::is_stray(std::size_t letter) const {
+    if (!is_letter(bytes_[letter])) {
+        return false;
+    }
+    const bool behind_digit = letter > 0 && (is_digit(bytes_[letter - 1]) || bytes_[letter - 1] == '.');
+    if (behind_digit && capital(bytes_[letter]) == 'O') {
+        return true;
+    }
+    const auto next =
+        std::find_if_not(bytes_.begin() + static_cast<std::ptrdiff_t>(letter) + 1, bytes_.end(), is_blank);
+    return next != bytes_.end() && !is_letter(*next);
 }
 
 void Lexer::read_until_semicolon(Command& command) {
@@ -243,10 +262,13 @@ public:
         }
     }
 
-    std::optional<NumberFault> read(std::vector<double>& numbers) {
+    std::optional<NumberFault> read(std::size_t most, std::vector<double>& numbers) {
         numbers.clear();
         skip_blanks();
         while (at_ < text_.size()) {
+            if (numbers.size() == most) {
+                return fault(at_, fmt::format("more than {} numbers", most));
+            }
             if (auto fault = read_one(numbers)) {
                 return fault;
             }
@@ -328,8 +350,9 @@ private:
 
 } // namespace
 
-std::optional<NumberFault> read_numbers(const Command& command, bool join, std::vector<double>& numbers) {
-    return NumberReader(command, join).read(numbers);
+std::optional<NumberFault>
+read_numbers(const Command& command, bool join, std::size_t most, std::vector<double>& numbers) {
+    return NumberReader(command, join).read(most, numbers);
 }
 
 } // namespace millwright::plot::internal

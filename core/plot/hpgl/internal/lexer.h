@@ -25,7 +25,8 @@ struct Command {
     std::int64_t byte = 0;      ///< where it begins
     std::string_view arguments; ///< as they stand in the file
     std::int64_t arguments_byte = 0;
-    bool terminated = true; ///< false: the file ends in the middle of it
+    bool terminated = true;                 ///< false: the file ends in the middle of it
+    std::optional<std::int64_t> stray = {}; ///< a letter among its numbers that begins no command
 };
 
 class Lexer {
@@ -60,6 +61,7 @@ private:
     void read_comment(Command& command);
     void read_character(Command& command);
     void read_numbers(Command& command);
+    [[nodiscard]] bool is_stray(std::size_t letter) const;
 
     std::string_view bytes_;
     ArgumentsOf arguments_of_;
@@ -79,7 +81,8 @@ struct NumberFault {
 
 /// Reads the numbers of a command into `numbers`: signs, digits, a point; blanks, one comma or a sign between
 /// them. A line end is a separator, or with `join` nothing. Numbers are within +-2^30, HPGL's range.
+/// More than `most` of them are a fault, too.
 [[nodiscard]] std::optional<NumberFault>
-read_numbers(const Command& command, bool join, std::vector<double>& numbers);
+read_numbers(const Command& command, bool join, std::size_t most, std::vector<double>& numbers);
 
 } // namespace millwright::plot::internal

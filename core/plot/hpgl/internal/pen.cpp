@@ -38,7 +38,7 @@ void Pen::lift() {
 
 void Pen::go(const Vec2& to) {
     if (lost_) {
-        lost_ = false;
+        lost_ = stays_lost_;
         dot_ = false;
         move(to, false);
     } else {

@@ -74,6 +74,8 @@ public:
     /// A command was wrong: where the plotter would be now is not known, so nothing is drawn up to the next
     /// go().
     void lose();
+    /// Whether go() finds the position again.
+    void stay_lost(bool stays) { stays_lost_ = stays; }
     [[nodiscard]] bool lost() const { return lost_; }
 
     LineType line;
@@ -107,6 +109,7 @@ private:
     Vec2 at_ = Vec2::Zero();
     bool down_ = false;
     bool lost_ = false;
+    bool stays_lost_ = false;
     bool dot_ = false; ///< the pen went down and has drawn nothing yet
     std::optional<int> number_ = 1;
     Strokes strokes_;

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::plot::internal {
 
@@ -56,6 +57,7 @@ struct Run {
     Modes modes;
     bool polygon_damaged = false;
     std::string buffered_label;
+    std::vector<std::string_view> misplaced; ///< commands: while there are any, nothing is drawn
 
     [[nodiscard]] Vec2 at() const { return units.user(pen.at()); }
     /// Why the command being followed cannot be. What it sets afterwards stays: return.
@@ -65,6 +67,14 @@ struct Run {
             refuse("the pen's position is not known here, because of what was wrong before");
         }
         return pen.refused();
+    }
+    /// `setup`, which says where coordinates lie, could not be followed, or is in order (again).
+    void misplace(std::string_view setup, bool wrong) {
+        std::erase(misplaced, setup);
+        if (wrong) {
+            misplaced.push_back(setup);
+        }
+        pen.stay_lost(!misplaced.empty());
     }
     /// Distance from P1 to P2, plotter units.
     [[nodiscard]] double diagonal() const { return units.span().norm(); }

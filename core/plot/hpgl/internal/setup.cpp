@@ -9,7 +9,9 @@ namespace millwright::plot::internal {
 void defaults(Run& run, const Given&) {
     run.modes = Modes();
     run.units.no_scale();
+    run.misplace("SC", false);
     run.pen.window.reset();
+    run.misplace("IW", false);
     run.pen.line.set_solid();
     run.lexer.end_labels_with('\x03', false);
 }
@@ -19,6 +21,9 @@ void initialise(Run& run, const Given& given) {
     defaults(run, given);
     run.units.reset_points();
     run.units.rotate(0);
+    for (const std::string_view setup : {"IP", "IR", "RO"}) {
+        run.misplace(setup, false);
+    }
 }
 
 void begin_plot(Run& run, const Given& given) {
@@ -35,6 +40,7 @@ void input_points(Run& run, const Given& given) {
     if (!run.units.set_points(p1, p2)) {
         return run.refuse("IP: P1 and P2 are on one line, which makes no scale");
     }
+    run.misplace("IR", false);
 }
 
 void input_relative_points(Run& run, const Given& given) {
@@ -49,6 +55,7 @@ void input_relative_points(Run& run, const Given& given) {
     if (!run.units.set_relative_points(p1, p2)) {
         return run.refuse("IR: P1 and P2 are on one line, which makes no scale");
     }
+    run.misplace("IP", false);
 }
 
 void scale(Run& run, const Given& given) {

@@ -3,15 +3,18 @@
 #include "core/machine/internal/program_from_line.h"
 
 #include "core/base/error.h"
+#include "core/gcode/program_settings.h"
 #include "core/gcode/retract.h"
 #include "core/kinematics/forward.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "tests/support/jobs.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace millwright::machine {
@@ -183,6 +186,25 @@ TEST(ProgramFromLine, IsRunAndLoggedByTheLinesOfTheFile) {
     EXPECT_EQ(log.start.program_hash, program_hash(job.listing->text));
     EXPECT_EQ(log.next_line(), rest.listing->line_count());
     EXPECT_EQ(outcome.position, job.program->blocks.back().target);
+}
+
+TEST(ProgramFromLine, GoesDownAsFastAsTheFileThatWasReadDoes) {
+    const auto table = std::make_shared<const kinematics::MachineModel>(test::machine("forming-table"));
+    const auto last_way_down = [&](const std::string& plunge) {
+        std::string text = "G21 G90\nG0 Z5\nG0 X5 Y5\n" + plunge + "\n";
+        for (int n = 0; n < 20; ++n) {
+            text += fmt::format("G1 X{} F600\n", 6 + n);
+        }
+        const Job rest = job_from_line(planned_job(text + "M2\n", "part.ngc", table), 20, {});
+        const auto& blocks = rest.program->blocks;
+        const auto way = std::find_if(blocks.begin(), blocks.end(), [](const gcode::Block& block) {
+            return block.kind == BlockKind::feed && block.target[2] < 0.0;
+        });
+        return way->feed;
+    };
+    EXPECT_NEAR(last_way_down("G1 Z-1 F120"), 2.0, 1e-12);
+    EXPECT_NEAR(last_way_down("G1 X5.5 Z-1 F120"), gcode::ProgramSettings{}.plunge_feed, 1e-12)
+        << "a ramp is no plunge";
 }
 
 TEST(ProgramFromLine, RefusesLinesThatCannotBeBegun) {

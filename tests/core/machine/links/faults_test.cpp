@@ -73,6 +73,8 @@ TEST(FaultyWire, SwallowsWholeAcknowledgementsOnly) {
     FaultyWire wire({.lost_ok = 1.0}, WireEnd::host);
     EXPECT_EQ(through(wire, "ok\r\n<Idle>\r\nok\r\nbook\r\n"), "<Idle>\r\nbook\r\n");
     EXPECT_EQ(wire.faults(), 2);
+    EXPECT_EQ(through(wire, "ok\nbook\nok\n"), "book\n") << "of a table";
+    EXPECT_EQ(through(wire, "ok\rbook\rok\r"), "book\r");
 }
 
 TEST(FaultyWire, LetsNothingThroughAfterADisconnectOrAStall) {

@@ -66,8 +66,19 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
 
 // Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers.
 TEST(BadPlots, NothingIsCutFromADamagedToken) {
-    for (const char* damage :
-         {"PA,,;", "...;", "PA15093365,19613365,7;", "PA1.5.3,7;", "PAPA;P;", "A,,,;", "PA8931039,800;"}) {
+    for (const char* damage : {"PA,,;",
+                               "...;",
+                               "PA15093365,19613365,7;",
+                               "PA1.5.3,7;",
+                               "PAPA;P;",
+                               "A,,,;",
+                               "PA8931039,800;",
+                               "PA2000,1x500;",
+                               "PA1O00,1000;",
+                               "PA1OO0,1000;",
+                               "PA2000,1l50PA7,7;",
+                               "@;",
+                               "PA1e3,1000;"}) {
         SCOPED_TRACE(damage);
         const std::string text = std::string("SP1;PU;PA1000,1000;PD;PA2000,1000;") + damage +
                                  "PA2000,2000;PA3000,2000;PU;PA0,0;SP;";
@@ -77,6 +88,21 @@ TEST(BadPlots, NothingIsCutFromADamagedToken) {
         EXPECT_EQ(plot.strokes[0].points, (std::vector<Vec2>{{25.0, 25.0}, {50.0, 25.0}}));
         EXPECT_EQ(plot.strokes[1].points, (std::vector<Vec2>{{50.0, 50.0}, {75.0, 50.0}}));
     }
+}
+
+TEST(BadPlots, NothingIsCutWhileTheScaleIsNotKnown) {
+    for (const char* damage :
+         {"SC0,100,0,1x00;", "SC0,0,0,0;", "IP5,5,5,5;", "IP1,2,3;", "IR0,0,0,0;", "RO45;", "RO9O;"}) {
+        SCOPED_TRACE(damage);
+        const std::string begin = std::string("SP1;PU0,0;PD400,0;PU;") + damage + "PU0,0;PD0,9999;PU;";
+        const Plot lost = read_hpgl(begin + "PD5,5;", "bad.plt");
+        ASSERT_EQ(lost.strokes.size(), 1U);
+        EXPECT_NEAR(draw_length(lost.strokes), 10.0, 1e-12);
+        const Plot found = read_hpgl(begin + "IN;SP1;PU0,0;PD800,0;PU;", "bad.plt");
+        EXPECT_NEAR(draw_length(found.strokes), 10.0 + 20.0, 1e-12);
+    }
+    const Plot again = read_hpgl("SP1;SC0,0,0,0;PU0,0;PD9,9;PU;SC;PU0,0;PD400,0;PU;", "bad.plt");
+    EXPECT_NEAR(draw_length(again.strokes), 10.0, 1e-12);
 }
 
 TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {

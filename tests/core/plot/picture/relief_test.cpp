@@ -400,5 +400,20 @@ TEST(Relief, HasAFrameAroundIt) {
     EXPECT_EQ(around.points.front(), around.points.back());
 }
 
+TEST(ReliefPlan, IsNotDeeperThanItsPlateUnlessThatIsAllowed) {
+    const HeightField field = field_of(20, 10, 1.0, [](int, int) { return -3.9; });
+    ReliefPlan plan;
+    plan.relief.tip = {.kind = TipKind::ball, .diameter = 1.0};
+    plan.plate = 3.0;
+    EXPECT_THROW(static_cast<void>(relief_path(field, plan)), Error);
+    plan.through = true;
+    EXPECT_NO_THROW(static_cast<void>(relief_path(field, plan)));
+    plan.through = false;
+    plan.plate = 3.9;
+    EXPECT_NO_THROW(static_cast<void>(relief_path(field, plan)));
+    plan.tabs.height = 5.0;
+    EXPECT_THROW(static_cast<void>(relief_path(field, plan)), Error) << "tabs above the plate";
+}
+
 } // namespace
 } // namespace millwright::plot

@@ -125,6 +125,7 @@ void RecordSession::start(const Work& work, double now) {
     for (const Block& block : work.program->blocks) {
         expects(block.target.size() == model_->axis_count(), "the program is for this table");
     }
+    text_.expect_all_told(*work.program, *model_);
     program_ = work.program;
     listing_ = work.listing;
     ahead_.begin(work.ahead, program_->block_count());

@@ -333,5 +333,23 @@ TEST(RecordSession, RefusesWhatATableCannotDo) {
     EXPECT_THROW(wire.session.jog({}, wire.now), Error);
 }
 
+TEST(RecordText, AnAxisThatNoRecordTellsMustNotMove) {
+    const Job job = job_of("G21 G90\nG0 Z5\nG0 X5\nG1 Z-1 F60\nG1 X9\nM2\n");
+    RecordFormat format;
+    for (const char* pattern : {"t {X} {Y}", "t {X} {X} {s}"}) {
+        format.pattern = pattern;
+        const RecordText text(format, *table_model(), 4);
+        try {
+            text.expect_all_told(*job.program, *table_model());
+            ADD_FAILURE() << pattern;
+        } catch (const Error& error) {
+            EXPECT_STREQ(error.what(),
+                         "the program moves Z, which no record tells (put {Z} into the record)");
+        }
+    }
+    format.pattern = "t {X} {Z}";
+    EXPECT_NO_THROW(RecordText(format, *table_model(), 4).expect_all_told(*job.program, *table_model()));
+}
+
 } // namespace
 } // namespace millwright::machine::records

@@ -1,0 +1,48 @@
+#include "app/given_options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+namespace millwright::app {
+
+std::string shell_word(std::string_view text) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("-_./:,=@%+").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!text.empty() && std::ranges::all_of(text, plain)) {
+        return std::string(text);
+    }
+    std::string quoted = "'";
+    for (const char c : text) {
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return quoted + "'";
+}
+
+std::string given_options(const CLI::App& command, std::span<const std::string_view> left_out) {
+    std::string words;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || !name.starts_with("--") ||
+            std::ranges::find(left_out, name) != left_out.end()) {
+            continue;
+        }
+        words += words.empty() ? name : " " + name;
+        if (option->get_expected_max() == 0) {
+            continue; // a flag
+        }
+        std::string value;
+        for (const std::string& part : option->results()) {
+            value += (value.empty() ? "" : ",") + part;
+        }
+        words += " " + shell_word(value);
+    }
+    return words;
+}
+
+} // namespace millwright::app
