@@ -68,6 +68,13 @@ void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
     command.add_option("--speed", choice.speed, "Machine seconds a second")
         ->check(CLI::Range(slowest, fastest))
         ->capture_default_str();
+    command
+        .add_option("--wait-for-host",
+                    choice.wait_for_host,
+                    "Machine seconds without a word after which its time stands still until the next: for "
+                    "computers too busy to speak in time")
+        ->check(CLI::Range(0.001, 3600.0))
+        ->type_name("SECONDS");
 }
 
 int serve(const EmulationChoice& choice,
@@ -79,6 +86,7 @@ int serve(const EmulationChoice& choice,
     machine::SteadyClock clock;
     machine::EmulatorServer server(
         open_links(choice, name, faults, clock), clock, make(), choice.speed, faults);
+    server.wait_for_host(choice.wait_for_host);
     while (!interrupt.token().stop_requested()) {
         constexpr double glance = 0.05;
         clock.wait(glance);

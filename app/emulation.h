@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -13,13 +14,14 @@ class App;
 
 namespace millwright::app {
 
-/// What the options --pty, --tcp, --bind, --faults and --speed say.
+/// What the options --pty, --tcp, --bind, --faults, --speed and --wait-for-host say.
 struct EmulationChoice {
     std::string pty;
     int tcp = -1;
     std::string bind = "127.0.0.1";
     std::string faults;
     double speed = 1.0;
+    std::optional<double> wait_for_host; ///< s, see EmulatorServer
 };
 
 /// Adds them to `command`.

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/machine/service/direction_check.h"
 #include "core/machine/service/offset_finder.h"
 #include "core/machine/service/step_test.h"
 #include "ui/render/picture.h"
@@ -28,6 +29,7 @@ struct Options {
     std::optional<int> from;
     double most_way = machine::OffsetSearch().most_way;
     machine::StepTest step;
+    machine::DirectionCheck direction;
     std::string out;
     std::string picture;
 };
@@ -108,6 +110,24 @@ int step(const Options& options) {
     return 0;
 }
 
+int direction(const Options& options) {
+    PmacTalk talk(options.port);
+    const machine::DirectionFound found =
+        machine::direction_check(talk.card(), options.motor, options.direction);
+    fmt::print("motor {}: {}{} of a jog were {:+.0f} counts, of a program {:+.0f}: {}\n",
+               options.motor,
+               found.axis,
+               shortest(options.direction.way),
+               found.jog,
+               found.program,
+               found.agree ? "the same way" : "NOT the same way");
+    if (!found.agree) {
+        fmt::print("Its axis is defined by {} counts: look at the sign, and at power and encoder.\n",
+                   shortest(found.scale));
+    }
+    return found.agree ? 0 : 1;
+}
+
 CLI::App& add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("MOTOR", options->motor, "1 to 8")->required()->check(CLI::Range(1, 8));
@@ -130,6 +150,12 @@ void add_arm_motor_commands(CLI::App& group, Command& chosen) {
         ->check(CLI::Range(100.0, 1e9))
         ->capture_default_str();
     still.callback([&chosen, options] { chosen = [options] { return offset(*options); }; });
+    CLI::App& way =
+        add(group, "direction", "Whether jogs and programs go the same way. The motor moves!", options);
+    way.add_option("--way", options->direction.way, "There and back, degrees")
+        ->check(CLI::Range(0.01, 10.0))
+        ->capture_default_str();
+    way.callback([&chosen, options] { chosen = [options] { return direction(*options); }; });
     CLI::App& answer =
         add(group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
     answer.add_option("--size", options->step.size, "Counts, there and back")

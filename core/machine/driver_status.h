@@ -79,7 +79,10 @@ struct DriverStatus {
     /// against it. Ended by homing, by a new zero of every axis, or by Driver::trust_position().
     std::string position_doubt;
     kinematics::AxisPositions velocity;
-    bool powered = true;              ///< its motors, where that is told
+    bool powered = true; ///< its motors, where that is told
+    /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed.
+    /// Where the controller does not tell it is true.
+    bool position_known = true;
     std::vector<MotorReading> motors; ///< of each axis; empty where the controller does not tell
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;

@@ -30,7 +30,11 @@ Permission can_play(const Workbench& now) {
         return Permission::refused(status.state == DriverState::alarm ? "There is an alarm."
                                                                       : "The arm is moving.");
     }
-    return status.powered ? Permission{} : Permission::refused("The motors have no power.");
+    if (!status.powered) {
+        return Permission::refused("The motors have no power.");
+    }
+    return status.position_known ? Permission{}
+                                 : Permission::refused("The position is not known: home the arm first.");
 }
 
 Permission can_play_points(const Workbench& now) {

@@ -20,11 +20,12 @@ bool same(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b
 /// Whether both look the same to a person.
 bool looks_same(const DriverStatus& a, const DriverStatus& b) {
     return a.state == b.state && a.activity == b.activity && same(a.position, b.position) &&
-           same(a.work_offset, b.work_offset) && a.modes == b.modes && a.position_doubt == b.position_doubt &&
-           a.block == b.block && a.executed_blocks == b.executed_blocks && a.overrides == b.overrides &&
-           a.inputs == b.inputs && a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist &&
-           a.flood == b.flood && a.message == b.message && a.answer.number == b.answer.number &&
-           a.answer.state == b.answer.state &&
+           same(a.work_offset, b.work_offset) && a.powered == b.powered &&
+           a.position_known == b.position_known && a.modes == b.modes &&
+           a.position_doubt == b.position_doubt && a.block == b.block &&
+           a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
+           a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
+           a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
            (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
 }
 

@@ -26,10 +26,11 @@ struct HandSettings {
     double probe_way_mm = 20.0; ///< downwards at most
     double probe_mm_per_min = 100.0;
     ArmFrame arm_frame = ArmFrame::joints;
-    int arm_joint = 0;     ///< that the keys move
-    int arm_percent = 20;  ///< of the fastest jog of an arm
-    bool arm_keys = false; ///< the keys of the thesis move the arm
-    bool arm_path = false; ///< the project's program is shown on the arm
+    int arm_joint = 0;             ///< that the keys move
+    int arm_percent = 20;          ///< of the fastest jog of an arm
+    bool arm_keys = false;         ///< the keys of the thesis move the arm
+    bool arm_path = false;         ///< a program is shown on the arm
+    bool arm_path_of_file = false; ///< the opened file's, where one is open, not the project's
     bool single_block = false;
     bool show_reports = false;         ///< in the console
     std::vector<std::string> commands; ///< typed before, oldest first

@@ -84,6 +84,17 @@ std::shared_ptr<const gcode::Program> Workbench::program() const {
     return plan ? plan->plan.program : nullptr;
 }
 
+ProgramOfMachine Workbench::arm_program() const {
+    if (session.hand.arm_path_of_file && opened) {
+        return opened->motion ? ProgramOfMachine{opened->motion->program, opened->machine}
+                              : ProgramOfMachine{};
+    }
+    const auto workpiece = plan ? plan->plan.workpiece : nullptr;
+    return workpiece && plan->plan.program
+               ? ProgramOfMachine{plan->plan.program, {workpiece, &workpiece->machine}}
+               : ProgramOfMachine{};
+}
+
 std::shared_ptr<const gcode::Listing> Workbench::listing() const {
     return plan ? plan->plan.listing : nullptr;
 }

@@ -24,6 +24,12 @@ namespace millwright::actions {
 class ArmBench;
 class ProcessorBench;
 
+/// Both null where there is none.
+struct ProgramOfMachine {
+    std::shared_ptr<const gcode::Program> program;
+    std::shared_ptr<const kinematics::MachineModel> machine; ///< that it is for
+};
+
 struct Workbench {
     const project::Project& project;
     const Session& session;
@@ -68,6 +74,8 @@ struct Workbench {
     [[nodiscard]] std::shared_ptr<const project::Evaluation> evaluation(project::GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const motion::Trajectory> trajectory() const;
     [[nodiscard]] std::shared_ptr<const gcode::Program> program() const;
+    /// What is shown before the arm, by HandSettings::arm_path_of_file.
+    [[nodiscard]] ProgramOfMachine arm_program() const;
     /// Of the project's own program.
     [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
     /// Of the plan: why it stops short of a program; empty if it does not.

@@ -86,11 +86,10 @@ void Workshop::follow_arm_work() {
             tell(session_, widgets::Severity::warning, to_text(simulation->faults.front()));
         }
     }
-    const auto machine = now.machine();
-    const bool shown =
-        session_.hand.arm_path && session_.workspace == Workspace::arm && machine && now.program();
-    arm_->look_at_path(shown ? std::optional(ArmPathWish{now.program(),
-                                                         machine,
+    const ProgramOfMachine shown_one = now.arm_program();
+    const bool shown = session_.hand.arm_path && session_.workspace == Workspace::arm && shown_one.program;
+    arm_->look_at_path(shown ? std::optional(ArmPathWish{shown_one.program,
+                                                         shown_one.machine,
                                                          arm_->look(),
                                                          project::base_T_path(now.project.arm.path),
                                                          arm_->joints(),

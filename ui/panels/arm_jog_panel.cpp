@@ -150,6 +150,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!now.arm.loaded()) {
         return;
     }
+    connection_.draw_messages(ui, now, ask);
     draw_power(ui, now, ask);
     if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog the drawn arm")) {
         const int frame = static_cast<int>(now.session.hand.arm_frame);

@@ -38,6 +38,7 @@ public:
             return;
         }
         velocity_ = status.velocity[joint];
+        known_ = status.position_known;
         motor_ = n < status.motors.size() ? std::optional(status.motors[n]) : std::nullopt;
         limits_ =
             n < now.controller.limits.axes.size() ? now.controller.limits.axes[n] : MachineLimits::Axis{};
@@ -50,7 +51,7 @@ public:
         };
         switch (column) {
         case 0:
-            return joint_.name + (viewport::near_limit(joint_, at_) ? " !" : "");
+            return joint_.name + (!known_ ? " ?" : viewport::near_limit(joint_, at_) ? " !" : "");
         case 1:
             return number(joint_, at_, 3);
         case 2:
@@ -72,6 +73,8 @@ public:
         }
     }
 
+    [[nodiscard]] bool known() const { return known_; }
+
 private:
     /// The narrower of what the arm's file and the controller allow.
     [[nodiscard]] std::string travel() const {
@@ -82,6 +85,7 @@ private:
 
     const ArmJoint& joint_;
     double at_;
+    bool known_ = true; ///< of the position
     std::optional<double> velocity_;
     std::optional<machine::MotorReading> motor_;
     MachineLimits::Axis limits_;
@@ -110,6 +114,10 @@ void arm_motors(Ui& ui, const Workbench& now) {
     view.rows = arm.joint_count();
     view.row_id = [&](std::ptrdiff_t row) { return "joint_" + arm.joint(static_cast<int>(row)).name; };
     view.cell = [&](std::ptrdiff_t row, int column) { return Row(now, static_cast<int>(row)).cell(column); };
+    constexpr int position = 1;
+    view.is_muted = [&](std::ptrdiff_t row, int column) {
+        return column == position && !Row(now, static_cast<int>(row)).known();
+    };
     (void)widgets::table(ui, "motors", view);
 }
 

@@ -89,6 +89,14 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
     if (!section) {
         return;
     }
+    if (now.arm_connected() && !now.controller.status.position_known) {
+        (void)widgets::banner(ui,
+                              "not_known",
+                              {widgets::Severity::warning,
+                               "Position not known: these are degrees from where the arm stood when the card "
+                               "was switched on. Home it.",
+                               {}});
+    }
     const auto labels = ui.label_share(0.24F);
     for (int n = 0; n < now.arm.arm().joint_count(); ++n) {
         const ArmJoint& joint = now.arm.arm().joint(n);

@@ -8,10 +8,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 namespace millwright::panels {
 
 namespace {
+
+constexpr std::array<widgets::Option, 2> sources{
+    {{"project", "Project", {}, "The program of the project's surface"},
+     {"file", "Opened file", {}, "The G-code file that is open in the Program workspace, as of a plot"}}};
 
 void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const project::PathPlace& place = now.project.arm.path;
@@ -51,6 +57,28 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     }
 }
 
+/// Why there is nothing to show; empty if there is.
+std::string why_none(const Workbench& now) {
+    if (now.arm_program().program) {
+        return {};
+    }
+    if (!now.session.hand.arm_path_of_file || !now.opened) {
+        return "The project has no program yet.";
+    }
+    return now.opened->no_motion.empty() ? "The file is being read." : now.opened->no_motion;
+}
+
+void source_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (!now.opened) {
+        return;
+    }
+    const int source = now.session.hand.arm_path_of_file ? 1 : 0;
+    if (const auto chosen = ui.segmented("source", "Program of", source, sources)) {
+        ask.show(
+            [of_file = *chosen == 1](actions::Session& session) { session.hand.arm_path_of_file = of_file; });
+    }
+}
+
 } // namespace
 
 void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
@@ -58,17 +86,18 @@ void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actio
     if (!section) {
         return;
     }
+    source_field(ui, now, ask);
     const bool shown = now.session.hand.arm_path;
-    const auto can_show = now.program() ? widgets::Permission{}
-                                        : widgets::Permission::refused("The project has no program yet.");
+    const std::string none = why_none(now);
+    const auto can_show = none.empty() ? widgets::Permission{} : widgets::Permission::refused(none);
     if (const auto on = ui.toggle("shown",
                                   "Show the program",
                                   shown,
-                                  "The project's program, green where the arm reaches it and red where not",
+                                  "Green where the arm reaches it and red where not",
                                   can_show)) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_path = on; });
     }
-    if (!shown || !now.program()) {
+    if (!shown || !none.empty()) {
         return;
     }
     place_fields(ui, now, ask);

@@ -42,8 +42,6 @@ void ArmPointsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_buttons(ui, now, ask);
     if (chosen_ >= 0) {
         draw_chosen(ui, now, ask);
-    } else {
-        ui.note("Bring the arm somewhere and teach the point; a click on a point lets you change it.");
     }
     draw_table(ui, now);
 }
@@ -157,7 +155,7 @@ void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
     view.rows = std::ssize(points);
     view.chosen = chosen_;
     view.height = ui.rest().h;
-    view.when_empty = "No point was taught yet.";
+    view.when_empty = "Bring the arm somewhere and teach the point; a click on a point lets you change it.";
     view.row_id = [](std::ptrdiff_t row) { return fmt::format("point_{}", row + 1); };
     view.cell = [&](std::ptrdiff_t row, int column) -> std::string {
         const TaughtPoint& point = points[static_cast<std::size_t>(row)];

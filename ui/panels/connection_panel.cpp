@@ -65,6 +65,9 @@ std::string advice(const Workbench& now) {
     if (now.controller.status.link_lost) {
         return "Look at the machine first. Then reconnect: nothing moves by that.";
     }
+    if (now.controller.choice.kind == DriverKind::pmac) {
+        return "Look at the arm first. Then unlock it; no motor gets power by that.";
+    }
     if (now.controller.choice.kind == DriverKind::linuxcnc) { // which homes once it is switched on
         return "Unlock it when you have looked at it, then home it unless its position is certain.";
     }
@@ -97,7 +100,8 @@ std::string controller_text(const Workbench& now) {
     case LinkState::connected:
         break;
     }
-    return name + ": " + state_text(machine.status);
+    return name + ": " + state_text(machine.status) +
+           (machine.status.position_known ? "" : ", position not known");
 }
 
 void ConnectionPanel::look_for_ports() {
@@ -275,6 +279,11 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         return;
     }
     ui.value("state", as_sentence(kind_text(machine.choice.kind)), state_text(machine.status));
+    if (!machine.status.position_known) {
+        ui.value("position_known", "Position", "not known");
+    }
+    constexpr float address_label = 0.12F; // addresses are long
+    const auto labels = ui.label_share(address_label);
     if (!machine.choice.address.empty()) {
         ui.value("port", "At", machine.choice.address);
     }

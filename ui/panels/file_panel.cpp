@@ -230,7 +230,7 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
     const auto chosen = std::find(entries_.begin(), entries_.end(), chosen_);
     view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
     view.height = ui.px(212.0F);
-    view.when_empty = fault_.empty() ? "No projects and no G-code here." : std::string_view(fault_);
+    view.when_empty = fault_.empty() ? "No such files here." : std::string_view(fault_);
     const auto row = widgets::table(ui, "entries", view);
     if (!row) {
         return;

@@ -66,7 +66,8 @@ widgets::AxisState state_of(const machine::DriverStatus& machine, const std::str
     if (machine.inputs.limits.find(letter) != std::string::npos) {
         return widgets::AxisState::at_limit;
     }
-    return machine.position_doubt.empty() ? widgets::AxisState::normal : widgets::AxisState::not_homed;
+    const bool known = machine.position_known && machine.position_doubt.empty();
+    return known ? widgets::AxisState::normal : widgets::AxisState::not_homed;
 }
 
 /// Collects what is held down in this frame.

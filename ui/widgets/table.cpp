@@ -62,7 +62,9 @@ void draw_cells(
         const std::string text = view.cell(index, static_cast<int>(c));
         const Rect place = padded(ui, spans[c], row);
         const Align align = view.columns[c].is_number ? Align::right : Align::left;
-        const bool cut = draw_text(ui, ui.look().fonts.text, place, ui.colours().text, text, align);
+        const bool muted = view.is_muted && view.is_muted(index, static_cast<int>(c));
+        const Colour colour = muted ? ui.colours().muted : ui.colours().text;
+        const bool cut = draw_text(ui, ui.look().fonts.text, place, colour, text, align);
         offer_tip(ui, own, place, cut ? std::string_view(text) : std::string_view());
     }
 }

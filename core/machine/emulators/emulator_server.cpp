@@ -24,6 +24,12 @@ std::string EmulatorServer::failure() const {
     return failure_;
 }
 
+void EmulatorServer::wait_for_host(std::optional<double> silence) {
+    const std::scoped_lock lock(mutex_);
+    longest_silence_ = silence;
+    silence_ = 0.0;
+}
+
 void EmulatorServer::run(const std::stop_token& stop) noexcept {
     double last = clock_.now();
     while (!stop.stop_requested()) {
@@ -48,9 +54,13 @@ void EmulatorServer::turn(double& last) {
     // A computer that is too slow makes time go slower. Catching up would take longer each lap, in silence.
     constexpr double longest_lap = 0.05; // s
     const double lap = std::clamp(now - std::exchange(last, now), 0.0, longest_lap);
-    emulator_->advance(lap * speed_);
+    const double most = longest_silence_ ? std::max(0.0, *longest_silence_ - silence_) : longest_lap * speed_;
+    const double passes = std::min(lap * speed_, most);
+    emulator_->advance(passes);
+    silence_ += passes;
     for (const auto& link : links_) {
         const std::string bytes = link->read();
+        silence_ = bytes.empty() ? silence_ : 0.0;
         passed_ += static_cast<std::int64_t>(bytes.size());
         emulator_->receive(bytes);
     }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -29,6 +30,9 @@ public:
     EmulatorServer& operator=(const EmulatorServer&) = delete;
     ~EmulatorServer() = default;
 
+    /// The controller's time stands still when it has heard nothing for so many of its seconds, so that a
+    /// host on a busy computer is not taken for a cut cable; nothing: it never waits, as is the beginning.
+    void wait_for_host(std::optional<double> silence);
     /// Why it no longer serves; empty while it does.
     [[nodiscard]] std::string failure() const;
 
@@ -51,6 +55,8 @@ private:
     mutable std::mutex mutex_; ///< guards what follows
     std::unique_ptr<Emulator> emulator_;
     std::string failure_;
+    std::optional<double> longest_silence_; ///< of the controller's time
+    double silence_ = 0.0;
     std::jthread thread_;
 };
 

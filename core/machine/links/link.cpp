@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/links/file_link.h"
+#include "core/machine/links/host_port_link.h"
 #include "core/machine/links/serial_link.h"
 #include "core/machine/links/tcp_link.h"
 
@@ -12,7 +13,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::string_view tcp_prefix = "tcp:";
+constexpr std::string_view tcp_prefix = "tcp:", isa_prefix = "isa:";
 
 std::unique_ptr<Link> make_tcp_link(const std::string& address) {
     const std::string_view rest = std::string_view(address).substr(tcp_prefix.size());
@@ -28,6 +29,22 @@ std::unique_ptr<Link> make_tcp_link(const std::string& address) {
     throw Error("'" + address + "' is no address", {}, "write tcp:HOST:PORT, as in tcp:127.0.0.1:2300");
 }
 
+/// "isa:0x210", or in decimals.
+std::unique_ptr<Link> make_host_port_link(const std::string& address) {
+    constexpr int decimal = 10, hexadecimal = 16, greatest = 0xFFF0;
+    std::string_view digits = std::string_view(address).substr(isa_prefix.size());
+    const bool hex = digits.starts_with("0x");
+    digits.remove_prefix(hex ? 2 : 0);
+    int base = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, base, hex ? hexadecimal : decimal);
+    if (digits.empty() || read.ec != std::errc{} || read.ptr != end || base <= 0 || base > greatest) {
+        throw Error(
+            "'" + address + "' is no address", {}, "write isa:0x210, the factory's address of a PMAC");
+    }
+    return std::make_unique<HostPortLink>(io_ports(base));
+}
+
 } // namespace
 
 std::string loss_sentence(const std::string& why) {
@@ -40,6 +57,9 @@ std::unique_ptr<Link> make_link(const std::string& address) {
     }
     if (address.starts_with(tcp_prefix)) {
         return make_tcp_link(address);
+    }
+    if (address.starts_with(isa_prefix)) {
+        return make_host_port_link(address);
     }
     constexpr std::string_view file_prefix = "file:";
     if (address.starts_with(file_prefix) && address.size() > file_prefix.size()) {

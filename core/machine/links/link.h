@@ -36,8 +36,9 @@ public:
 /// Begins Link::lost() where another client holds the port.
 inline constexpr std::string_view held_by_another = "the port is held by another client";
 
-/// The link that `address` names: `tcp:HOST:PORT`, `file:PATH` (only written to), else the path of a serial
-/// port (115200 baud, 8N1). Not opened yet. Throws Error if it is no address.
+/// The link that `address` names: `tcp:HOST:PORT`, `file:PATH` (only written to), `isa:0x210` (a PMAC's host
+/// port), else the path of a serial port (115200 baud, 8N1). Not opened yet. Throws Error if it is no
+/// address.
 [[nodiscard]] std::unique_ptr<Link> make_link(const std::string& address);
 
 } // namespace millwright::machine

@@ -47,8 +47,8 @@ struct ArmAtPmac {
         const widgets::Rect rect = person.place(path);
         person.hover({rect.x + 0.5F * rect.w, rect.y + 0.5F * rect.h});
     }
-    /// Presses on a jog's button until the motor has gone some way, and goes on holding it. A computer that
-    /// is so busy that the card hears nothing for 50 ms makes the card end the jog: then once more.
+    /// Presses on a jog's button until the motor has gone some way, and goes on holding it. A window that
+    /// is so busy that it draws nothing for 100 ms ends the jog: then once more.
     void jog(const char* path, int motor) {
         constexpr int tries = 20;
         for (int n = 0; n < tries; ++n) {

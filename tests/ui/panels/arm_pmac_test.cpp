@@ -48,6 +48,55 @@ TEST(ArmAtPmacU2, AJogRunsAsLongAsItIsHeldAndThePictureFollows) {
     EXPECT_NEAR(bench.pmac.degrees(2), 0.0, 0.1);
 }
 
+TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
+    using render::Key;
+    Bench bench({1280, 1200}); // room for the whole pane
+    const auto status = [&] { return bench.person.workshop().look().controller.status; };
+    bench.connect();
+    bench.person.click("lower/tabs/program");
+    bench.person.frames(2);
+    bench.person.click("lower/text");
+    bench.person.type("ABS LINEAR\nTM500 TA100\nX5 Y-4");
+    bench.person.click("hand/jog/keys");
+    bench.give_power();
+    bench.person.press_key(Key::h);
+    ASSERT_TRUE(
+        bench.person.live_until([&] { return status().position_known && bench.is(DriverState::idle); }, 60.0))
+        << to_text(status().state) << ' ' << status().message;
+
+    const int before = status().answer.number;
+    bench.person.press_key(Key::s);
+    ASSERT_TRUE(bench.person.live_until([&] {
+        return status().answer.number > before &&
+               status().answer.state == machine::CommandAnswer::State::done && bench.is(DriverState::idle);
+    }));
+    EXPECT_NEAR(bench.pmac.degrees(1), 0.0, 0.1); // sent, not run
+    bench.person.click("lower/tabs/console");
+    bench.person.frames(2);
+    bench.person.click("lower/command");
+    bench.person.type("LIST PROG 1");
+    bench.person.press_key(Key::enter);
+    ASSERT_TRUE(bench.person.live_until([&] {
+        return status().answer.number > before + 1 &&
+               status().answer.state == machine::CommandAnswer::State::done && bench.is(DriverState::idle);
+    }));
+    EXPECT_NE(status().answer.text.find("X5"), std::string::npos) << status().answer.text;
+
+    bench.person.click("hand/jog/step/hold"); // out of the terminal's line
+    bench.person.press_key(Key::r);
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.pmac.degrees(1) > 4.9 && bench.rests(); }));
+    EXPECT_TRUE(bench.is(DriverState::idle)) << status().message;
+    EXPECT_NEAR(bench.pmac.degrees(2), -4.0, 0.1);
+
+    bench.person.press_key(Key::i);
+    EXPECT_TRUE(bench.person.sees("dialogs/files/open"));
+    bench.person.press_key(Key::escape);
+    bench.person.press_key(Key::k);
+    EXPECT_TRUE(
+        bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
+    EXPECT_TRUE(bench.person.sees("hand/messages/message"));
+}
+
 TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
     Bench bench;
     bench.connect();

@@ -1,5 +1,4 @@
-// C6, S7 and the path on the arm: points taught, programs written, a project's program placed before the arm,
-// by mouse and keys at the drawn arm.
+// C6 and S7: points taught and programs written by mouse and keys at the drawn arm.
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "core/project/taught_points.h"
@@ -140,52 +139,6 @@ TEST_F(ArmTeaching, AProgramIsWrittenWithItsFaultsByLineAndSimulated) {
     person_.keep("arm-program");
     person_.workshop().run("edit.undo");
     EXPECT_TRUE(person_.project().arm.program.size() < 30U);
-}
-
-class ArmPath : public ArmTeaching {
-protected:
-    ArmPath() {
-        person_.wait_idle();
-        person_.click("inspector/path/shown");
-        place({900.0, -50.0, 300.0});
-    }
-    void place(const Vec3& at) {
-        person_.workshop().edit("Place", [&](project::Project& draft) { draft.arm.path.at_mm = at; }, {});
-        person_.frames(2);
-        arm().wait_idle();
-        person_.frames(2);
-    }
-};
-
-TEST_F(ArmPath, AProjectsProgramIsGreenWhereTheArmReachesIt) {
-    ASSERT_TRUE(arm().path());
-    ASSERT_TRUE(arm().path()->track) << arm().path()->why;
-    const double near = arm().path()->reach.reached / arm().path()->reach.length;
-    person_.keep("arm-path");
-    place({1420.0, 0.0, 100.0}); // over the border
-    const double border = arm().path()->reach.reached / arm().path()->reach.length;
-    person_.keep("arm-path-border");
-    place({3000.0, 0.0, 0.0});
-    EXPECT_NEAR(arm().path()->reach.reached, 0.0, 1e-9);
-    EXPECT_GT(near, border);
-    EXPECT_GT(border, 0.0);
-    EXPECT_LT(border, 1.0);
-    EXPECT_FALSE(person_.refusal("inspector/path/arm_send_path").empty());
-}
-
-TEST_F(ArmPath, ItsZeroIsDraggedInTheViewInOneStepOfUndo) {
-    const Vec3 before = person_.project().arm.path.at_mm;
-    const Rect handle = person_.place("view/part");
-    const Point from{handle.x + 0.5F * handle.w, handle.y + 0.5F * handle.h};
-    person_.drag(from, {from.x + 60.0F, from.y + 20.0F});
-    const Vec3 after = person_.project().arm.path.at_mm;
-    EXPECT_GT((after - before).norm(), 30.0);
-    arm().wait_idle();
-    person_.frames(2);
-    ASSERT_TRUE(arm().path());
-    EXPECT_LT((arm().path()->wish.base_T_part.translation() - after).norm(), 1e-9);
-    person_.workshop().run("edit.undo");
-    EXPECT_LT((person_.project().arm.path.at_mm - before).norm(), 1e-9);
 }
 
 } // namespace

@@ -59,6 +59,7 @@ public:
         plug_ = plug.get();
         links.push_back(std::move(plug));
         server_ = std::make_unique<machine::EmulatorServer>(std::move(links), clock_, std::move(card));
+        server_->wait_for_host(longest_silence);
     }
 
     [[nodiscard]] const std::string& address() const { return address_; }
@@ -92,9 +93,14 @@ public:
         server_.reset();
     }
     /// The cable is pulled, or in again; the card lives on.
-    void pull_plug(bool out = true) { plug_->out = out; }
+    void pull_plug(bool out = true) {
+        plug_->out = out;
+        server_->wait_for_host(out ? std::nullopt : std::optional(longest_silence));
+    }
 
 private:
+    static constexpr double longest_silence = 0.01; // s: four words come within the 50 ms that the card bears
+
     template <class Question> std::invoke_result_t<Question> ask(Question&& question) {
         return server_->with_emulator([&](machine::Emulator&) { return question(); });
     }

@@ -1,7 +1,7 @@
 #include "core/base/error.h"
 #include "core/machine/service/offset_finder.h"
 #include "core/machine/service/step_test.h"
-#include "tests/core/machine/emulators/pmac/pmac_card.h"
+#include "tests/core/machine/service/card_talk_to.h"
 #include "tests/support/reason.h"
 
 #include <gmock/gmock.h>
@@ -15,21 +15,8 @@ namespace millwright::machine {
 namespace {
 
 using test::reason;
+using test::talk_to;
 using ::testing::HasSubstr;
-
-/// A talk with an emulated card, in its own time.
-CardTalk talk_to(test::PmacCard& pmac) {
-    return {.ask =
-                [&pmac](const std::string& line) {
-                    std::string answer = pmac.ask(line);
-                    if (answer.starts_with("ERR")) {
-                        throw Error(line + ": " + answer);
-                    }
-                    std::ranges::replace(answer, '|', '\n');
-                    return answer;
-                },
-            .wait = [&pmac](double seconds) { pmac.card.advance(seconds); }};
-}
 
 // C2.
 TEST(OffsetFinder, FindsTheOffsetThatHoldsTheMotorOfTheThesis) {

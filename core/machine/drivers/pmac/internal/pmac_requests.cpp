@@ -130,7 +130,7 @@ void PmacSession::emergency_stop(double /*now*/) {
 
 void PmacSession::reset(double /*now*/) {
     if (stage_ == Stage::alarm && !link_lost_) {
-        finish(Stage::ready, position_known() ? "" : "the position is not known: home first");
+        finish(Stage::ready);
         was_home_ = position_known();
     }
 }

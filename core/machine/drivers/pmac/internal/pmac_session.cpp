@@ -69,6 +69,21 @@ void PmacSession::receive(std::string_view bytes, double now) {
     talk_.receive(bytes, now);
 }
 
+/// For a person, to whom the driver's own questions say nothing.
+std::string PmacSession::asked(const Request& request) {
+    switch (request.kind) {
+    case Kind::poll:
+        return "the question how its motors stand";
+    case Kind::rating:
+    case Kind::reading:
+        return "the question for its motors' values";
+    case Kind::address:
+        return "the question which motor it addresses";
+    default:
+        return "'" + request.line + "'";
+    }
+}
+
 /// In whatever mode the card is, brings it into ours; then asks who it is.
 void PmacSession::greet(double now) {
     constexpr std::array<std::string_view, 5> steps{"\x18", "CLOSE\r", "I3=2\r", "I6=1\r", "I4=1\r"};
@@ -149,7 +164,7 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
             queue_.clear();
             finish(Stage::alarm, "nobody answers as a PMAC");
         } else {
-            fail(fmt::format("the card did not answer '{}' as it should", request.line));
+            fail(fmt::format("the card did not answer {} as it should", asked(request)));
         }
     }
 }
@@ -203,7 +218,7 @@ void PmacSession::refused(const Request& request, int error) {
         buffer_open_ = false;
     }
     const std::string why =
-        fmt::format("'{}' is refused: ERR{:03}, {}", request.line, error, pmac_error(error));
+        fmt::format("{} is refused: ERR{:03}, {}", asked(request), error, pmac_error(error));
     if (request.kind == Kind::rating || request.kind == Kind::reading) {
         readings_.give_up();
         return;

@@ -95,6 +95,7 @@ private:
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
+    [[nodiscard]] static std::string asked(const Request& request);
     void next_command();
     void finish_command(CommandAnswer::State state);
     [[nodiscard]] std::string poll_line() const;

@@ -71,6 +71,7 @@ DriverStatus PmacSession::status() const {
         status.velocity[n] = from_degrees(motors_[axis].speed / scale);
     }
     status.powered = enabled();
+    status.position_known = position_known();
     status.motors = readings_.motors();
     status.overrides = overrides_;
     status.answer = answer_;

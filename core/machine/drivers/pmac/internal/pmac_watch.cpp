@@ -14,6 +14,7 @@ namespace millwright::machine::pmac {
 namespace {
 
 constexpr std::size_t status_digits = 12;
+constexpr int patience = 25; // polls: half a second
 
 struct Words {
     std::uint32_t first = 0, second = 0;
@@ -77,7 +78,7 @@ bool PmacSession::enabled() const {
 
 void PmacSession::watch(double now) {
     if (stage_ == Stage::greeting) {
-        finish(Stage::ready, position_known() ? "" : "the position is not known: home first");
+        finish(Stage::ready);
         was_home_ = position_known();
         return;
     }
@@ -144,7 +145,6 @@ void PmacSession::watch_stage() {
     const bool in_place =
         std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
     astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
-    constexpr int patience = 25; // half a second
     if (astray_polls_ > patience) {
         fail("a motor with power is not where it was sent");
         return;
@@ -210,7 +210,11 @@ void PmacSession::watch_program(bool settled) {
 }
 
 void PmacSession::watch_homing() {
-    if (!motors_[homing_axis_].home()) {
+    const bool found = motors_[homing_axis_].home();
+    if (!found && quiet_polls_ <= patience) {
+        return; // it stands for a moment where it turns back to its flag
+    }
+    if (!found) {
         fail(fmt::format("motor {} did not find its home flag", settings_.axes[homing_axis_].motor));
     } else if (++homing_axis_ < motors_.size()) {
         ask(fmt::format("#{}HM", settings_.axes[homing_axis_].motor));

@@ -1,0 +1,101 @@
+#include "core/machine/links/host_port_link.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::machine {
+
+namespace {
+
+constexpr int status = 2, high = 5, middle = 6, data = 7; // registers
+constexpr unsigned readable = 1, writable = 2;            // bits of the status
+constexpr std::uint8_t nobody = 0xFF;                     // what a bus without a card reads
+constexpr double patience = 0.5;                          // s
+
+} // namespace
+
+HostPortLink::HostPortLink(std::unique_ptr<PortRegisters> registers, std::unique_ptr<Clock> clock)
+    : registers_(std::move(registers)), clock_(std::move(clock)) {}
+
+void HostPortLink::open() {
+    const std::scoped_lock lock(mutex_);
+    registers_->open();
+    if (registers_->read(status) == nobody) {
+        registers_->close();
+        throw Error(
+            "no card answers at " + registers_->name(), {}, "the address is set by jumpers of the card");
+    }
+    registers_->write(high, 0);
+    registers_->write(middle, 0);
+    out_.clear();
+    in_.clear();
+    taken_at_ = clock_->now();
+    lost_.reset();
+}
+
+void HostPortLink::close() noexcept {
+    const std::scoped_lock lock(mutex_);
+    registers_->close();
+    lost_ = "it is not open";
+}
+
+/// As much as the card takes and gives now.
+void HostPortLink::pump() {
+    constexpr int most = 4096; // characters, so that nobody waits for a card that talks without end
+    const double now = clock_->now();
+    for (int n = 0; n < most && !lost_; ++n) {
+        const std::uint8_t ready = registers_->read(status);
+        if (ready == nobody) {
+            lost_ = "no card answers any more";
+        } else if ((ready & readable) != 0) {
+            in_ += static_cast<char>(registers_->read(data));
+        } else if (!out_.empty() && (ready & writable) != 0) {
+            registers_->write(data, static_cast<std::uint8_t>(out_.front()));
+            out_.pop_front();
+            taken_at_ = now;
+        } else {
+            break;
+        }
+    }
+    taken_at_ = out_.empty() ? now : taken_at_;
+    if (!lost_ && now - taken_at_ > patience) {
+        lost_ = "the card takes no characters";
+    }
+}
+
+void HostPortLink::write(std::string_view bytes) {
+    const std::scoped_lock lock(mutex_);
+    if (!lost_) {
+        out_.insert(out_.end(), bytes.begin(), bytes.end());
+        pump();
+    }
+}
+
+std::string HostPortLink::read() {
+    const std::scoped_lock lock(mutex_);
+    pump();
+    return std::exchange(in_, {});
+}
+
+void HostPortLink::wait(double seconds) {
+    constexpr double glance = 0.0005;
+    for (const double end = clock_->now() + seconds; clock_->now() < end;) {
+        {
+            const std::scoped_lock lock(mutex_);
+            pump();
+            if (!in_.empty() || lost_) {
+                return;
+            }
+        }
+        clock_->wait(std::min(glance, seconds));
+    }
+}
+
+std::optional<std::string> HostPortLink::lost() const {
+    const std::scoped_lock lock(mutex_);
+    return lost_;
+}
+
+} // namespace millwright::machine

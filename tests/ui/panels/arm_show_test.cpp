@@ -1,0 +1,173 @@
+// A whole session at the arm with real mouse and keys, at an emulated PMAC over TCP: connect, home, jog every
+// axis, teach three points, play them, run the three lines of the thesis, pull the plug in the middle,
+// recover.
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/project/taught_points.h"
+#include "tests/ui/panels/arm_at_pmac.h"
+#include "ui/actions/arm_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using machine::DriverState;
+using project::TaughtPoint;
+
+/// In the picture and in the card, which are told to each other.
+constexpr double near_deg = 0.05, near_mm = 5.0;
+constexpr double longest_s = 120.0;
+
+class ArmAtPmacShow : public ::testing::Test {
+protected:
+    ArmAtPmacShow() {
+        // Saved, so that the dialogs begin in its folder.
+        person_.press_key(render::Key::s, true);
+        person_.frames(2);
+        person_.fill_in("dialogs/files/name", (person_.folder() / "show.json").string());
+        person_.click("dialogs/files/save");
+        const TaughtPoint ready{"Ready", {0.0, -90.0, 90.0, 0.0, 0.0}, false, 50.0};
+        project::write_taught_points({ready}, person_.folder() / "ready.json");
+        write_file(person_.folder() / "thesis.mot",
+                   "G1 X300 Y0 Z0 F150 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;\n");
+    }
+
+    [[nodiscard]] Vec3 tip() { return person_.workshop().arm().tool().translation(); }
+    [[nodiscard]] machine::DriverStatus status() { return person_.workshop().look().controller.status; }
+    [[nodiscard]] const std::vector<TaughtPoint>& points() { return person_.project().arm.points; }
+    void keep(const std::string& name) { person_.keep("arm-show-" + name); }
+
+    void choose_pmac() {
+        person_.click("hand/connection/driver");
+        person_.click("hand/connection/driver/pmac");
+        person_.fill_in("hand/connection/address", bench_.pmac.address());
+    }
+    void choose_file(const char* action, const char* name) {
+        person_.click("menu/arm");
+        person_.click(std::string("menu/arm/") + action);
+        person_.frames(2);
+        person_.click(std::string("dialogs/files/entries/") + name);
+        person_.click("dialogs/files/open");
+    }
+    /// What `begin` began has come to its end.
+    void follow(const std::function<void()>& begin, const std::function<void()>& watch = {}) {
+        const double before = bench_.pmac.last_motion();
+        begin();
+        ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.last_motion() > before; }))
+            << status().message;
+        ASSERT_TRUE(person_.live_until(
+            [&] {
+                if (watch) {
+                    watch();
+                }
+                return bench_.rests();
+            },
+            longest_s));
+        ASSERT_TRUE(bench_.is(DriverState::idle)) << status().message;
+        let_the_picture_follow();
+    }
+    void let_the_picture_follow() {
+        ASSERT_TRUE(person_.live_until([&] {
+            for (int motor = 1; motor <= 4; ++motor) {
+                const double drawn = to_degrees(person_.workshop().arm().joints()[motor - 1]);
+                if (std::abs(drawn - bench_.pmac.degrees(motor)) > near_deg) {
+                    return false;
+                }
+            }
+            return bench_.rests();
+        }));
+    }
+    void jog(const char* way) {
+        const int motor = std::string_view(way).back() - '0';
+        const double before = bench_.pmac.degrees(motor);
+        bench_.jog(way, motor);
+        person_.hold_button(false);
+        let_the_picture_follow();
+        EXPECT_GT(std::abs(bench_.pmac.degrees(motor) - before), 0.2) << way;
+    }
+    void play_points() {
+        follow([&] { person_.click("lower/arm_play_points"); });
+        for (int motor = 1; motor <= 4; ++motor) {
+            EXPECT_NEAR(bench_.pmac.degrees(motor),
+                        points().back().joints_deg[static_cast<std::size_t>(motor) - 1],
+                        0.1);
+        }
+    }
+
+    test::ArmAtPmac bench_;
+    test::Person& person_ = bench_.person;
+};
+
+TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecovers) {
+    choose_pmac();
+    bench_.connect();
+    EXPECT_FALSE(status().position_known);
+    EXPECT_TRUE(person_.sees("hand/connection/position_known"));
+    EXPECT_TRUE(person_.sees("inspector/joints/not_known"));
+    keep("connected");
+
+    person_.click("hand/power/arm_enable");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered(); }));
+    follow([&] { person_.click("hand/power/machine_home"); });
+    EXPECT_TRUE(status().position_known);
+    EXPECT_FALSE(person_.sees("inspector/joints/not_known"));
+
+    for (const char* way : {"hand/jog/plus_1", "hand/jog/plus_2", "hand/jog/plus_3", "hand/jog/plus_4"}) {
+        jog(way);
+    }
+    person_.click("lower/tabs/points");
+    for (const char* way : {"hand/jog/plus_1", "hand/jog/plus_2", "hand/jog/minus_1"}) {
+        jog(way);
+        person_.click("lower/arm_teach");
+    }
+    ASSERT_EQ(points().size(), 3U);
+    keep("taught");
+    play_points();
+    keep("played");
+
+    // The thesis begins with the upper arm upright and the forearm level.
+    choose_file("arm_open_points", "ready.json");
+    play_points();
+    double farthest = 0.0, lowest = 1e9;
+    follow([&] { choose_file("arm_play_file", "thesis.mot"); },
+           [&] {
+               farthest = std::max(farthest, tip().x());
+               lowest = std::min(lowest, tip().z());
+           });
+    EXPECT_NEAR(farthest, 1100.0, near_mm);
+    EXPECT_NEAR(lowest, 550.0, near_mm);
+    EXPECT_NEAR((tip() - Vec3(800.0, 0.0, 650.0)).norm(), 0.0, near_mm); // where it began
+    keep("file");
+
+    choose_file("arm_play_file", "thesis.mot");
+    ASSERT_TRUE(person_.live_until([&] { return tip().x() > 900.0; }, longest_s)) << status().message;
+    bench_.pmac.pull_plug();
+    ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::alarm) && !bench_.pmac.moving(); }));
+    EXPECT_FALSE(bench_.pmac.any_power());
+    const double stopped = bench_.pmac.degrees(2);
+    EXPECT_FALSE(person_.refusal("lower/arm_play_points").empty());
+    EXPECT_TRUE(person_.sees("hand/messages/message"));
+    keep("pulled");
+
+    bench_.pmac.pull_plug(false);
+    const double plugged = bench_.pmac.time();
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.time() > plugged + 0.5; }));
+    EXPECT_NEAR(bench_.pmac.degrees(2), stopped, near_deg); // nothing moves by itself
+    EXPECT_FALSE(bench_.pmac.any_power());
+    person_.click("hand/connection/machine_reset");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::idle); }));
+    EXPECT_FALSE(bench_.pmac.any_power());
+    person_.click("hand/power/arm_enable");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered(); }));
+    play_points();
+    keep("recovered");
+}
+
+} // namespace
+} // namespace millwright::panels
