@@ -139,7 +139,8 @@ MachineModel read_machine(const std::filesystem::path& file) {
                       "tool_tip",
                       "tool_axis",
                       "angle_formulas",
-                      "bodies"});
+                      "bodies",
+                      "solids"});
     if (root.at("format").text() != "millwright-machine") {
         root.at("format").fail("not a machine file");
     }

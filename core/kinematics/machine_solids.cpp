@@ -1,5 +1,9 @@
 #include "core/kinematics/machine_solids.h"
 
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/json.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -7,6 +11,9 @@
 namespace millwright::kinematics {
 
 namespace {
+
+constexpr std::string_view base_name = "base";
+constexpr std::string_view axis_prefix = "axis ";
 
 using geometry::Circle;
 using geometry::Extent;
@@ -58,7 +65,7 @@ SolidMesh solid_of(const MachineModel& machine, const MachineBody& body) {
 
 geometry::PlacedBody carried_by(const MachineModel& machine, char carrier) {
     geometry::PlacedBody placed;
-    placed.body.name = carrier == '\0' ? std::string("base") : std::string("axis ") + carrier;
+    placed.body.name = carrier == '\0' ? std::string(base_name) : std::string(axis_prefix) + carrier;
     for (const MachineBody& body : machine.description().bodies) {
         if (body.carried_by == carrier) {
             placed.body.meshes.push_back(solid_of(machine, body));
@@ -76,6 +83,34 @@ std::vector<geometry::PlacedBody> machine_solids(const MachineModel& machine) {
     }
     std::erase_if(solids, [](const geometry::PlacedBody& placed) { return placed.body.meshes.empty(); });
     return solids;
+}
+
+char carrier_of(const geometry::SolidBody& body) {
+    return body.name.starts_with(axis_prefix) ? body.name.back() : '\0';
+}
+
+std::shared_ptr<const std::vector<geometry::SolidBody>>
+read_machine_solids(const std::filesystem::path& machine_file, const MachineModel& machine) {
+    const JsonValue root = JsonValue::read(machine_file);
+    const auto named = root.find("solids");
+    if (!named) {
+        return nullptr;
+    }
+    const std::filesystem::path file = machine_file.parent_path() / named->text();
+    auto bodies = geometry::parse_glb(read_file(file), file);
+    for (const geometry::SolidBody& body : bodies) {
+        bool known = body.name == base_name;
+        for (const MachineAxis& axis : machine.axes()) {
+            known = known || body.name == std::string(axis_prefix) + axis.letter;
+        }
+        if (!known) {
+            throw Error(
+                "no axis carries the body '" + body.name + "'",
+                file.string(),
+                "a body is called \"base\" or \"axis C\", by the letter of one of the machine's axes");
+        }
+    }
+    return std::make_shared<const std::vector<geometry::SolidBody>>(std::move(bodies));
 }
 
 } // namespace millwright::kinematics

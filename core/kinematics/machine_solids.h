@@ -4,6 +4,8 @@
 #include "core/geometry/glb.h"
 #include "core/kinematics/machine_model.h"
 
+#include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace millwright::kinematics {
@@ -12,5 +14,14 @@ namespace millwright::kinematics {
 /// their physical zero; each of the file's bodies is one of its meshes. Base first, then in the order of
 /// MachineModel::axes(); carriers of nothing are left out.
 [[nodiscard]] std::vector<geometry::PlacedBody> machine_solids(const MachineModel& machine);
+
+/// The bodies of the glb that `machine_file` names as its "solids", beside it: each is named after its
+/// carrier as above, and lies in m with all axes at their physical zero. Null if the file names none. Throws
+/// Error naming the file, or the body that no axis of `machine` carries.
+[[nodiscard]] std::shared_ptr<const std::vector<geometry::SolidBody>>
+read_machine_solids(const std::filesystem::path& machine_file, const MachineModel& machine);
+
+/// The letter of the axis that carries the body, by its name; zero for the base.
+[[nodiscard]] char carrier_of(const geometry::SolidBody& body);
 
 } // namespace millwright::kinematics

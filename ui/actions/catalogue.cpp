@@ -8,6 +8,7 @@ Catalogue::Catalogue() {
     add_view_actions(actions_);
     add_layer_actions(actions_);
     add_grid_actions(actions_);
+    add_set_up_actions(actions_);
     add_playback_actions(actions_);
     add_machine_actions(actions_);
     add_queue_actions(actions_);

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ enum class LowerTab {
     log,
     motors,
     points,
-    motion_program
+    motion_program,
+    gouges
 };
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
@@ -85,12 +87,40 @@ enum class FileQuestion {
     load_card_settings
 };
 
+/// A result that a person keeps to compare later ones with: of another grid, machine, set-up or tool.
+struct KeptResult {
+    std::string name; ///< "Tracks on ac-table"
+    std::shared_ptr<const geometry::Surface> surface;
+    std::shared_ptr<const project::Workpiece> workpiece;
+    std::shared_ptr<const project::Evaluation> evaluation;
+    std::shared_ptr<const project::CutStudy> cut; ///< null where there is none
+    std::vector<toolpath::SingularPoint> singular_points;
+};
+
+/// What is shown beside the result: another grid's, or the one that was kept.
+struct Beside {
+    std::optional<project::GridMethod> method;
+    bool kept = false;
+
+    [[nodiscard]] bool any() const { return kept || method; }
+    friend bool operator==(const Beside&, const Beside&) = default;
+};
+
+/// The search for the part's place on the table: how it is done, and which place of its map is marked.
+struct SetUpView {
+    project::SetUpStudySettings settings;
+    std::optional<toolpath::SetUpPlace> place; ///< nothing: the best
+};
+
 struct Session {
     Workspace workspace = Workspace::design;
     std::array<viewport::Layers, workspace_count> layers;    ///< one a workspace
     std::vector<viewport::ControlPointId> selected;          ///< ascending
     project::GridMethod shown = project::GridMethod::tracks; ///< whose path and error are drawn
+    Beside beside;
+    std::shared_ptr<const KeptResult> kept; ///< null before one was
     viewport::ErrorScale error;
+    SetUpView set_up;
     bool four_views = false;
     Playback playback;
     FileView file;

@@ -1,3 +1,4 @@
+#include "core/project/settings.h"
 #include "ui/actions/internal/simple_action.h"
 
 namespace millwright::actions {
@@ -38,6 +39,28 @@ void add_show(Actions& actions, std::string_view id, std::string_view title, std
 
 template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
     hands.session.panes.*pane = !(hands.session.panes.*pane);
+}
+
+widgets::Permission has_shown(const Workbench& now) {
+    return now.shown() && now.plan->plan.workpiece ? widgets::Permission{}
+                                                   : widgets::Permission::refused("No path is shown.");
+}
+
+/// The study of the cut is that of the program's path alone.
+void keep_result(Hands& hands) {
+    const Workbench& now = hands.now;
+    const project::Plan& plan = now.plan->plan;
+    const auto method = now.session.shown;
+    const bool is_program = method == now.project.grid.method;
+    hands.session.kept = std::make_shared<const KeptResult>(
+        KeptResult{std::string(project::row_of(project::grid_methods(), method).label) + " on " +
+                       now.project.machine.file,
+                   plan.surface,
+                   plan.workpiece,
+                   now.shown(),
+                   is_program ? plan.cut : nullptr,
+                   plan.singular_points});
+    hands.session.beside = {{}, true};
 }
 
 } // namespace
@@ -101,6 +124,15 @@ void add_view_actions(Actions& actions) {
                                 "view.show_chain",
                                 "Show the whole chain's grid",
                                 "Draws path and error of the best grid, once it was chosen for the program.");
+    add(actions,
+        {"view.keep_result",
+         "View",
+         "Keep this result",
+         "Keeps the path that is shown with its error, to compare later ones with.",
+         "",
+         ""},
+        has_shown,
+        keep_result);
     add(actions,
         {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
         always,

@@ -30,6 +30,14 @@ std::shared_ptr<const project::Evaluation> Workbench::evaluation(project::GridMe
     return plan ? plan->plan.evaluation(method) : nullptr;
 }
 
+toolpath::SetUpPlace Workbench::set_up_place() const {
+    if (session.set_up.place) {
+        return *session.set_up.place;
+    }
+    return set_up && set_up->study ? set_up->study->search.best.place
+                                   : toolpath::SetUpPlace(toolpath::SetUpPlace::Zero());
+}
+
 std::shared_ptr<const project::Evaluation> Workbench::shown() const {
     if (auto wanted = evaluation(session.shown)) {
         return wanted;

@@ -5,6 +5,7 @@
 #include "core/project/pipeline.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
+#include "core/project/set_up_work.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/controller.h"
 #include "ui/actions/document.h"
@@ -55,6 +56,9 @@ struct Workbench {
     const ArmBench& arm;
     const PlotBench& plot;
     std::vector<machine::QueuedJob> queue; ///< in their order
+    /// Bodies of the project's machine; null where its file names none.
+    std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids;
+    std::shared_ptr<const project::SetUpResult> set_up; ///< of the last search; null before the first
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
 
@@ -68,6 +72,9 @@ struct Workbench {
     [[nodiscard]] double duration() const;
     /// In the opened file; nothing unless in_file() and the file is read.
     [[nodiscard]] std::optional<FilePlace> file_place() const;
+
+    /// Of the part on the table that is marked: chosen on the map, else the best. Zero without a search.
+    [[nodiscard]] toolpath::SetUpPlace set_up_place() const;
 
     /// Null-safe access to what is shown.
     [[nodiscard]] std::shared_ptr<const project::Evaluation> shown() const;

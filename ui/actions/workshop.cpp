@@ -38,6 +38,7 @@ Workshop::Workshop(WorkshopOptions options)
     const auto wake = options_.wake ? options_.wake : [] {};
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
     reader_ = std::make_unique<project::ProgramReader>(wake);
+    set_up_ = std::make_unique<project::SetUpWorker>(wake);
     plot_ = std::make_unique<PlotBench>(options_.assets, wake);
     controller_ = std::make_unique<Controller>(options_.log_folder, wake);
     jog_ = std::make_unique<JogHand>(*controller_);
@@ -59,6 +60,7 @@ Workbench Workshop::look() const {
             pipeline_->adaptation(),
             plot_->activity().busy     ? plot_->activity()
             : reader_->activity().busy ? reader_->activity()
+            : set_up_->activity().busy ? set_up_->activity()
                                        : pipeline_->activity(),
             reader_->latest(),
             jobs_->view(),
@@ -77,6 +79,8 @@ Workbench Workshop::look() const {
             *arm_,
             *plot_,
             queue_.jobs(),
+            machine_solids_.bodies(),
+            set_up_->latest(),
             queue_.problem()};
 }
 
@@ -88,10 +92,26 @@ void Workshop::follow_project() {
     const project::PlotInput plot = std::exchange(design.plot, {}); // the plan has no use for it
     design.arm = {};
     pipeline_->request(design, {folder, options_.assets});
+    guarded([&] { machine_solids_.follow(design, {folder, options_.assets}); });
     if (!(plot_->input() == plot)) {
         writes_plot_.reset();
         guarded([&] { plot_->follow(plot); });
     }
+}
+
+void Workshop::search_set_up() {
+    const auto& file = document().file;
+    session_.set_up.place.reset();
+    set_up_->request(history_.current(),
+                     {file.empty() ? std::filesystem::path{} : file.parent_path(), options_.assets},
+                     session_.set_up.settings);
+}
+
+void Workshop::accept_set_up() {
+    const toolpath::SetUpPlace place = look().set_up_place();
+    edit("Accept the set-up",
+         [&](project::Project& draft) { draft = project::with_set_up(std::move(draft), place); },
+         {});
 }
 
 void Workshop::guarded(const std::function<void()>& action) {
@@ -253,6 +273,7 @@ void Workshop::edit(const std::string& title,
 
 void Workshop::wait_idle() {
     pipeline_->wait_idle();
+    set_up_->wait_idle();
     plot_->wait_idle();
     follow_plot();
     reader_->wait_idle();

@@ -4,6 +4,7 @@
 
 #include "core/project/autosave.h"
 #include "ui/actions/action.h"
+#include "ui/actions/machine_solids.h"
 #include "ui/actions/stored_queue.h"
 
 #include <chrono>
@@ -59,6 +60,10 @@ public:
     /// Reads the opened G-code file once more, by the rules and for the machine of the session.
     void read_again();
     void close_file();
+    /// For the part's best place on the table, as the session says, in the background.
+    void search_set_up();
+    /// Puts the part at the marked place.
+    void accept_set_up();
     /// Stops whatever works in the background.
     void cancel_work();
     void new_from_preset(std::string_view preset_id);
@@ -183,6 +188,8 @@ private:
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<project::Pipeline> pipeline_;
     std::unique_ptr<project::ProgramReader> reader_;
+    std::unique_ptr<project::SetUpWorker> set_up_;
+    MachineSolids machine_solids_;
     StoredQueue queue_;                      ///< before the jobs that it hears of
     std::unique_ptr<Controller> controller_; ///< before what runs on it
     std::unique_ptr<JogHand> jog_;

@@ -173,6 +173,7 @@ void Workshop::close_file() {
 void Workshop::cancel_work() {
     pipeline_->cancel();
     reader_->cancel();
+    set_up_->cancel();
     plot_->cancel();
     writes_plot_.reset();
 }

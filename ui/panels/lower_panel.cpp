@@ -4,6 +4,7 @@
 #include "core/project/settings.h"
 #include "ui/panels/arm_motors.h"
 #include "ui/panels/error_table.h"
+#include "ui/panels/gouge_table.h"
 #include "ui/panels/path_series.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/plot.h"
@@ -29,10 +30,11 @@ struct Tab {
     widgets::Option option;
 };
 
-constexpr std::array<Tab, 6> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
+constexpr std::array<Tab, 7> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
                                      {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
                                      {LowerTab::listing, {"listing", "Listing", icons::program}},
                                      {LowerTab::compare, {"compare", "Side by side", icons::table}},
+                                     {LowerTab::gouges, {"gouges", "Gouges", icons::warning}},
                                      {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                      {LowerTab::log, {"log", "Log", icons::info}}}};
 constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console", icons::keyboard}},
@@ -106,6 +108,8 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return listing_.draw_lines(ui, now, ask);
     case LowerTab::compare:
         return error_table(ui, "compare", now, ask);
+    case LowerTab::gouges:
+        return gouge_table(ui, now, ask);
     case LowerTab::console:
         return console_.draw(ui, now, ask);
     case LowerTab::offsets:

@@ -2,8 +2,10 @@
 
 #include "core/base/text.h"
 #include "core/project/assets.h"
+#include "ui/panels/beside.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/set_up_fields.h"
 #include "ui/panels/tool_fields.h"
 #include "ui/widgets/notices.h"
 
@@ -42,6 +44,7 @@ void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     tool_fields(ui, now, ask);
     cut_fields(ui, now);
     draw_setup(ui, now, ask);
+    set_up_fields(ui, now, ask, catalogue_);
     sequencing_fields(ui, now, ask);
     draw_singular(ui, now);
 }
@@ -56,6 +59,7 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
         const GridMethod method = project::grid_methods()[static_cast<std::size_t>(*chosen)].value;
         ask.show([method](actions::Session& session) { session.shown = method; });
     }
+    beside_fields(ui, now, ask, catalogue_);
     const auto shown = now.shown();
     const auto start = now.evaluation(GridMethod::uniform);
     if (!shown || !start) { // after a change the shown one comes first

@@ -1,7 +1,9 @@
 #include "ui/panels/view_panel.h"
 
 #include "core/project/plan.h"
+#include "core/project/settings.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/beside.h"
 #include "ui/panels/layer_list.h"
 
 #include <algorithm>
@@ -127,6 +129,12 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.singular_points = plan.singular_points;
     scene.shown = now.shown();
     scene.weight = plan.weight;
+    scene.cut = plan.cut;
+    scene.machine_solids = now.machine_solids;
+    if (now.set_up && project::same_but_for_place(now.set_up->project, now.project)) {
+        scene.set_up = now.set_up;
+        scene.set_up_place = now.set_up_place();
+    }
     scene.start = now.evaluation(project::GridMethod::uniform);
     if (now.watched && now.session.workspace == Workspace::grid) {
         scene.watched = now.watched->state;
@@ -216,7 +224,16 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
     view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
-    for (const viewport::ViewEvent& event : view_.draw(ui, place, scene_of(now))) {
+    viewport::Scene shown = scene_of(now);
+    const auto beside = scene_beside(now, shown);
+    const auto events =
+        beside ? view_.draw_two(
+                     ui,
+                     place,
+                     {beside->scene, beside->name},
+                     {shown, std::string(project::row_of(project::grid_methods(), now.session.shown).label)})
+               : view_.draw(ui, place, shown);
+    for (const viewport::ViewEvent& event : events) {
         obey(event, now, ask);
     }
     layer_button(ui, now, ask, catalogue_, view_.next_button());

@@ -4,8 +4,9 @@ namespace millwright::viewport {
 
 Layers switched(Layers layers, const LayerSwitch& which) {
     const bool on = !(layers.*which.shown);
-    if (on && (which.shown == &Layers::error_surface || which.shown == &Layers::weight)) {
-        layers.error_surface = layers.weight = false;
+    if (on && (which.shown == &Layers::error_surface || which.shown == &Layers::weight ||
+               which.shown == &Layers::scallops)) {
+        layers.error_surface = layers.weight = layers.scallops = false;
     }
     layers.*which.shown = on;
     return layers;

@@ -104,6 +104,7 @@ Scene scene_of(const project::Project& project, const project::Plan& plan, ViewK
             .start = plan.uniform,
             .watched = nullptr,
             .weight = plan.weight,
+            .cut = plan.cut,
             .now = std::nullopt,
             .selected = {},
             .error = {}};

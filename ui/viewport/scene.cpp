@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace millwright::viewport {
 
@@ -80,7 +81,8 @@ Layers layers_of(ViewKind kind) {
     case ViewKind::toolpath:
         return {.toolpath = true, .tool = true, .trace = true};
     case ViewKind::error:
-        return {.error_path = true, .singular_points = true, .tool = true};
+        return {
+            .error_path = true, .singular_points = true, .gouges = true, .set_up_map = true, .tool = true};
     case ViewKind::machine:
         break;
     }
@@ -105,7 +107,8 @@ bool operator==(const Scene& a, const Scene& b) {
            a.shown == b.shown && a.start == b.start && a.watched == b.watched && a.weight == b.weight &&
            a.opened == b.opened && a.opened_now == b.opened_now && a.plot == b.plot &&
            a.against_light == b.against_light && a.arm == b.arm && same(a.now, b.now) &&
-           a.selected == b.selected && a.error == b.error;
+           a.selected == b.selected && a.error == b.error && a.cut == b.cut &&
+           a.machine_solids == b.machine_solids && a.set_up == b.set_up && a.set_up_place == b.set_up_place;
 }
 
 std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {
@@ -148,6 +151,9 @@ SurfaceColors surface_colors(const Scene& scene) {
     if (scene.layers.weight && scene.weight && scene.workpiece) {
         return SurfaceColors::weight;
     }
+    if (scene.layers.scallops && scene.cut && scene.workpiece) {
+        return SurfaceColors::scallop;
+    }
     return scene.layers.error_surface && scene.shown && scene.workpiece ? SurfaceColors::error
                                                                         : SurfaceColors::plain;
 }
@@ -161,6 +167,27 @@ render::ColorScale weight_colors(const Scene& scene) {
                                                                 : render::ColorMap::viridis,
             .low = weight.low,
             .high = weight.high + above};
+}
+
+render::ColorScale scallop_colors(const Scene& scene, const glm::vec3& over_limit) {
+    expects(scene.cut != nullptr, "there are scallops to be coloured");
+    constexpr double above_most = 1.5;
+    const double top = round_up(std::max(above_most * scene.cut->scallops.p95, finest_scale_mm));
+    return {.map = scene.error.map, .low = 0.0, .high = top, .limit = top, .over_limit = over_limit};
+}
+
+render::ColorScale set_up_colors(const Scene& scene) {
+    expects(scene.set_up && scene.set_up->study, "there is a map to be coloured");
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0.0;
+    for (const double cost : scene.set_up->study->map.costs) {
+        if (std::isfinite(cost)) {
+            low = std::min(low, cost);
+            high = std::max(high, cost);
+        }
+    }
+    low = std::min(low, high);
+    return {.map = render::ColorMap::viridis, .low = low, .high = std::max(high, low + finest_scale_mm)};
 }
 
 render::ColorScale error_colors(const Scene& scene, const glm::vec3& over_limit) {

@@ -4,11 +4,14 @@
 // else w.
 #pragma once
 
+#include "core/geometry/solid.h"
 #include "core/geometry/surface.h"
 #include "core/grid/improver.h"
+#include "core/project/cut_study.h"
 #include "core/project/evaluation.h"
 #include "core/project/opened_program.h"
 #include "core/project/plot_work.h"
+#include "core/project/set_up_work.h"
 #include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
@@ -44,8 +47,11 @@ struct Layers {
     bool tool_axes = false;       ///< a hair along the tool at each path point
     bool error_path = false;      ///< the actual path, coloured by the error of each move
     bool error_surface = false;   ///< the surface, coloured by the errors around each place
+    bool scallops = false;        ///< the surface, coloured by what the cutter leaves on it
     bool weight = false;          ///< the surface, coloured by the weight of the elliptic functional
     bool singular_points = false; ///< of the machine on the surface
+    bool gouges = false;          ///< places where cutter or holder come too deep
+    bool set_up_map = false;      ///< what other places of the part cost, and the one that is marked
     bool machine = false;         ///< its bodies; the scene is then the machine's frame
     bool tool = false;            ///< the tool at `now`
     bool trace = false;           ///< the actual path up to `now`
@@ -106,12 +112,17 @@ struct Scene {
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const project::Workpiece> workpiece;
     std::vector<toolpath::SingularPoint> singular_points;
+    /// Bodies of the workpiece's machine in place of the simple ones; null: it has none.
+    std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids = nullptr;
     std::shared_ptr<const project::Evaluation> shown; ///< grid, path and errors that are drawn
     std::shared_ptr<const project::Evaluation> start; ///< the grid it began with
     std::shared_ptr<const grid::ImproverState>
         watched; ///< an adaptation on its way; drawn in place of the grid
     std::shared_ptr<const project::WeightMap> weight;
-    std::shared_ptr<const project::OpenedProgram> opened = nullptr; ///< in place of everything above
+    std::shared_ptr<const project::CutStudy> cut = nullptr;           ///< of the program
+    std::shared_ptr<const project::SetUpResult> set_up = nullptr;     ///< of the last search
+    toolpath::SetUpPlace set_up_place = toolpath::SetUpPlace::Zero(); ///< that is marked on its map
+    std::shared_ptr<const project::OpenedProgram> opened = nullptr;   ///< in place of everything above
     std::optional<ProgramMoment> opened_now = std::nullopt;
     std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
     bool against_light = false;                                ///< the finished plot as light goes through
@@ -137,12 +148,19 @@ struct Scene {
 [[nodiscard]] render::View path_view(const render::View& view, const Scene& scene);
 
 /// What gives the surface its colours: the topmost of the layers that are on and have their results.
-enum class SurfaceColors { plain, error, weight };
+enum class SurfaceColors { plain, error, scallop, weight };
 [[nodiscard]] SurfaceColors surface_colors(const Scene& scene);
 
 /// The colours of the weight, from its least to its largest value; another map than that of the errors.
 /// Throws Defect without a weight.
 [[nodiscard]] render::ColorScale weight_colors(const Scene& scene);
+
+/// The colours of what is left on the surface: from 0 to a round number that 95 % of it are well below; the
+/// signal colour is higher, or not cut. Throws Defect without a study of the cut.
+[[nodiscard]] render::ColorScale scallop_colors(const Scene& scene, const glm::vec3& over_limit);
+
+/// The colours of the set-up's map, over all places that can be reached. Throws Defect without one.
+[[nodiscard]] render::ColorScale set_up_colors(const Scene& scene);
 
 /// The colours of the errors of `shown`: from 0 to a round number not below twice their mean, unless the
 /// scene says otherwise. `over_limit` comes from the theme.

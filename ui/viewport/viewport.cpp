@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace millwright::viewport {
 
@@ -27,6 +28,11 @@ std::array<ViewPane, 4> make_panes() {
             ViewPane("right", "Right", StandardView::right, Projection::orthographic)};
 }
 
+std::array<ViewPane, 2> make_pair() {
+    return {ViewPane("left", "", StandardView::iso, Projection::perspective),
+            ViewPane("right", "", StandardView::iso, Projection::perspective)};
+}
+
 constexpr std::size_t iso = 1; // the picture that is alone where there is one
 
 /// The quarter of `place` in that row and column.
@@ -41,11 +47,20 @@ Rect quarter(const Rect& place, int row, int column, float space) {
 
 } // namespace
 
+/// What the left one of two scenes is drawn with.
+struct OtherScene {
+    SceneView view;
+    SurfacePicker picker;
+};
+
 struct Viewport::State {
     SceneView view;
     SurfacePicker picker;
     std::array<ViewPane, 4> panes = make_panes();
-    std::size_t active = iso; ///< last worked in
+    std::array<ViewPane, 2> pair = make_pair(); ///< for two scenes
+    bool paired = false;                        ///< in the last frame
+    std::unique_ptr<OtherScene> other;          ///< null before two scenes were drawn
+    std::size_t active = iso;                   ///< last worked in
     Arrangement arrangement = Arrangement::one;
     UnderMouse under_mouse;
     widgets::Point next_button;
@@ -62,6 +77,15 @@ struct Viewport::State {
         return events;
     }
 
+    [[nodiscard]] ViewPane& now() { return paired ? pair[1] : panes[active]; }
+    [[nodiscard]] const ViewPane& now() const { return paired ? pair[1] : panes[active]; }
+
+    /// One of two scenes.
+    std::vector<ViewEvent> draw_of_two(const Frame3D& frame, std::size_t k, const Rect& place) {
+        const auto scope = frame.ui.scope(pair[k].id());
+        return pair[k].draw(frame, place);
+    }
+
     /// Buttons below the axes of the picture at `place`.
     void draw_buttons(widgets::Ui& ui, const Rect& place) {
         ImVec2 at = {place.right() - ui.px(8.0F + 0.5F * (gizmo_size + button_px)),
@@ -71,7 +95,7 @@ struct Viewport::State {
             at.y += ui.px(button_px);
             return ui.icon_button(id, icon, tip, {}, chosen);
         };
-        const bool flat = panes[active].camera().pose().projection == Projection::orthographic;
+        const bool flat = now().camera().pose().projection == Projection::orthographic;
         const bool four = arrangement == Arrangement::four;
         bool changed = false;
         if (button("fit", widgets::icons::fit_view, "Fit everything in the view (F)", false)) {
@@ -82,7 +106,7 @@ struct Viewport::State {
             set_projection(flat ? Projection::perspective : Projection::orthographic);
             changed = true;
         }
-        if (button("four", widgets::icons::grid, "Four views: top, front, right and free", four)) {
+        if (!paired && button("four", widgets::icons::grid, "Four views: top, front, right and free", four)) {
             arrange(four ? Arrangement::one : Arrangement::four);
             changed = true;
         }
@@ -103,10 +127,12 @@ struct Viewport::State {
         for (ViewPane& pane : panes) {
             pane.fit();
         }
+        pair[1].fit();
     }
 
     void set_projection(Projection projection) {
-        panes[active].set_camera(panes[active].camera().with(projection));
+        now().set_camera(now().camera().with(projection));
+        pair[0].set_camera(pair[1].camera());
     }
 };
 
@@ -116,6 +142,9 @@ Viewport::~Viewport() = default;
 
 std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const Scene& scene) {
     State& state = *state_;
+    if (std::exchange(state.paired, false)) {
+        state.fit();
+    }
     state.view.update(scene);
     state.picker.follow(scene.surface);
     state.under_mouse = {};
@@ -144,12 +173,61 @@ std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const 
     return all;
 }
 
+std::vector<ViewEvent>
+Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const Named& right) {
+    State& state = *state_;
+    if (!state.other) {
+        state.other = std::make_unique<OtherScene>();
+    }
+    if (!state.paired) { // turned as before, but narrower
+        state.pair[1].set_camera(state.panes[iso].camera());
+        state.pair[1].fit();
+        state.paired = true;
+    }
+    state.view.update(right.scene);
+    state.picker.follow(right.scene.surface);
+    state.other->view.update(left.scene);
+    state.other->picker.follow(left.scene.surface);
+    state.under_mouse = {};
+    state.dragging = false;
+    state.pair[0].set_caption(left.caption);
+    state.pair[1].set_caption(right.caption);
+    const render::ViewColors colors = render::view_colors(theme_of(ui));
+    const float space = ui.px(gap);
+    const float w = std::floor(0.5F * (place.w - space));
+    const Rect right_place{place.x + w + space, place.y, place.w - w - space, place.h};
+    const Frame3D of_right{
+        .ui = ui, .scene = right.scene, .view = state.view, .picker = state.picker, .colors = colors};
+    std::vector<ViewEvent> events = state.draw_of_two(of_right, 1, right_place);
+    if (state.pair[1].in_use()) {
+        state.under_mouse = state.pair[1].hand().under_mouse();
+    }
+    state.dragging = state.pair[1].hand().drag().has_value();
+    const Frame3D of_left{.ui = ui,
+                          .scene = left.scene,
+                          .view = state.other->view,
+                          .picker = state.other->picker,
+                          .colors = colors,
+                          .details = false};
+    if (!state.pair[0].in_use()) {
+        state.pair[0].set_camera(state.pair[1].camera());
+    }
+    (void)state.draw_of_two(of_left, 0, {place.x, place.y, w, place.h});
+    if (state.pair[0].in_use() && !(state.pair[0].camera().pose() == state.pair[1].camera().pose())) {
+        state.pair[1].set_camera(state.pair[0].camera());
+        ui.change_in(0.0);
+    }
+    state.panes[iso].set_camera(state.pair[1].camera());
+    state.draw_buttons(ui, right_place);
+    return events;
+}
+
 void Viewport::fit() {
     state_->fit();
 }
 
 void Viewport::look_from(StandardView side) {
-    ViewPane& pane = state_->panes[state_->active];
+    ViewPane& pane = state_->now();
     pane.set_camera(pane.camera().seen_from(side));
     pane.fit();
 }
@@ -167,11 +245,11 @@ Arrangement Viewport::arrangement() const {
 }
 
 const render::Camera& Viewport::camera() const {
-    return state_->panes[state_->active].camera();
+    return state_->now().camera();
 }
 
 void Viewport::set_camera(const render::Camera& camera) {
-    state_->panes[state_->active].set_camera(camera);
+    state_->now().set_camera(camera);
 }
 
 const UnderMouse& Viewport::under_mouse() const {

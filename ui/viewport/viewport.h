@@ -14,6 +14,7 @@
 #include "ui/widgets/ui.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace millwright::viewport {
@@ -34,6 +35,16 @@ public:
     /// `front`, `right` and `iso` where there are four pictures.
     [[nodiscard]] std::vector<ViewEvent>
     draw(widgets::Ui& ui, const widgets::Rect& place, const Scene& scene);
+
+    /// A scene with its name over it.
+    struct Named {
+        const Scene& scene;
+        std::string caption;
+    };
+    /// Two scenes side by side, seen by one camera: what turns one turns the other. Events come from the
+    /// right one alone; its handles are recorded within `right`, as is all of the other within `left`.
+    [[nodiscard]] std::vector<ViewEvent>
+    draw_two(widgets::Ui& ui, const widgets::Rect& place, const Named& left, const Named& right);
 
     /// Takes in everything at the next draw().
     void fit();

@@ -1,5 +1,6 @@
 #include "core/kinematics/machine_solids.h"
 
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "tests/support/machines.h"
 
@@ -80,6 +81,33 @@ TEST_P(MachineSolids, LieInsideTheBodiesOfTheirCarrier) {
             ++mesh;
         }
         EXPECT_EQ(mesh, placed.body.meshes.size());
+    }
+}
+
+TEST_P(MachineSolids, AreReadForTheViewFromTheFileThatTheMachineNames) {
+    const std::filesystem::path file = std::string("assets/machines/") + GetParam() + ".json";
+    const MachineModel machine = test::machine(GetParam());
+    const auto read = read_machine_solids(file, machine);
+    ASSERT_NE(read, nullptr);
+    const std::vector<geometry::PlacedBody> made = machine_solids(machine);
+    ASSERT_EQ(read->size(), made.size());
+    for (std::size_t n = 0; n < made.size(); ++n) {
+        EXPECT_EQ((*read)[n].name, made[n].body.name);
+        EXPECT_EQ((*read)[n].meshes.size(), made[n].body.meshes.size());
+        const char carrier = carrier_of((*read)[n]);
+        EXPECT_EQ(made[n].body.name, carrier == '\0' ? "base" : std::string("axis ") + carrier);
+    }
+}
+
+TEST(MachineSolidsFile, NamesNoneOrWhatIsWrongWithIt) {
+    const MachineModel machine = test::machine("ac-table");
+    EXPECT_EQ(read_machine_solids("assets/machines/rotary-tilt-gui.json", machine), nullptr);
+    try { // C and A in a head are no axes of a router
+        (void)read_machine_solids("assets/machines/ca-head.json", test::machine("router-xyz"));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(to_text(error.diagnostic()).find("ca-head.glb"), std::string::npos);
+        EXPECT_NE(to_text(error.diagnostic()).find("no axis carries the body 'axis "), std::string::npos);
     }
 }
 

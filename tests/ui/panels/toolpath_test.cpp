@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <string>
 
 namespace millwright::panels {
@@ -37,6 +38,13 @@ protected:
         }
         person_.click(path + "/" + option);
         person_.wait_idle();
+    }
+
+    /// Folds sections away, or opens those that are folded, so that all of the next ones are in sight.
+    void fold(std::initializer_list<const char*> sections) {
+        for (const char* section : sections) {
+            person_.click(std::string("inspector/") + section);
+        }
     }
 
     [[nodiscard]] const project::Plan& plan() { return person_.workshop().look().plan->plan; }
@@ -103,6 +111,7 @@ TEST_F(ToolpathWorkspace, TheToolIsDrawnAsItIs) {
 }
 
 TEST_F(ToolpathWorkspace, MorePointsAreAddedWhereTheAxesTurnFast) {
+    fold({"error", "tool"});
     const std::size_t before = person_.workshop().look().shown()->toolpath.points.size();
     choose("inspector/sequencing/goal", "error");
     EXPECT_EQ(person_.project().sequencing.goal, toolpath::SequencingGoal::error);
@@ -110,6 +119,92 @@ TEST_F(ToolpathWorkspace, MorePointsAreAddedWhereTheAxesTurnFast) {
     person_.wait_idle();
     EXPECT_GT(person_.workshop().look().shown()->toolpath.points.size(), before);
     person_.keep("toolpath-sequencing");
+}
+
+/// A ball that is too thick for the valleys between the two bells.
+TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
+    person_.workshop().edit("Open the two bells",
+                            [](project::Project& p) {
+                                p.surface = project::project_from_preset("two-bell").surface;
+                                p.machine.file = "router-xyz";
+                                p.grid.method = project::GridMethod::uniform;
+                                p.tool = {
+                                    .cutter = CutterKind::ball, .diameter_mm = 60.0, .length_mm = 100.0};
+                            },
+                            {});
+    person_.workshop().session().shown = project::GridMethod::uniform;
+    person_.wait_idle();
+    ASSERT_TRUE(plan().cut);
+    ASSERT_FALSE(plan().cut->bites.empty());
+    const render::Picture with = person_.picture();
+    person_.click("lower/tabs/gouges");
+    const project::BlockBite& first = plan().cut->bites.front();
+    const std::string row = "lower/gouges/cutter_" + std::to_string(first.block);
+    ASSERT_TRUE(person_.sees(row));
+    person_.click(row);
+    EXPECT_EQ(person_.workshop().look().block(), first.block);
+    person_.keep("toolpath-gouges");
+    person_.workshop().run("view.layer_scallops");
+    person_.frames(3);
+    person_.keep("toolpath-scallops");
+    person_.workshop().run("view.layer_gouges");
+    person_.frames(3);
+    EXPECT_NE(person_.picture(), with);
+}
+
+TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
+    fold({"error", "tool", "setup", "set_up_search"});
+    EXPECT_FALSE(person_.refusal("inspector/set_up_search/set_up_accept").empty());
+    person_.fill_in("inspector/set_up_search/places", "5");
+    person_.workshop().session().set_up.settings.nodes = 6;
+    person_.click("inspector/set_up_search/set_up_search");
+    person_.wait_idle();
+    const auto found = person_.workshop().look().set_up;
+    ASSERT_TRUE(found && found->study);
+    EXPECT_TRUE(person_.sees("inspector/set_up_search/map"));
+    person_.keep("toolpath-set-up");
+    const double before = person_.workshop().look().evaluation(project::GridMethod::uniform)->closest.mean;
+    person_.click("inspector/set_up_search/set_up_accept");
+    person_.wait_idle();
+    EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
+    EXPECT_LT(person_.workshop().look().evaluation(project::GridMethod::uniform)->closest.mean, before);
+    person_.press_key(render::Key::z, true);
+    EXPECT_NE(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
+}
+
+TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
+    fold({"error", "tool", "setup", "set_up_search"});
+    person_.workshop().session().set_up.settings.nodes = 5;
+    person_.workshop().session().set_up.settings.places = 5;
+    person_.click("inspector/set_up_search/set_up_search");
+    person_.wait_idle();
+    const toolpath::SetUpPlace best = person_.workshop().look().set_up_place();
+    const widgets::Rect map = person_.place("inspector/set_up_search/map");
+    person_.click_at({map.x + 0.5F * map.w, map.y + 0.5F * map.h});
+    const toolpath::SetUpPlace marked = person_.workshop().look().set_up_place();
+    EXPECT_NE(marked.head<2>(), best.head<2>());
+    EXPECT_EQ(marked[2], best[2]);
+    person_.click("inspector/set_up_search/set_up_accept");
+    EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(marked.head<3>()));
+}
+
+TEST_F(ToolpathWorkspace, AnyTwoResultsStandBesideEachOtherInTheSameColours) {
+    choose("inspector/error/beside", "uniform");
+    EXPECT_TRUE(person_.sees("view/left/left"));
+    EXPECT_TRUE(person_.sees("view/right/right"));
+    person_.keep("toolpath-beside");
+    person_.click("inspector/error/view_keep_result");
+    ASSERT_TRUE(person_.workshop().session().kept);
+    EXPECT_TRUE(person_.workshop().session().beside.kept);
+    const auto kept = person_.workshop().session().kept->evaluation;
+    person_.workshop().edit(
+        "Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
+    person_.wait_idle();
+    EXPECT_EQ(person_.workshop().session().kept->evaluation, kept);
+    EXPECT_NE(person_.workshop().look().shown(), kept);
+    person_.keep("toolpath-beside-machines");
+    choose("inspector/error/beside", "nothing");
+    EXPECT_FALSE(person_.sees("view/left/left"));
 }
 
 } // namespace

@@ -10,23 +10,6 @@ namespace {
 
 constexpr float brighter = 0.35F; // of the way to white
 
-render::MeshBuffer buffer_of(const geometry::SolidMesh& mesh) {
-    std::vector<render::MeshVertex> vertices;
-    vertices.reserve(mesh.positions.size());
-    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-        vertices.push_back(
-            {.position = render::to_float(mesh.positions[n]), .normal = render::to_float(mesh.normals[n])});
-    }
-    std::vector<std::uint32_t> indices;
-    indices.reserve(3 * mesh.triangles.size());
-    for (const auto& triangle : mesh.triangles) {
-        for (const int corner : triangle) {
-            indices.push_back(static_cast<std::uint32_t>(corner));
-        }
-    }
-    return {vertices, indices};
-}
-
 } // namespace
 
 void ArmBuffers::follow(const std::shared_ptr<const ArmLook>& look) {
@@ -40,10 +23,7 @@ void ArmBuffers::follow(const std::shared_ptr<const ArmLook>& look) {
         const kinematics::ArmPart& carried = look_->file.bodies->parts[n];
         part.moves = carried.carrier != kinematics::ArmCarrier::base;
         part.joint = carried.carrier == kinematics::ArmCarrier::joint ? carried.number : -1;
-        for (const geometry::SolidMesh& mesh : look_->bodies[n].meshes) {
-            part.meshes.push_back(buffer_of(mesh));
-            part.colors.push_back(render::to_float(mesh.color));
-        }
+        part.meshes = buffers_of(look_->bodies[n]);
         parts_.push_back(std::move(part));
     }
 }
@@ -62,11 +42,11 @@ void ArmBuffers::draw(const Canvas& canvas,
         }
         const bool bright = tint.bright_joint >= 0 && parts_[n].joint == tint.bright_joint;
         for (std::size_t m = 0; m < parts_[n].meshes.size(); ++m) {
-            glm::vec3 color = tint.color.value_or(parts_[n].colors[m]);
+            glm::vec3 color = tint.color.value_or(parts_[n].meshes[m].color);
             if (bright) {
                 color = glm::mix(color, canvas.colors.accent, brighter);
             }
-            canvas.painter.mesh(parts_[n].meshes[m],
+            canvas.painter.mesh(parts_[n].meshes[m].mesh,
                                 {.coloring = {.color = with_opacity(color, tint.opacity)},
                                  .model = glm::mat4(render::to_glm(places[n])),
                                  .back_color = {},

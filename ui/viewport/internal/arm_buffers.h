@@ -3,6 +3,7 @@
 
 #include "ui/viewport/arm_scene.h"
 #include "ui/viewport/internal/layer.h"
+#include "ui/viewport/internal/solid_buffers.h"
 
 #include <memory>
 #include <optional>
@@ -27,8 +28,7 @@ public:
 
 private:
     struct Part {
-        std::vector<render::MeshBuffer> meshes;
-        std::vector<glm::vec3> colors;
+        std::vector<ColoredMesh> meshes;
         int joint = -1;
         bool moves = true;
     };

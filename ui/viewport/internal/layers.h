@@ -17,7 +17,10 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_toolpath_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_error_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_weight_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_scallop_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_singular_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_gouge_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_set_up_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_control_net_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_simulation_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_program_layer();

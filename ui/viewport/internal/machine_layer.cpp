@@ -1,12 +1,19 @@
-// The machine: simple bodies, each carried by its axis. The scene's frame is then the machine's.
+// The machine: the bodies of its glb file, else the simple ones of its machine file, each carried by its
+// axis. The scene's frame is then the machine's.
 
 #include "core/base/numbers.h"
+#include "core/kinematics/forward.h"
+#include "core/kinematics/machine_solids.h"
 #include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
+#include "ui/viewport/internal/solid_buffers.h"
 #include "ui/viewport/internal/solids.h"
 #include "ui/viewport/machine_bodies.h"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 namespace millwright::viewport {
 
@@ -41,16 +48,38 @@ Solid solid_of(const kinematics::MachineBody& body) {
     return box_solid(render::to_float(Vec3(box.min())), render::to_float(Vec3(box.max())));
 }
 
+/// While another machine is being derived, bodies and machine can be of two.
+bool fit(const kinematics::MachineModel& machine, const std::vector<geometry::SolidBody>& solids) {
+    return std::ranges::all_of(solids, [&](const geometry::SolidBody& body) {
+        const char carrier = kinematics::carrier_of(body);
+        return carrier == '\0' ||
+               std::ranges::any_of(machine.axes(), [&](const kinematics::MachineAxis& axis) {
+                   return axis.letter == carrier;
+               });
+    });
+}
+
 class MachineLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
         const auto machine = machine_of(scene);
         const double height = height_of_tool(scene);
-        if (!scene.layers.machine || (machine == machine_ && exactly_equal(height, height_of_tool_))) {
+        const bool own =
+            !scene.opened && scene.machine_solids && machine && fit(*machine, *scene.machine_solids);
+        const auto solids = own ? scene.machine_solids : nullptr;
+        if (!scene.layers.machine ||
+            (machine == machine_ && solids == solids_ && exactly_equal(height, height_of_tool_))) {
             return;
         }
         machine_ = machine;
         height_of_tool_ = height;
+        if (solids != solids_) {
+            solids_ = solids;
+            meshes_.clear();
+            for (std::size_t n = 0; solids_ && n < solids_->size(); ++n) {
+                meshes_.push_back(buffers_of((*solids_)[n]));
+            }
+        }
         bodies_.clear();
         if (machine_) {
             for (const kinematics::MachineBody& body : machine_->description().bodies) {
@@ -64,11 +93,17 @@ public:
         if (!scene.layers.machine || !machine_) {
             return;
         }
-        const std::vector<Frame> poses = body_poses(*machine_, axes_now(scene));
+        const kinematics::AxisPositions axes = axes_now(scene);
+        const std::vector<Frame> poses = body_poses(*machine_, axes);
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
             const kinematics::MachineBody& body = machine_->description().bodies[k];
-            bodies_[k].draw(
-                canvas, glm::mat4(render::to_glm(poses[k])), color_of(*machine_, body, canvas.colors));
+            if (!solids_ || is_cutter(*machine_, body)) {
+                bodies_[k].draw(
+                    canvas, glm::mat4(render::to_glm(poses[k])), color_of(*machine_, body, canvas.colors));
+            }
+        }
+        if (solids_) {
+            draw_solids(canvas, axes);
         }
     }
 
@@ -96,9 +131,43 @@ private:
         return body.carried_by == '\0' ? colors.machine : colors.machine_moving;
     }
 
+    /// But the cutter, which is drawn as long as the project's tool leaves it.
+    void draw_solids(const Canvas& canvas, const kinematics::AxisPositions& axes) const {
+        for (std::size_t n = 0; n < meshes_.size(); ++n) {
+            const char carrier = kinematics::carrier_of((*solids_)[n]);
+            const glm::mat4 model(render::to_glm(kinematics::carrier_motion(*machine_, axes, carrier)));
+            const std::optional<std::size_t> cutter = cutter_among(carrier);
+            for (std::size_t m = 0; m < meshes_[n].size(); ++m) {
+                if (m != cutter) {
+                    const auto& [mesh, color] = meshes_[n][m];
+                    canvas.painter.mesh(
+                        mesh,
+                        {.coloring = {.color = with_opacity(color, 1.0F)}, .model = model, .back_color = {}},
+                        canvas.view);
+                }
+            }
+        }
+    }
+
+    /// Which of the bodies of a carrier is the cutter.
+    [[nodiscard]] std::optional<std::size_t> cutter_among(char carrier) const {
+        std::size_t n = 0;
+        for (const kinematics::MachineBody& body : machine_->description().bodies) {
+            if (body.carried_by == carrier) {
+                if (is_cutter(*machine_, body)) {
+                    return n;
+                }
+                ++n;
+            }
+        }
+        return std::nullopt;
+    }
+
     std::shared_ptr<const kinematics::MachineModel> machine_;
+    std::shared_ptr<const std::vector<geometry::SolidBody>> solids_;
     double height_of_tool_ = 0.0;
     std::vector<SolidBuffers> bodies_;
+    std::vector<std::vector<ColoredMesh>> meshes_; // of `solids_`
 };
 
 } // namespace

@@ -130,6 +130,21 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "The largest distance of the tool's true way from the surface, move by move.",
                          error_colors(scene, colors.over_limit)});
     }
+    if (surface == SurfaceColors::scallop) {
+        found.push_back(
+            {"scallop_legend",
+             "Left",
+             "mm",
+             "The height of what the cutter leaves; the signal colour is higher, or not cut at all.",
+             scallop_colors(scene, colors.over_limit)});
+    }
+    if (scene.layers.set_up_map && scene.set_up && scene.set_up->study) {
+        found.push_back({"set_up_legend",
+                         "Set-up",
+                         "mm",
+                         "What the path costs with the part there: its mean error, or the machine's travel.",
+                         set_up_colors(scene)});
+    }
     if (surface == SurfaceColors::weight) {
         found.push_back({"weight_legend",
                          "Weight",

@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::viewport {
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] const std::string& id() const { return id_; }
     [[nodiscard]] const render::Camera& camera() const { return cameras_[at_].camera; }
     void set_camera(const render::Camera& camera);
+    void set_caption(std::string caption) { caption_ = std::move(caption); }
     /// Takes in everything at the next draw().
     void fit() { cameras_[at_].fitted = false; }
 

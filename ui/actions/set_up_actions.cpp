@@ -1,0 +1,54 @@
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace icons = widgets::icons;
+
+namespace {
+
+using widgets::Permission;
+
+Permission can_search(const Workbench& now) {
+    if (!now.plan || !now.plan->plan.workpiece || !now.failure().empty()) {
+        return Permission::refused("The part has no path yet. " + now.failure());
+    }
+    return {};
+}
+
+Permission can_accept(const Workbench& now) {
+    if (!now.set_up || !now.set_up->study) {
+        return Permission::refused("No place has been searched for.");
+    }
+    return project::same_but_for_place(now.set_up->project, now.project)
+               ? Permission{}
+               : Permission::refused(
+                     "Part, machine or tracks are others than those that the place was searched for.");
+}
+
+} // namespace
+
+void add_set_up_actions(Actions& actions) {
+    add(actions,
+        {"set_up.search",
+         "Grid",
+         "Search the best place on the table",
+         "Looks in the background for the place of the part with the least error or travel, and maps what "
+         "the "
+         "places around it cost.",
+         "",
+         icons::search},
+        can_search,
+        [](Hands& hands) { hands.workshop.search_set_up(); });
+    add(actions,
+        {"set_up.accept",
+         "Grid",
+         "Accept the place on the table",
+         "Puts the part where the map is marked: at the best place, or where the map was clicked.",
+         "",
+         icons::check},
+        can_accept,
+        [](Hands& hands) { hands.workshop.accept_set_up(); });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,86 @@
+#include "ui/panels/beside.h"
+
+#include "core/project/settings.h"
+#include "ui/panels/internal/fields.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::Beside;
+using project::GridMethod;
+
+struct Choice {
+    Beside beside;
+    widgets::Option option;
+};
+
+std::vector<Choice> choices_of(const Workbench& now) {
+    std::vector<Choice> choices{{{}, {"nothing", "Nothing", {}, "One view of the shown result", {}}}};
+    for (const GridMethod method : project::every_grid_method) {
+        if (now.evaluation(method)) {
+            const auto& row = project::row_of(project::grid_methods(), method);
+            choices.push_back({{method, false}, {row.id, row.label, {}, row.tip, {}}});
+        }
+    }
+    if (now.session.kept) {
+        choices.push_back({{{}, true}, {"kept", now.session.kept->name, {}, "The result that was kept", {}}});
+    }
+    return choices;
+}
+
+} // namespace
+
+void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+    const std::vector<Choice> choices = choices_of(now);
+    std::vector<widgets::Option> options;
+    int index = 0;
+    for (std::size_t n = 0; n < choices.size(); ++n) {
+        options.push_back(choices[n].option);
+        index = choices[n].beside == now.session.beside ? static_cast<int>(n) : index;
+    }
+    if (const auto chosen = ui.choice(
+            "beside", "Beside it", index, options, "Another result at the left, in the same colours")) {
+        ask.show([beside = choices[static_cast<std::size_t>(*chosen)].beside](actions::Session& session) {
+            session.beside = beside;
+        });
+    }
+    action_button(ui, now, ask, catalogue, "view.keep_result");
+}
+
+std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown) {
+    const Beside& beside = now.session.beside;
+    if (now.session.workspace != actions::Workspace::toolpath || !beside.any() || !shown.shown) {
+        return std::nullopt;
+    }
+    NamedScene other{shown, {}};
+    other.scene.now.reset();
+    if (beside.kept) {
+        const auto& kept = now.session.kept;
+        other.name = kept->name;
+        other.scene.surface = kept->surface;
+        other.scene.workpiece = kept->workpiece;
+        other.scene.shown = kept->evaluation;
+        other.scene.cut = kept->cut;
+        other.scene.set_up = nullptr;
+        other.scene.singular_points = kept->singular_points;
+    } else {
+        other.name = std::string(project::row_of(project::grid_methods(), *beside.method).label);
+        other.scene.shown = now.evaluation(*beside.method);
+        if (*beside.method != now.project.grid.method) {
+            other.scene.cut = nullptr;
+        }
+    }
+    if (!other.scene.shown) {
+        return std::nullopt;
+    }
+    const double high =
+        std::max(viewport::error_colors(shown, {}).high, viewport::error_colors(other.scene, {}).high);
+    shown.error.high = other.scene.error.high = high;
+    return other;
+}
+
+} // namespace millwright::panels

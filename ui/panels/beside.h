@@ -1,0 +1,25 @@
+// Two results beside each other: which one is the other, and its scene.
+#pragma once
+
+#include "ui/panels/panel.h"
+#include "ui/viewport/scene.h"
+
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+/// The choice of what stands beside the shown result, and the button that keeps one.
+void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue);
+
+/// A result under its name.
+struct NamedScene {
+    viewport::Scene scene;
+    std::string name;
+};
+
+/// What stands beside `shown`, in the Toolpath workspace alone; nothing where there is none, or not yet. Both
+/// get the same colours for the same error.
+[[nodiscard]] std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown);
+
+} // namespace millwright::panels

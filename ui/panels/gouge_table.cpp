@@ -1,0 +1,71 @@
+#include "ui/panels/gouge_table.h"
+
+#include "core/base/text.h"
+#include "core/project/cut_study.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/table.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::BlockBite;
+
+constexpr std::array<widgets::Column, 6> columns{{{"Line", "", 0.8F, true},
+                                                  {"Body", "", 1.0F, false},
+                                                  {"too deep by", "mm", 1.0F, true},
+                                                  {"x", "mm", 1.0F, true},
+                                                  {"y", "mm", 1.0F, true},
+                                                  {"z", "mm", 1.0F, true}}};
+
+std::string cell_of(const BlockBite& bite, int column) {
+    switch (column) {
+    case 0:
+        return fmt::format("{}", bite.line);
+    case 1:
+        return bite.by_holder ? "holder" : "cutter";
+    case 2:
+        return length_text(bite.bite.depth);
+    default:
+        return fixed(bite.bite.position[column - 3], 3);
+    }
+}
+
+} // namespace
+
+void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.project.tool.cutter == toolpath::CutterKind::point) {
+        ui.note("The tool is a point, which fits everywhere. Toolpath > Tool chooses a cutter.");
+        return;
+    }
+    const auto cut = now.plan ? now.plan->plan.cut : nullptr;
+    if (!cut) {
+        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        return;
+    }
+    widgets::TableView view;
+    view.columns = columns;
+    view.rows = std::ssize(cut->bites);
+    view.cell = [&](std::ptrdiff_t row, int column) {
+        return cell_of(cut->bites[static_cast<std::size_t>(row)], column);
+    };
+    view.row_id = [&](std::ptrdiff_t row) {
+        const BlockBite& bite = cut->bites[static_cast<std::size_t>(row)];
+        return fmt::format("{}_{}", bite.by_holder ? "holder" : "cutter", bite.block);
+    };
+    view.when_empty = "No block brings the cutter deeper than the gouge limit, or the holder into the part.";
+    const auto trajectory = now.trajectory();
+    if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.job.running) {
+        const int block = cut->bites[static_cast<std::size_t>(*row)].block;
+        ask.show([time = trajectory->start_of(block)](actions::Session& session) {
+            session.playback.playing = false;
+            session.playback.time = time;
+        });
+    }
+}
+
+} // namespace millwright::panels

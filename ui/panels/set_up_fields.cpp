@@ -1,0 +1,226 @@
+#include "ui/panels/set_up_fields.h"
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/viewport/map_picture.h"
+#include "ui/widgets/heat_map.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::SetUpStudySettings;
+using toolpath::SetUpGoal;
+using toolpath::SetUpParameter;
+
+constexpr std::array<widgets::Option, 2> goals{
+    {{"error", "Error", "", "Mean distance of the true tip from the surface curve"},
+     {"travel", "Travel", "", "Way of the linear axes over the whole path"}}};
+constexpr std::array<widgets::Option, 4> parameters{
+    {{"a", "a", "", "Across the table"},
+     {"b", "b", "", "Along the table"},
+     {"c", "c", "", "Above the table"},
+     {"turn", "turn", "", "About the vertical, before it is placed"}}};
+
+/// Another one where both would be the same: a map has two.
+SetUpParameter other_than(SetUpParameter taken, SetUpParameter wanted) {
+    if (taken != wanted) {
+        return wanted;
+    }
+    return taken == SetUpParameter::a ? SetUpParameter::b : SetUpParameter::a;
+}
+
+template <class Value>
+void choose(Ui& ui,
+            ActionQueue& ask,
+            std::string_view id,
+            std::string_view label,
+            Value now,
+            std::span<const widgets::Option> options,
+            void (*set)(SetUpStudySettings&, Value)) {
+    if (const auto chosen = ui.choice(id, label, static_cast<int>(now), options)) {
+        ask.show([set, value = static_cast<Value>(*chosen)](actions::Session& session) {
+            set(session.set_up.settings, value);
+        });
+    }
+}
+
+void number(Ui& ui,
+            ActionQueue& ask,
+            double now,
+            const widgets::FieldInfo& info,
+            void (*set)(SetUpStudySettings&, double)) {
+    if (const auto value = ui.number(now, info)) {
+        ask.show([set, v = *value](actions::Session& session) { set(session.set_up.settings, v); });
+    }
+}
+
+void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const SetUpStudySettings& set = now.session.set_up.settings;
+    choose<SetUpGoal>(
+        ui, ask, "goal", "Least", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
+    choose<SetUpParameter>(
+        ui, ask, "across", "Map across", set.across, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
+            s.across = p;
+            s.up = other_than(p, s.up);
+        });
+    choose<SetUpParameter>(
+        ui, ask, "up", "Map up", set.up, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
+            s.up = p;
+            s.across = other_than(p, s.across);
+        });
+    number(ui,
+           ask,
+           set.reach,
+           {"reach",
+            "Shift a, b",
+            "mm",
+            "How far from the middle of the table, both ways",
+            1.0,
+            1000.0,
+            60.0,
+            1},
+           [](SetUpStudySettings& s, double v) { s.reach = v; });
+    number(ui,
+           ask,
+           set.height_reach,
+           {"height_reach",
+            "Shift c",
+            "mm",
+            "How far from the machine's own height, both ways",
+            1.0,
+            1000.0,
+            80.0,
+            1},
+           [](SetUpStudySettings& s, double v) { s.height_reach = v; });
+    number(ui,
+           ask,
+           to_degrees(set.turn_reach),
+           {"turn_reach",
+            "Turn",
+            "deg",
+            "How far the part may be turned, both ways; 0: not at all",
+            0.0,
+            180.0,
+            0.0,
+            1},
+           [](SetUpStudySettings& s, double v) { s.turn_reach = from_degrees(v); });
+    constexpr double most_places = 101.0;
+    number(ui,
+           ask,
+           set.places,
+           {"places", "Places each way", "", "Of the map", 2.0, most_places, 21.0, 0},
+           [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
+}
+
+std::vector<double> for_people(SetUpParameter parameter, const std::vector<double>& values) {
+    std::vector<double> result;
+    for (const double value : values) {
+        result.push_back(project::for_people(parameter, value));
+    }
+    return result;
+}
+
+double of(const toolpath::SetUpPlace& place, SetUpParameter parameter) {
+    return place[static_cast<Eigen::Index>(parameter)];
+}
+
+void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
+    const toolpath::SetUpMap& map = found.study->map;
+    const auto x = for_people(map.across, map.x);
+    const auto y = for_people(map.up, map.y);
+    const auto shown = [&](const toolpath::SetUpPlace& place) {
+        return widgets::MapPlace{project::for_people(map.across, of(place, map.across)),
+                                 project::for_people(map.up, of(place, map.up))};
+    };
+    widgets::HeatMapView view;
+    view.title = found.settings.goal == SetUpGoal::error ? "mean error" : "travel";
+    view.x_label = project::name(map.across);
+    view.x_unit = project::unit(map.across);
+    view.y_label = project::name(map.up);
+    view.y_unit = project::unit(map.up);
+    view.unit = "mm";
+    view.x = x;
+    view.y = y;
+    view.values = map.costs;
+    view.colours = viewport::map_colours();
+    view.best = shown(found.study->search.best.place);
+    view.chosen = shown(now.set_up_place());
+    view.height = ui.px(240.0F);
+    if (const auto clicked = widgets::heat_map(ui, "map", view)) {
+        ask.show([clicked = *clicked,
+                  map_across = map.across,
+                  map_up = map.up,
+                  best = found.study->search.best.place](actions::Session& session) {
+            toolpath::SetUpPlace place = best;
+            const auto of_people = [](SetUpParameter parameter, double value) {
+                return parameter == SetUpParameter::turn ? from_degrees(value) : value;
+            };
+            place[static_cast<Eigen::Index>(map_across)] = of_people(map_across, clicked.x);
+            place[static_cast<Eigen::Index>(map_up)] = of_people(map_up, clicked.y);
+            session.set_up.place = place;
+        });
+    }
+}
+
+std::string cost_text(double cost) {
+    return std::isfinite(cost) ? length_text(cost) : std::string("out of reach");
+}
+
+void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
+    if (found.failure) {
+        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, found.failure->message + ".", {}});
+        return;
+    }
+    map_field(ui, now, ask, found);
+    const toolpath::SetUpSearch& search = found.study->search;
+    ui.value("start", "Where it stood", cost_text(search.start.cost), "mm");
+    ui.value("best",
+             "At the best place",
+             cost_text(search.best.cost) +
+                 (std::isfinite(search.start.cost)
+                      ? "  (" + change_text(search.start.cost, search.best.cost) + ")"
+                      : std::string()),
+             "mm");
+    const toolpath::SetUpPlace place = now.set_up_place();
+    ui.value("place",
+             "Marked a, b, c",
+             fmt::format("{}, {}, {}", fixed(place[0], 1), fixed(place[1], 1), fixed(place[2], 1)),
+             "mm");
+    if (found.settings.turn_reach > 0.0 || std::abs(place[3]) > 0.0) {
+        ui.value("place_turn", "Marked turn", fixed(to_degrees(place[3]), 1), "deg");
+    }
+}
+
+} // namespace
+
+void set_up_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+    const auto section = ui.section("set_up_search", "Best place on the table", false);
+    if (!section) {
+        return;
+    }
+    setting_fields(ui, now, ask);
+    {
+        const auto row = ui.row(2);
+        action_button(ui, now, ask, catalogue, "set_up.search", widgets::Rank::normal, "Search");
+        action_button(ui, now, ask, catalogue, "set_up.accept", widgets::Rank::primary, "Accept");
+    }
+    if (now.set_up) {
+        result_fields(ui, now, ask, *now.set_up);
+    } else {
+        ui.note("Searches the place of the part where its error or the machine's travel is least.");
+    }
+}
+
+} // namespace millwright::panels
