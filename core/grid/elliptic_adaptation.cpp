@@ -166,6 +166,14 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
     at_.state.note = warning_ + "Start: " + mean_sentence(at_.state.start);
 }
 
+EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
+                                       const Grid& start,
+                                       const EllipticAdaptationSettings& settings,
+                                       WeightOfError weight_of_error)
+    : EllipticAdaptation(model, start, settings) {
+    weight_of_error_ = std::move(weight_of_error);
+}
+
 bool EllipticAdaptation::advance(const Progress& progress) {
     if (at_.state.status != ImproverStatus::running) {
         return false;
@@ -198,6 +206,9 @@ WeightPtr EllipticAdaptation::error_weight(Position& at) const {
         }
     }
     at.density = weight_on(at.round_start, density);
+    if (weight_of_error_) {
+        return weight_of_error_(at.density);
+    }
     return weight_on(
         at.round_start,
         scaled_weight(std::move(density), at.round_start.nu(), at.round_start.nv(), settings_.error_weight));

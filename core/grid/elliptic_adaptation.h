@@ -9,19 +9,12 @@
 #include "core/grid/improver.h"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace millwright::grid {
-
-/// Who moves the nodes.
-enum class EllipticMethod {
-    minimiser, ///< DiscreteMinimiser: never folds, converges with strong weights
-    multigrid, ///< MultigridThenMinimiser: the fast one, for many nodes
-    reference, ///< JacobiNewton: the thesis's iteration
-    harmonic, ///< DiscreteMinimiser on the energy of a harmonic map, whose metric the weight is: no LV, no LO
-};
 
 struct EllipticAdaptationSettings {
     TrackDirection direction = TrackDirection::along_v;
@@ -41,6 +34,10 @@ struct EllipticAdaptationSettings {
 
     friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
 };
+
+/// A weight from the error density of a round's grid (in solver coordinates; on a uniform grid it is the
+/// error in mm). Throws Error where it has none.
+using WeightOfError = std::function<WeightPtr(const WeightPtr& error_density)>;
 
 /// What an adaptation of nu x nv nodes takes at most, bytes: to be told before it begins.
 [[nodiscard]] std::size_t memory_bytes(EllipticMethod method, int nu, int nv);
@@ -64,6 +61,12 @@ public:
                        const Grid& start,
                        const EllipticAdaptationSettings& settings,
                        WeightPtr weight = nullptr);
+
+    /// The same to what `weight_of_error` makes of the error of each round.
+    EllipticAdaptation(const ErrorModel& model,
+                       const Grid& start,
+                       const EllipticAdaptationSettings& settings,
+                       WeightOfError weight_of_error);
 
     /// Also throws Error if the weight does.
     bool advance(const Progress& progress) override;
@@ -107,7 +110,8 @@ private:
 
     const ErrorModel& model_;
     EllipticAdaptationSettings settings_;
-    WeightPtr weight_;    ///< null: from the error
+    WeightPtr weight_; ///< null: from the error
+    WeightOfError weight_of_error_;
     std::string warning_; ///< about the weight
     Grid start_;
     Position at_;

@@ -44,13 +44,13 @@ NodeStencil stencil(const NodeArray& nodes, std::span<const double> w, int i, in
     return s;
 }
 
-Differences differences(const NodeStencil& s, const IndexSpacing& h) {
+Differences differences(const NodeStencil& s, const IndexDensity& n) {
     const auto& p = s.p;
-    const Vec2 xi = (p[2][1] - p[0][1]) / (2.0 * h.xi);
-    const Vec2 eta = (p[1][2] - p[1][0]) / (2.0 * h.eta);
-    const Vec2 xixi = (p[2][1] - 2.0 * p[1][1] + p[0][1]) / (h.xi * h.xi);
-    const Vec2 etaeta = (p[1][2] - 2.0 * p[1][1] + p[1][0]) / (h.eta * h.eta);
-    const Vec2 xieta = (p[2][2] + p[0][0] - p[2][0] - p[0][2]) / (4.0 * h.xi * h.eta);
+    const Vec2 xi = (p[2][1] - p[0][1]) * (0.5 * n.xi);
+    const Vec2 eta = (p[1][2] - p[1][0]) * (0.5 * n.eta);
+    const Vec2 xixi = (p[2][1] - 2.0 * p[1][1] + p[0][1]) * (n.xi * n.xi);
+    const Vec2 etaeta = (p[1][2] - 2.0 * p[1][1] + p[1][0]) * (n.eta * n.eta);
+    const Vec2 xieta = (p[2][2] + p[0][0] - p[2][0] - p[0][2]) * (0.25 * n.xi * n.eta);
     const double J = xi.x() * eta.y() - eta.x() * xi.y();
     return {xi.x(),
             eta.x(),
@@ -134,12 +134,12 @@ Coefficients combined(const Differences& d, double w, const FunctionalWeights& l
             .c3 = s.c3 + V * v.c3 + O * o.c3};
 }
 
-Slope chain_rule_slope(const NodeStencil& s, const IndexSpacing& h, const Differences& d) {
+Slope chain_rule_slope(const NodeStencil& s, const IndexDensity& n, const Differences& d) {
     if (std::abs(d.J) < vanishing_jacobian) {
         return {};
     }
-    const double w_xi = (s.w_after - s.w_before) / (2.0 * h.xi);
-    const double w_eta = (s.w_above - s.w_below) / (2.0 * h.eta);
+    const double w_xi = (s.w_after - s.w_before) * (0.5 * n.xi);
+    const double w_eta = (s.w_above - s.w_below) * (0.5 * n.eta);
     return {.w_x = (w_xi * d.y_eta - w_eta * d.y_xi) / d.J, .w_y = (d.x_xi * w_eta - d.x_eta * w_xi) / d.J};
 }
 
@@ -158,19 +158,19 @@ NodeEquations equations_of(const Differences& d,
                            double w,
                            const Slope& slope,
                            const FunctionalWeights& lambda,
-                           const IndexSpacing& h) {
+                           const IndexDensity& n) {
     const auto [a1, a2, a3, b1, b2, b3, c1, c2, c3] = combined(d, w, lambda);
     const double LV = lambda.adaptation;
-    const double xi = h.xi * h.xi;
-    const double eta = h.eta * h.eta;
+    const double xi = n.xi * n.xi;
+    const double eta = n.eta * n.eta;
     NodeEquations e;
     e.R_X = b1 * d.x_xixi + b2 * d.x_xieta + b3 * d.x_etaeta + a1 * d.y_xixi + a2 * d.y_xieta +
             a3 * d.y_etaeta + LV * d.J * d.J * slope.w_x;
     e.R_Y = a1 * d.x_xixi + a2 * d.x_xieta + a3 * d.x_etaeta + c1 * d.y_xixi + c2 * d.y_xieta +
             c3 * d.y_etaeta + LV * d.J * d.J * slope.w_y;
-    e.R_XX = -2.0 * (b1 / xi + b3 / eta);
-    e.R_XY = -2.0 * (a1 / xi + a3 / eta);
-    e.R_YY = -2.0 * (c1 / xi + c3 / eta);
+    e.R_XX = -2.0 * (b1 * xi + b3 * eta);
+    e.R_XY = -2.0 * (a1 * xi + a3 * eta);
+    e.R_YY = -2.0 * (c1 * xi + c3 * eta);
     e.J = d.J;
     return e;
 }
@@ -178,9 +178,9 @@ NodeEquations equations_of(const Differences& d,
 } // namespace
 
 NodeEquations
-node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexSpacing& spacing) {
-    const Differences d = differences(at, spacing);
-    return equations_of(d, at.w, chain_rule_slope(at, spacing, d), lambda, spacing);
+node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexDensity& density) {
+    const Differences d = differences(at, density);
+    return equations_of(d, at.w, chain_rule_slope(at, density, d), lambda, density);
 }
 
 NodeEquations

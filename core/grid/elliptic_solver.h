@@ -1,6 +1,7 @@
 // What every solver of the elliptic grid functional has in common: it moves nodes, one iteration at a time,
 // and says honestly how it ended. JacobiNewton (jacobi_newton.h) is the reference iteration of the thesis,
-// DiscreteMinimiser (discrete_minimiser.h) the robust one that cannot fold a cell.
+// Multigrid (multigrid.h) the fast one, DiscreteMinimiser (discrete_minimiser.h) the robust one that cannot
+// fold a cell.
 #pragma once
 
 #include "core/grid/elliptic_equations.h"
@@ -24,6 +25,14 @@ enum class SolverStatus {
     folded,          ///< a Jacobian, a cell or a corner of one is not positive
     not_finite,      ///< a number left the finite range
     singular,        ///< a node's 2 x 2 system has no solution; that node was kept where it was
+};
+
+/// Who moves the nodes.
+enum class EllipticMethod {
+    minimiser, ///< DiscreteMinimiser: never folds, converges with strong weights
+    multigrid, ///< MultigridThenMinimiser: the fast one, for many nodes
+    reference, ///< JacobiNewton: the thesis's iteration
+    harmonic, ///< DiscreteMinimiser on the energy of a harmonic map, whose metric the weight is: no LV, no LO
 };
 
 struct EllipticSettings {

@@ -23,9 +23,9 @@ int coarser(int nodes) {
     return nodes >= fewest_halved ? nodes / 2 + 1 : nodes;
 }
 
-IndexSpacing coarser(const MultigridLevel& level, int rows, int columns) {
-    return {level.spacing().xi * (level.rows() - 1) / (rows - 1),
-            level.spacing().eta * (level.columns() - 1) / (columns - 1)};
+IndexDensity coarser(const MultigridLevel& level, int rows, int columns) {
+    return {level.density().xi * (rows - 1) / (level.rows() - 1),
+            level.density().eta * (columns - 1) / (level.columns() - 1)};
 }
 
 double largest(const NodeArray& residual) {
@@ -48,10 +48,10 @@ void transfer_nodes(const ArrayMap& map, const NodeArray& from, NodeArray& to) {
 
 LevelStack::LevelStack(NodeArray start,
                        WeightPtr weight,
-                       const IndexSpacing& spacing,
+                       const IndexDensity& density,
                        const LevelRules& rules)
     : rules_(rules), weight_(std::move(weight)) {
-    levels_.emplace_back(start.rows, start.columns, spacing, rules, weight_);
+    levels_.emplace_back(start.rows, start.columns, density, rules, weight_);
     levels_.front().nodes = std::move(start);
     for (;;) {
         const MultigridLevel& fine = levels_.back();
@@ -87,7 +87,7 @@ void LevelStack::come_up() {
     const MultigridLevel& coarse = levels_[1];
     NodeArray start(coarse.rows(), coarse.columns());
     transfer_nodes(sample_[0], nodes(), start);
-    LevelStack below(start, weight_, coarse.spacing(), rules_);
+    LevelStack below(start, weight_, coarse.density(), rules_);
     if (!below.sound()) {
         return;
     }

@@ -34,7 +34,7 @@ Multigrid::Multigrid(NodeArray start, WeightPtr weight, const EllipticSettings& 
             "nodes slide only along the sides of a rectangle parallel to the axes");
     levels_ = std::make_unique<LevelStack>(std::move(start),
                                            std::move(weight),
-                                           IndexSpacing{},
+                                           IndexDensity{},
                                            LevelRules{settings.functional, settings.boundary});
 }
 
@@ -108,6 +108,10 @@ SolverStatus Multigrid::one_cycle() {
 
 /// Goes on from the combination of the last cycles where that is sound and its residuals are smaller.
 void Multigrid::recombine() {
+    if (past_->empty()) {
+        past_->remember(levels_->nodes(), levels_->residuals());
+        return;
+    }
     const NodeArray found = levels_->nodes();
     const double before = squared(levels_->residuals());
     levels_->nodes() = past_->best(found, levels_->residuals());

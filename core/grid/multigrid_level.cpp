@@ -1,6 +1,7 @@
 #include "core/grid/internal/multigrid_level.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/grid/internal/node_step.h"
 #include "core/grid/internal/outline.h"
 #include "core/grid/internal/rows.h"
@@ -56,8 +57,8 @@ Vec2 slope_of_weight(const NodeStencil& s) {
 } // namespace
 
 MultigridLevel::MultigridLevel(
-    int rows, int columns, const IndexSpacing& spacing, const LevelRules& rules, WeightPtr weight)
-    : nodes(rows, columns), w(nodes.nodes.size()), spacing_(spacing), rules_(rules),
+    int rows, int columns, const IndexDensity& density, const LevelRules& rules, WeightPtr weight)
+    : nodes(rows, columns), w(nodes.nodes.size()), density_(density), rules_(rules),
       weight_(std::move(weight)) {
     expects(rows >= 3 && columns >= 3, "a level has at least 3 x 3 nodes");
     if (weight_ == nullptr) {
@@ -128,7 +129,7 @@ NodeStencil MultigridLevel::stencil(int i, int j) const {
 }
 
 NodeEquations MultigridLevel::equations(int i, int j) const {
-    NodeEquations e = node_equations(stencil(i, j), rules_.functional, spacing_);
+    NodeEquations e = node_equations(stencil(i, j), rules_.functional, density_);
     if (!right_side.nodes.empty()) {
         const Vec2& f = right_side.at(i, j);
         e.R_X -= f.x();
@@ -143,10 +144,10 @@ void MultigridLevel::smooth_node(int i, int j) {
         return;
     }
     const Vec2 step = displacement(nodes, e, i, j, rules_.boundary, 1.0).step;
-    const double length = step.norm();
-    const double most = longest_step * std::sqrt(e.J) * std::min(spacing_.xi, spacing_.eta);
-    if (std::isfinite(length)) {
-        nodes.at(i, j) += length > most ? Vec2(most / length * step) : step;
+    const double length2 = step.squaredNorm();
+    const double most2 = square(longest_step / std::max(density_.xi, density_.eta)) * e.J;
+    if (std::isfinite(length2)) {
+        nodes.at(i, j) += length2 > most2 ? Vec2(std::sqrt(most2 / length2) * step) : step;
     }
 }
 

@@ -6,7 +6,10 @@
 #include "core/grid/expression_weight.h"
 #include "core/grid/track_optimiser.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace millwright::project {
@@ -45,11 +48,14 @@ grid::ChainSettings chain_settings(const GridInput& input) {
     return settings;
 }
 
-grid::WeightPtr weight_of_formula(const GridInput& input) {
+using PatchPtr = std::shared_ptr<const geometry::BezierPatch>;
+
+grid::WeightPtr
+weight_of_formula(const GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
     try {
-        return grid::expression_weight(input.elliptic.expression, input.nu, input.nv);
-    } catch (const Error& error) {
-        Diagnostic found = error.diagnostic();
+        return grid::expression_weight(input.elliptic.expression, input.nu, input.nv, {patch, error});
+    } catch (const Error& fault) {
+        Diagnostic found = fault.diagnostic();
         found.message = "grid/elliptic/expression, character " + std::to_string(found.place.column) + ": " +
                         found.message;
         found.place = {}; // it counts in the formula, not in a file
@@ -57,8 +63,29 @@ grid::WeightPtr weight_of_formula(const GridInput& input) {
     }
 }
 
+grid::WeightPtr mixed_weight_of(const GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
+    const grid::MixSettings& mix = input.elliptic.mix;
+    grid::MixedReasons reasons;
+    reasons.error = error;
+    if (mix.curvature > 0.0) {
+        reasons.curvature = grid::curvature_weight(*patch, input.nu, input.nv);
+    }
+    if (mix.painted > 0.0) {
+        reasons.painted = input.elliptic.painted
+                              ? grid::field_weight(*input.elliptic.painted, input.nu, input.nv)
+                              : grid::constant_weight(0.0);
+    }
+    if (mix.expression > 0.0) {
+        reasons.expression = weight_of_formula(input, patch, error);
+    }
+    return grid::mixed_weight(reasons, mix, input.nu, input.nv);
+}
+
 grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
-    grid::EllipticAdaptationSettings settings;
+    grid::EllipticAdaptationSettings settings = input.elliptic.solver == grid::EllipticMethod::harmonic
+                                                    ? grid::harmonic_settings()
+                                                    : grid::EllipticAdaptationSettings{};
+    settings.method = input.elliptic.solver;
     settings.direction = input.direction;
     settings.functional = {.adaptation = input.elliptic.adaptation,
                            .orthogonality = input.elliptic.orthogonality};
@@ -69,14 +96,55 @@ grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
     return settings;
 }
 
+std::unique_ptr<grid::GridImprover>
+make_adaptation(const GridInput& input, const grid::Grid& start, const toolpath::KinematicError& error) {
+    const grid::EllipticAdaptationSettings settings = elliptic_settings(input);
+    if (input.elliptic.weight == WeightSource::error) {
+        return std::make_unique<grid::EllipticAdaptation>(error, start, settings);
+    }
+    if (!needs_error(input.elliptic)) {
+        return std::make_unique<grid::EllipticAdaptation>(
+            error, start, settings, chosen_weight(input, error.patch(), nullptr));
+    }
+    return std::make_unique<grid::EllipticAdaptation>(
+        error, start, settings, [input, patch = error.patch()](const grid::WeightPtr& density) {
+            return chosen_weight(input, patch, density);
+        });
+}
+
 } // namespace
 
-grid::WeightPtr chosen_weight(const GridInput& input) {
+bool needs_error(const EllipticInput& input) {
+    const auto formula_needs_it = [&] { return grid::speaks_of_error(input.expression); };
+    switch (input.weight) {
+    case WeightSource::error:
+        return true;
+    case WeightSource::expression:
+        return formula_needs_it();
+    case WeightSource::mixed:
+        return input.mix.error > 0.0 || (input.mix.expression > 0.0 && formula_needs_it());
+    case WeightSource::w1:
+    case WeightSource::w2:
+    case WeightSource::w3:
+    case WeightSource::w4:
+        break;
+    }
+    return false;
+}
+
+grid::WeightPtr
+chosen_weight(const GridInput& input, const geometry::BezierPatch& patch, const grid::WeightPtr& error) {
+    if (needs_error(input.elliptic) && error == nullptr) {
+        return nullptr;
+    }
+    const auto shared = [&] { return std::make_shared<const geometry::BezierPatch>(patch); };
     switch (input.elliptic.weight) {
     case WeightSource::error:
-        return nullptr;
+        return error;
     case WeightSource::expression:
-        return weight_of_formula(input);
+        return weight_of_formula(input, shared(), error);
+    case WeightSource::mixed:
+        return mixed_weight_of(input, shared(), error);
     case WeightSource::w1:
         return grid::weight_w1();
     case WeightSource::w2:
@@ -89,6 +157,30 @@ grid::WeightPtr chosen_weight(const GridInput& input) {
     return nullptr;
 }
 
+bool paint_weight(EllipticInput& input,
+                  const geometry::BezierPatch& patch,
+                  const Vec2& from,
+                  const Vec2& to,
+                  const grid::Brush& brush) {
+    if (!input.painted) {
+        input.painted = grid::Field::constant(fresh_painted, fresh_painted, 0.0);
+    }
+    const bool begun = grid::dab(*input.painted, patch, from, brush);
+    return grid::stroke(*input.painted, patch, from, to, brush) || begun;
+}
+
+std::string memory_sentence(GridMethod method, const GridInput& input) {
+    if (method != GridMethod::elliptic) {
+        return {};
+    }
+    constexpr double bytes_a_megabyte = 1e6;
+    const auto bytes = grid::memory_bytes(input.elliptic.solver, input.nu, input.nv);
+    return fmt::format("The elliptic grid of {} x {} nodes takes at most {:.0f} MB",
+                       input.nu,
+                       input.nv,
+                       std::ceil(static_cast<double>(bytes) / bytes_a_megabyte));
+}
+
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const GridInput& input,
                                                   const toolpath::KinematicError& error,
@@ -96,8 +188,7 @@ std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
     expects(method != GridMethod::uniform, "the uniform grid is not improved");
     grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
     if (method == GridMethod::elliptic) {
-        return std::make_unique<grid::EllipticAdaptation>(
-            error, start, elliptic_settings(input), chosen_weight(input));
+        return make_adaptation(input, start, error);
     }
     if (method == GridMethod::chain) {
         return std::make_unique<grid::ChainOptimiser>(

@@ -6,6 +6,7 @@
 #include "core/project/project.h"
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace millwright::project {
@@ -17,9 +18,26 @@ enum class Effort { live, full };
 inline constexpr int live_samples = 8;
 inline constexpr int report_samples = 40;
 
-/// The weight of the elliptic functional that was chosen; null where it comes from the measured error. Throws
+/// The weight of the elliptic functional that was chosen on `patch`, where the error density of the uniform
+/// grid (or of a later one) is `error`; null, if nothing is known of it, for a choice that needs it. Throws
 /// Error if an expression has no sense.
-[[nodiscard]] grid::WeightPtr chosen_weight(const GridInput& input);
+[[nodiscard]] grid::WeightPtr
+chosen_weight(const GridInput& input, const geometry::BezierPatch& patch, const grid::WeightPtr& error);
+
+/// Whether the chosen weight comes from the measured error, if only in part.
+[[nodiscard]] bool needs_error(const EllipticInput& input);
+
+/// Paints on the weight from `from` to `to` on `patch`, on a fresh table if nothing was painted so far. True
+/// if something has changed. What is painted counts where the weight is mixed and its share is not 0.
+bool paint_weight(EllipticInput& input,
+                  const geometry::BezierPatch& patch,
+                  const Vec2& from,
+                  const Vec2& to,
+                  const grid::Brush& brush);
+
+/// What making the grid by `method` takes at most, as a sentence with a figure in MB; empty where nobody
+/// knows.
+[[nodiscard]] std::string memory_sentence(GridMethod method, const GridInput& input);
 
 /// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
 /// an expression of the settings has no sense.

@@ -120,8 +120,10 @@ void PlanStages::keep_grids(const State& last) {
 
 void PlanStages::keep_weight(const State& last) {
     const GridInput& then = last.source->project.grid;
-    const bool same = then.elliptic.weight == input().elliptic.weight &&
-                      then.elliptic.expression == input().elliptic.expression;
+    const EllipticInput& before = then.elliptic;
+    const EllipticInput& now = input().elliptic;
+    const bool same = before.weight == now.weight && before.expression == now.expression &&
+                      before.mix == now.mix && before.painted == now.painted;
     if (same && same_nodes(then, input())) {
         now_.plan.weight = last.plan.weight;
     }

@@ -118,6 +118,24 @@ void check_sequencing(Faults& faults, const Project& project) {
     }
 }
 
+bool can_be_painted(const grid::Field& field) {
+    const auto fits = [](int count) { return count >= 2 && count <= most_painted; };
+    return fits(field.rows) && fits(field.columns) &&
+           std::ssize(field.values) == static_cast<std::ptrdiff_t>(field.rows) * field.columns &&
+           std::ranges::all_of(field.values, [](double value) { return value >= 0.0 && value <= 1.0; });
+}
+
+void check_weight(Faults& faults, const EllipticInput& input) {
+    check<grid::MixSettings>(faults, "grid/elliptic/mix", input.mix, mix_numbers());
+    if (input.mix.high < input.mix.low) {
+        faults.push_back("grid/elliptic/mix: the highest weight is below the lowest");
+    }
+    if (input.painted && !can_be_painted(*input.painted)) {
+        faults.push_back(fmt::format("grid/elliptic/painted: 2 to {} rows and columns of values from 0 to 1",
+                                     most_painted));
+    }
+}
+
 void check_plot(Faults& faults, const PlotSettings& set) {
     check<PlotSettings>(faults, "plot", set, plot_numbers());
     check<plot::Level>(faults, "plot/level", set.level, level_numbers());
@@ -155,6 +173,7 @@ std::vector<std::string> faults_of(const Project& project) {
     check_tool(faults, project);
     check<GridInput>(faults, "grid", project.grid, grid_numbers());
     check<EllipticInput>(faults, "grid/elliptic", project.grid.elliptic, elliptic_numbers());
+    check_weight(faults, project.grid.elliptic);
     check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
     check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
     check_sequencing(faults, project);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "core/geometry/surface.h"
+#include "core/grid/elliptic_solver.h"
 #include "core/grid/grid.h"
+#include "core/grid/weight_mix.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "core/project/arm_input.h"
 #include "core/project/plot_input.h"
@@ -42,16 +44,23 @@ inline constexpr std::array every_grid_method{
     GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks, GridMethod::chain};
 
 /// Where the weight of the elliptic adaptation comes from.
-enum class WeightSource { error, expression, w1, w2, w3, w4 };
+enum class WeightSource { error, expression, mixed, w1, w2, w3, w4 };
+
+/// Rows and columns of what is painted: at most, and where nobody has painted yet.
+inline constexpr int most_painted = 257;
+inline constexpr int fresh_painted = 65;
 
 struct EllipticInput {
     WeightSource weight = WeightSource::error;
-    std::string expression = "1 + 10*exp(-50*((u-0.5)^2+(v-0.5)^2))"; ///< of u and v; used if so chosen
-    double adaptation = 100.0;                                        ///< LV
-    double orthogonality = 0.0;                                       ///< LO
-    double tolerance = 1e-3;                                          ///< of the residual norm
-    int max_iterations = 250;                                         ///< inner, a round
-    int max_rounds = 10;                                              ///< outer
+    std::string expression = "1 + 10*exp(-50*((u-0.5)^2+(v-0.5)^2))"; ///< used if so chosen, or mixed
+    grid::MixSettings mix{};            ///< how much each reason counts, where the weight is mixed
+    std::optional<grid::Field> painted; ///< by hand, 0 to 1; nothing: nowhere
+    grid::EllipticMethod solver = grid::EllipticMethod::minimiser;
+    double adaptation = 100.0;  ///< LV
+    double orthogonality = 0.0; ///< LO
+    double tolerance = 1e-3;    ///< of the residual norm
+    int max_iterations = 250;   ///< inner, a round
+    int max_rounds = 10;        ///< outer
     bool sliding_boundary = true;
 
     friend bool operator==(const EllipticInput&, const EllipticInput&) = default;

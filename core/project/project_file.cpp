@@ -5,6 +5,7 @@
 #include "core/base/numbers.h"
 #include "core/geometry/presets.h"
 #include "core/project/internal/arm_json.h"
+#include "core/project/internal/elliptic_json.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
@@ -118,18 +119,6 @@ MachineInput machine(const JsonValue& value) {
     return result;
 }
 
-EllipticInput elliptic(const JsonValue& value) {
-    expect_fields<EllipticInput>(value, elliptic_numbers(), {"weight", "expression", "sliding_boundary"});
-    EllipticInput result;
-    read_numbers<EllipticInput>(value, elliptic_numbers(), result);
-    read_choice(value, "weight", weight_sources(), result.weight);
-    if (const auto expression = value.find("expression")) {
-        result.expression = expression->text();
-    }
-    read_flag(value, "sliding_boundary", result.sliding_boundary);
-    return result;
-}
-
 TracksInput tracks(const JsonValue& value) {
     expect_fields<TracksInput>(value, tracks_numbers(), {});
     TracksInput result;
@@ -151,7 +140,7 @@ GridInput grid_input(const JsonValue& value) {
     read_choice(value, "direction", track_directions(), result.direction);
     read_choice(value, "method", grid_methods(), result.method);
     if (const auto settings = value.find("elliptic")) {
-        result.elliptic = elliptic(*settings);
+        result.elliptic = elliptic_of(*settings);
     }
     if (const auto settings = value.find("tracks")) {
         result.tracks = tracks(*settings);
@@ -286,11 +275,7 @@ Json json_of(const GridInput& grid) {
     add_numbers<GridInput>(json, grid_numbers(), grid);
     json["direction"] = row_of(track_directions(), grid.direction).id;
     json["method"] = row_of(grid_methods(), grid.method).id;
-    Json& elliptic = json["elliptic"];
-    elliptic["weight"] = row_of(weight_sources(), grid.elliptic.weight).id;
-    elliptic["expression"] = grid.elliptic.expression;
-    add_numbers<EllipticInput>(elliptic, elliptic_numbers(), grid.elliptic);
-    elliptic["sliding_boundary"] = grid.elliptic.sliding_boundary;
+    json["elliptic"] = json_of(grid.elliptic);
     add_numbers<TracksInput>(json["tracks"], tracks_numbers(), grid.tracks);
     add_numbers<ChainInput>(json["chain"], chain_numbers(), grid.chain);
     return json;

@@ -6,7 +6,7 @@ namespace millwright::project {
 
 namespace {
 
-constexpr int most_nodes = 400; // a path of 160,000 moves
+constexpr int most_nodes = 1000; // a path of a million moves
 
 constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
     {"nu",
@@ -68,6 +68,53 @@ constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
      1000,
      0,
      field<&EllipticInput::max_rounds>},
+}};
+
+using grid::MixSettings;
+
+constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
+    {"error",
+     "Share of the error",
+     "",
+     "How much the measured error counts; it is divided by its largest and raised to the power 0.7",
+     0.0,
+     1e3,
+     2,
+     field<&MixSettings::error>},
+    {"curvature",
+     "Share of the curvature",
+     "",
+     "How much sqrt(k1^2 + k2^2) counts, divided by its largest",
+     0.0,
+     1e3,
+     2,
+     field<&MixSettings::curvature>},
+    {"painted",
+     "Share of the paint",
+     "",
+     "How much what is painted counts",
+     0.0,
+     1e3,
+     2,
+     field<&MixSettings::painted>},
+    {"expression",
+     "Share of the formula",
+     "",
+     "How much the value of the formula counts, as it is",
+     0.0,
+     1e3,
+     2,
+     field<&MixSettings::expression>},
+    {"smoothing_passes",
+     "Smoothing",
+     "",
+     "Passes of the average over nine neighbours; there are two places a cell each way",
+     0,
+     100,
+     0,
+     field<&MixSettings::smoothing_passes>},
+    {"low", "Lowest weight", "", "The weight is nowhere below", 1e-6, 1e3, 3, field<&MixSettings::low>},
+    {"high", "Highest weight", "", "The weight is nowhere above", 1e-6, 1e6, 3, field<&MixSettings::high>},
 }};
 
 constexpr std::array<NumberSetting<TracksInput>, 4> of_tracks{{
@@ -186,6 +233,8 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
      field<&ProgramInput::approach_clearance_mm>},
 }};
 
+using grid::Combination;
+using grid::EllipticMethod;
 using grid::TrackDirection;
 using kinematics::AngleMode;
 
@@ -213,9 +262,13 @@ constexpr std::array<Choice<GridMethod>, 4> of_method{{
      "Tracks chosen, their nodes placed, then all nodes moved at once; takes its time"},
 }};
 
-constexpr std::array<Choice<WeightSource>, 6> of_weight{{
+constexpr std::array<Choice<WeightSource>, 7> of_weight{{
     {WeightSource::error, "error", "Error density", "The measured error, e/h^2, scaled and smoothed"},
-    {WeightSource::expression, "expression", "Expression", "A formula of u and v"},
+    {WeightSource::expression,
+     "expression",
+     "Expression",
+     "A formula of the place, the surface and the error"},
+    {WeightSource::mixed, "mixed", "Mixed", "Error, curvature, paint and formula, each with its share"},
     {WeightSource::w1, "w1", "W1 (circle)", "exp(-|25 - (x-10)^2 - (y-10)^2|) + 0.01 in node coordinates"},
     {WeightSource::w2,
      "w2",
@@ -246,6 +299,25 @@ constexpr std::array<Choice<SequencingGoal>, 4> of_sequencing_goal{{
     {SequencingGoal::time, "time", "Least time", "Of all ways the fastest at the axes' largest velocities"},
 }};
 
+constexpr std::array<Choice<EllipticMethod>, 4> of_solver{{
+    {EllipticMethod::minimiser, "minimiser", "Minimiser", "L-BFGS on the cells; never folds one"},
+    {EllipticMethod::multigrid,
+     "multigrid",
+     "Multigrid",
+     "For many nodes; where it stalls the minimiser goes on"},
+    {EllipticMethod::reference, "reference", "Thesis's iteration", "Jacobi and Newton, node by node; slow"},
+    {EllipticMethod::harmonic,
+     "harmonic",
+     "Harmonic map",
+     "The weight as a metric along the tracks: no LV, no LO"},
+}};
+
+constexpr std::array<Choice<Combination>, 3> of_combination{{
+    {Combination::sum, "sum", "Sum", "The reasons added"},
+    {Combination::product, "product", "Product", "Of 1 + share * reason"},
+    {Combination::largest, "largest", "Largest", "The reason that counts most there"},
+}};
+
 constexpr std::array<Choice<LinkInput>, 2> of_link{{
     {LinkInput::lifted, "lifted", "Lifted", "Off the part along the tool axis, across, and back down"},
     {LinkInput::on_surface, "on-surface", "On the surface", "Straight to the next track, cutting"},
@@ -271,6 +343,10 @@ std::span<const NumberSetting<GridInput>> grid_numbers() {
 std::span<const NumberSetting<EllipticInput>> elliptic_numbers() {
     return of_elliptic;
 }
+std::span<const NumberSetting<grid::MixSettings>> mix_numbers() {
+    return of_mix;
+}
+
 std::span<const NumberSetting<TracksInput>> tracks_numbers() {
     return of_tracks;
 }
@@ -290,6 +366,14 @@ std::span<const Choice<TrackDirection>> track_directions() {
 std::span<const Choice<GridMethod>> grid_methods() {
     return of_method;
 }
+std::span<const Choice<EllipticMethod>> elliptic_solvers() {
+    return of_solver;
+}
+
+std::span<const Choice<Combination>> combinations() {
+    return of_combination;
+}
+
 std::span<const Choice<WeightSource>> weight_sources() {
     return of_weight;
 }

@@ -52,6 +52,7 @@ template <class Owner> struct NumberSetting {
 
 [[nodiscard]] std::span<const NumberSetting<GridInput>> grid_numbers();
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();
+[[nodiscard]] std::span<const NumberSetting<grid::MixSettings>> mix_numbers();
 [[nodiscard]] std::span<const NumberSetting<TracksInput>> tracks_numbers();
 [[nodiscard]] std::span<const NumberSetting<ChainInput>> chain_numbers();
 [[nodiscard]] std::span<const NumberSetting<SequencingInput>> sequencing_numbers();
@@ -69,6 +70,8 @@ template <class Value> struct Choice {
 [[nodiscard]] std::span<const Choice<GridMethod>> grid_methods();
 [[nodiscard]] std::span<const Choice<WeightSource>> weight_sources();
 [[nodiscard]] std::span<const Choice<toolpath::SequencingGoal>> sequencing_goals();
+[[nodiscard]] std::span<const Choice<grid::EllipticMethod>> elliptic_solvers();
+[[nodiscard]] std::span<const Choice<grid::Combination>> combinations();
 [[nodiscard]] std::span<const Choice<LinkInput>> links();
 [[nodiscard]] std::span<const Choice<kinematics::AngleMode>> angle_modes();
 

@@ -13,16 +13,22 @@ namespace {
 
 constexpr int raster = 97; // points a side: finer than the eye asks of a smooth field
 
+/// As solvers begin with it.
 grid::WeightPtr
-weight_of_error(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+weight_at_start(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+    if (!needs_error(input.elliptic)) {
+        return chosen_weight(input, workpiece.patch, nullptr);
+    }
     const grid::EllipticAdaptationSettings settings{.direction = input.direction};
     const grid::Grid uniform = grid::Grid::uniform(input.nu, input.nv);
     const std::vector<grid::MoveError> moves =
         grid::measure(workpiece.error_model(), uniform, input.direction, settings.sampling, progress);
+    std::vector<double> density = grid::error_density(uniform, input.direction, moves);
+    if (input.elliptic.weight != WeightSource::error) {
+        return chosen_weight(input, workpiece.patch, grid::weight_on(uniform, density));
+    }
     return grid::weight_on(
-        uniform,
-        grid::scaled_weight(
-            grid::error_density(uniform, input.direction, moves), input.nu, input.nv, settings.error_weight));
+        uniform, grid::scaled_weight(std::move(density), input.nu, input.nv, settings.error_weight));
 }
 
 /// `rows` x `columns` places spread evenly over the solver coordinates of the grid.
@@ -45,10 +51,7 @@ WeightMap sampled(const grid::Weight& weight, const GridInput& input, int rows, 
 } // namespace
 
 WeightMap weight_map(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
-    grid::WeightPtr weight = chosen_weight(input);
-    if (weight == nullptr) {
-        weight = weight_of_error(input, workpiece, progress);
-    }
+    const grid::WeightPtr weight = weight_at_start(input, workpiece, progress);
     try {
         return sampled(*weight, input, raster, raster);
     } catch (const Error&) { // such as 1 / abs(u - 1/3): the grid may have no node there

@@ -29,6 +29,8 @@ public:
     [[nodiscard]] grid::ErrorSummary
     on_path(const grid::Grid& grid, grid::TrackDirection direction, const Progress& progress) const override;
 
+    [[nodiscard]] const geometry::BezierPatch& patch() const { return patch_; }
+
 private:
     geometry::BezierPatch patch_;
     kinematics::MachineModel machine_;

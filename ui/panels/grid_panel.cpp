@@ -1,6 +1,7 @@
 #include "ui/panels/grid_panel.h"
 
 #include "core/base/text.h"
+#include "core/grid/expression_weight.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 
@@ -14,11 +15,25 @@ using project::GridMethod;
 using project::Project;
 
 /// What is wrong with `text` as the weight's expression, as a sentence; "" if nothing is.
-std::string fault_of_expression(Project project, std::string_view text) {
-    const auto before = project::faults_of(project).size();
-    project.grid.elliptic.expression = text;
-    const auto faults = project::faults_of(project);
-    return faults.size() > before ? faults.back() : std::string();
+std::string fault_of_expression(std::string_view text) {
+    const auto fault = grid::fault_of_expression(std::string(text));
+    return fault ? fmt::format("Character {}: {}", fault->place.column, fault->message) : std::string();
+}
+
+void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
+    choice_field<grid::Combination>(
+        ui,
+        ask,
+        "combination",
+        "Combined as",
+        "Choose how the reasons are combined",
+        project::combinations(),
+        mix.combination,
+        [](Project& p, grid::Combination c) { p.grid.elliptic.mix.combination = c; });
+    number_fields<grid::MixSettings>(
+        ui, ask, project::mix_numbers(), mix, [](Project& p) -> grid::MixSettings& {
+            return p.grid.elliptic.mix;
+        });
 }
 
 std::string status_text(const project::WatchedAdaptation& watched) {
@@ -145,13 +160,27 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         project::weight_sources(),
         input.weight,
         [](Project& p, project::WeightSource w) { p.grid.elliptic.weight = w; });
-    if (input.weight == project::WeightSource::expression) {
+    choice_field<grid::EllipticMethod>(
+        ui,
+        ask,
+        "solver",
+        "Solver",
+        "Choose who moves the nodes",
+        project::elliptic_solvers(),
+        input.solver,
+        [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
+    if (input.weight == project::WeightSource::mixed) {
+        draw_mix(ui, ask, input.mix);
+    }
+    const bool has_formula = input.weight == project::WeightSource::expression ||
+                             (input.weight == project::WeightSource::mixed && input.mix.expression > 0.0);
+    if (has_formula) {
         if (const auto text = ui.expression(
                 "expression",
-                "w(u, v) =",
+                "w =",
                 input.expression,
-                [&](std::string_view typed) { return fault_of_expression(now.project, typed); },
-                "Positive where cells should be small; of u and v")) {
+                [](std::string_view typed) { return fault_of_expression(typed); },
+                "Positive where cells should be small; of u, v, i, j, x, y, z, nx, ny, nz, k1, k2, err")) {
             ask.edit("Change the weight's expression",
                      [t = *text](Project& p) { p.grid.elliptic.expression = t; });
         }

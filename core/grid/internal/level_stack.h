@@ -12,8 +12,8 @@ namespace millwright::grid {
 
 class LevelStack {
 public:
-    /// `start` is what the finest level begins with, its indices `spacing` apart.
-    LevelStack(NodeArray start, WeightPtr weight, const IndexSpacing& spacing, const LevelRules& rules);
+    /// `start` is what the finest level begins with, `density` that of its indices.
+    LevelStack(NodeArray start, WeightPtr weight, const IndexDensity& density, const LevelRules& rules);
 
     [[nodiscard]] NodeArray& nodes() { return levels_.front().nodes; }
     [[nodiscard]] const NodeArray& nodes() const { return levels_.front().nodes; }

@@ -21,11 +21,11 @@ class MultigridLevel {
 public:
     /// At least 3 x 3 nodes. `weight` is null on coarse levels.
     MultigridLevel(
-        int rows, int columns, const IndexSpacing& spacing, const LevelRules& rules, WeightPtr weight);
+        int rows, int columns, const IndexDensity& density, const LevelRules& rules, WeightPtr weight);
 
     [[nodiscard]] int rows() const { return nodes.rows; }
     [[nodiscard]] int columns() const { return nodes.columns; }
-    [[nodiscard]] const IndexSpacing& spacing() const { return spacing_; }
+    [[nodiscard]] const IndexDensity& density() const { return density_; }
 
     /// On a coarse level, whose nodes and w have just been set: they are what the weight slopes from.
     void begin();
@@ -54,7 +54,7 @@ private:
     [[nodiscard]] NodeEquations equations(int i, int j) const;
     void smooth_node(int i, int j);
 
-    IndexSpacing spacing_;
+    IndexDensity density_;
     LevelRules rules_;
     WeightPtr weight_;
     NodeArray begun_;             ///< coarse: where the nodes were at begin()

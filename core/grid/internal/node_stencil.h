@@ -16,13 +16,13 @@ struct NodeStencil {
     double w_below = 0.0, w_above = 0.0;  ///< at (i, j - 1) and (i, j + 1)
 };
 
-/// How far neighbours stand apart in xi and eta: 1 on the finest level.
-struct IndexSpacing {
+/// One over the distance of neighbours in xi and eta, counted in nodes of the finest level: 1 there.
+struct IndexDensity {
     double xi = 1.0, eta = 1.0;
 };
 
 /// As node_equations() of an array, with the slope of the weight by the chain rule.
 [[nodiscard]] NodeEquations
-node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexSpacing& spacing);
+node_equations(const NodeStencil& at, const FunctionalWeights& lambda, const IndexDensity& density);
 
 } // namespace millwright::grid

@@ -12,13 +12,14 @@ namespace millwright::grid {
 
 class Recombination {
 public:
-    /// Nodes better than `nodes`, whose residuals are `residuals`; `nodes` themselves while too little is
-    /// remembered. Nobody has looked yet whether they are sound.
+    [[nodiscard]] bool empty() const { return past_.empty(); }
+
+    /// Nodes better than `nodes`, whose residuals are `residuals`; `nodes` themselves where what is
+    /// remembered says nothing. Nobody has looked yet whether they are sound.
     [[nodiscard]] NodeArray best(const NodeArray& nodes, const NodeArray& residuals) const;
 
     /// Nodes and what their residuals are.
     void remember(const NodeArray& nodes, const NodeArray& residuals);
-    void clear() { past_.clear(); }
 
     /// What is remembered at most, for each node.
     [[nodiscard]] static std::size_t bytes_a_node();

@@ -2,10 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/geometry/curvature.h"
+#include "core/geometry/presets.h"
+#include "tests/support/test_weights.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace millwright::grid {
@@ -29,18 +33,65 @@ Diagnostic fault_of(const std::string& text) {
     return {};
 }
 
-TEST(ExpressionWeight, KnowsParametersSolverCoordinatesAndPi) {
+TEST(ExpressionWeight, KnowsParametersNodesAndPi) {
     const Vec2 p(5.0, 2.0); // u = 0.25, v = 0.2
     EXPECT_DOUBLE_EQ(value("u", p), 0.25);
     EXPECT_DOUBLE_EQ(value("v", p), 0.2);
-    EXPECT_DOUBLE_EQ(value("10*x + y", p), 52.0);
+    EXPECT_DOUBLE_EQ(value("10*i + j", p), 52.0);
     EXPECT_DOUBLE_EQ(value("1 + sin(2*pi*u)^2 + exp(-v)", p), 2.0 + std::exp(-0.2));
     EXPECT_DOUBLE_EQ(value("u < 0.5 ? 3 : 1", p), 3.0);
     EXPECT_DOUBLE_EQ(value("(u == 0.25) + (v >= 0.2) + (v != 1)", p), 3.0);
 }
 
+std::shared_ptr<const geometry::BezierPatch> dome() {
+    return std::make_shared<const geometry::BezierPatch>(
+        geometry::surface_preset("dome").make().patch(geometry::PatchId{0}));
+}
+
+TEST(ExpressionWeight, KnowsTheSurfaceWhereThereIsOne) {
+    const auto patch = dome();
+    const Vec2 p(5.0, 2.0);
+    const geometry::SurfaceDerivatives at = patch->derivatives(0.25, 0.2);
+    const Vec3 normal = patch->unit_normal(at).value();
+    const auto bent = geometry::principal_curvatures(at).value();
+    const auto value_of = [&](const std::string& text) {
+        double w = 0.0;
+        expression_weight(text, nu, nv, {patch, nullptr})->values({&p, 1}, {&w, 1});
+        return w;
+    };
+    EXPECT_DOUBLE_EQ(value_of("x"), at.position.x());
+    EXPECT_DOUBLE_EQ(value_of("y"), at.position.y());
+    EXPECT_DOUBLE_EQ(value_of("z + u"), at.position.z() + 0.25);
+    EXPECT_DOUBLE_EQ(value_of("nx + 10*ny + 100*nz"), normal.dot(Vec3(1.0, 10.0, 100.0)));
+    EXPECT_DOUBLE_EQ(value_of("k1 - k2"), bent.k1 - bent.k2);
+    const Diagnostic fault = fault_of("1 + z");
+    EXPECT_NE(fault.message.find("surface"), std::string::npos);
+}
+
+TEST(ExpressionWeight, KnowsTheErrorWhereItWasMeasured) {
+    const WeightPtr error = weight_from([](const Vec2& p) {
+        return WeightAndSlope{p.x() + 100.0 * p.y(), Vec2(1.0, 100.0)};
+    });
+    const Vec2 p(5.0, 2.0);
+    double w = 0.0;
+    expression_weight("2*err", nu, nv, {nullptr, error})->values({&p, 1}, {&w, 1});
+    EXPECT_DOUBLE_EQ(w, 410.0);
+    EXPECT_NE(fault_of("err").message.find("error"), std::string::npos);
+    EXPECT_TRUE(speaks_of_error("1 + err*u"));
+    EXPECT_FALSE(speaks_of_error("1 + u"));
+    EXPECT_FALSE(speaks_of_error("1 + "));
+}
+
+TEST(ExpressionWeight, ItsFaultsAreKnownWithoutAnyGrid) {
+    EXPECT_FALSE(fault_of_expression("1 + z*k1 + err/nx").has_value());
+    ASSERT_TRUE(fault_of_expression("1 + foo").has_value());
+    EXPECT_EQ(fault_of_expression("1 + foo")->place.column, 5);
+    EXPECT_TRUE(fault_of_expression("u = 1").has_value());
+    EXPECT_TRUE(fault_of_expression("1, 2").has_value());
+}
+
 TEST(ExpressionWeight, HasTheGradientOfItsFormula) {
-    const WeightPtr w = expression_weight("1 + sin(u)*x + y^2", nu, nv);
+    const WeightPtr w = expression_weight("1 + sin(u)*i + j^2", nu, nv);
     const Vec2 p(7.3, 4.1);
     Vec2 found = Vec2::Zero();
     w->gradients({&p, 1}, {&found, 1});
@@ -83,7 +134,7 @@ TEST(ExpressionWeight, AValueThatIsNotFiniteIsAnErrorThatSaysWhere) {
 }
 
 TEST(ExpressionWeight, OffTheNodesOfTheUniformGridIsLookedAtWhenAsked) {
-    const WeightPtr w = expression_weight("1/(x - 0.5)", nu, nv); // no node has x = 0.5
+    const WeightPtr w = expression_weight("1/(i - 0.5)", nu, nv); // no node has i = 0.5
     const Vec2 p(0.5, 3.0);
     double value_there = 0.0;
     EXPECT_THROW(w->values({&p, 1}, {&value_there, 1}), Error);

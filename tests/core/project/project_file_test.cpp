@@ -59,6 +59,16 @@ TEST(ProjectFile, WhatIsWrittenIsRead) {
     project.grid.elliptic.weight = WeightSource::expression;
     project.grid.elliptic.expression = "1 + u*v";
     project.grid.elliptic.sliding_boundary = false;
+    project.grid.elliptic.mix = {.error = 0.5,
+                                 .curvature = 2.0,
+                                 .painted = 3.0,
+                                 .expression = 0.25,
+                                 .combination = grid::Combination::largest,
+                                 .smoothing_passes = 7,
+                                 .low = 0.125,
+                                 .high = 50.0};
+    project.grid.elliptic.painted = grid::Field{2, 3, {0.0, 0.25, 1.0, 0.001, 0.5, 0.75}};
+    project.grid.elliptic.solver = grid::EllipticMethod::multigrid;
     project.program.link = LinkInput::on_surface;
     for (const auto& setting : program_numbers()) {
         setting.set(project.program, 0.5 * (setting.min + setting.default_value()));
@@ -97,6 +107,28 @@ TEST(ProjectFile, AToolThatCannotBeIsRefusedAtItsPlace) {
     EXPECT_THAT(fault_in(replaced(text, "bull-nose", "drill")), HasSubstr("tool/cutter"));
 }
 
+TEST(ProjectFile, WhatIsWrongWithAMixOrThePaintIsSaidWithItsPlace) {
+    Project project = project_from_preset("dome");
+    project.grid.elliptic.mix.high = 50.0;
+    project.grid.elliptic.painted = grid::Field{2, 2, {0.0, 0.25, 1.0, 0.5}};
+    const std::string sound = project_text(project);
+    const auto fault = [&](const std::string& from, const std::string& to) {
+        std::string text = sound;
+        text.replace(text.find(from), from.size(), to);
+        try {
+            (void)project_from_text(text, "x.json");
+        } catch (const Error& error) {
+            EXPECT_GT(error.diagnostic().place.line, 0);
+            return error.diagnostic().message;
+        }
+        return std::string("nothing");
+    };
+    EXPECT_THAT(fault("[0, 0.25]", "[0, 1.25]"), HasSubstr("grid/elliptic/painted"));
+    EXPECT_THAT(fault("[0, 0.25]", "[0]"), HasSubstr("grid/elliptic/painted"));
+    EXPECT_THAT(fault("\"high\": 50", "\"high\": 0.001"), HasSubstr("highest weight"));
+    EXPECT_THAT(fault("\"sum\"", "\"difference\""), HasSubstr("difference"));
+}
+
 TEST(ProjectFile, TheSameProjectGivesTheSameBytes) {
     const Project project = project_from_preset("sine");
     EXPECT_EQ(project_text(project), project_text(project_from_text(project_text(project), "x")));
@@ -124,7 +156,7 @@ TEST(ProjectFile, APresetAloneIsEnoughOfASurface) {
 TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
     EXPECT_EQ(fault_in("{\n  \"format\": 3\n}"), "part.json:2:13: format: expected a text, found a number");
     EXPECT_THAT(fault("\"nu\": 20", "\"nu\": \"20\""), HasSubstr("grid/nu: expected a number, found a text"));
-    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 400"));
+    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 1000"));
     EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 20.5"), HasSubstr("grid/nu: expected a whole number"));
     EXPECT_THAT(fault("\"nu\": 20", "\"nx\": 20"), HasSubstr("grid/nx: the field \"nx\" is not known here"));
     EXPECT_THAT(fault("\"flipped\": false", "\"flipped\": 0"),

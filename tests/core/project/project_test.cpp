@@ -38,7 +38,7 @@ TEST(Project, CopiesAreEqualUntilOneChanges) {
 TEST(Project, FaultsNameTheFieldAndItsRange) {
     Project project = project_from_preset("dome");
     project.grid.nu = 1;
-    EXPECT_THAT(faults_of(project), ElementsAre("grid/nu: 1 is not between 2 and 400"));
+    EXPECT_THAT(faults_of(project), ElementsAre("grid/nu: 1 is not between 2 and 1000"));
 }
 
 TEST(Project, ANumberThatIsNoneIsAFault) {

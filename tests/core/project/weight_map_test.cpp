@@ -50,11 +50,42 @@ TEST(WeightMap, OfW4ChangesItsSign) {
 TEST(WeightMap, OfAnExpressionHasItsValuesWithRowsAlongU) {
     GridInput chosen = input(WeightSource::expression);
     chosen.nu = 8;
-    chosen.elliptic.expression = "1 + 2*u + x*v";
+    chosen.elliptic.expression = "1 + 2*u + i*v";
     const WeightMap map = map_of(chosen);
     const double u = 30.0 / (map.rows - 1);
     const double v = 80.0 / (map.columns - 1);
     EXPECT_NEAR(map.at(30, 80), 1.0 + 2.0 * u + 7.0 * u * v, 1e-12);
+}
+
+TEST(WeightMap, OfAFormulaKnowsTheSurfaceAndTheError) {
+    GridInput chosen = input(WeightSource::expression);
+    chosen.elliptic.expression = "1 + abs(z) + 0*err";
+    const WeightMap map = map_of(chosen);
+    const geometry::BezierPatch patch(project_from_preset("dome").surface.patches.front());
+    const double u = 12.0 / (map.rows - 1);
+    const double v = 70.0 / (map.columns - 1);
+    EXPECT_NEAR(map.at(12, 70), 1.0 + std::abs(patch.position(u, v).z()), 1e-12);
+    chosen.elliptic.expression = "0.01 + err";
+    EXPECT_TRUE(needs_error(chosen.elliptic));
+    EXPECT_GT(map_of(chosen).high, 0.1);
+}
+
+TEST(WeightMap, OfAMixShowsWhatIsPainted) {
+    GridInput chosen = input(WeightSource::mixed);
+    chosen.elliptic.mix = {.error = 0.0, .painted = 5.0, .smoothing_passes = 0, .low = 0.5};
+    const geometry::BezierPatch patch(project_from_preset("dome").surface.patches.front());
+    const WeightMap before = map_of(chosen);
+    EXPECT_NEAR(before.high, 0.5, 1e-12);
+    ASSERT_TRUE(paint_weight(chosen.elliptic, patch, {0.25, 0.5}, {0.75, 0.5}, {.radius_mm = 15.0}));
+    const WeightMap map = map_of(chosen);
+    EXPECT_NEAR(map.at(map.rows / 2, map.columns / 2), 5.0, 1e-9);
+    EXPECT_NEAR(map.at(map.rows / 2, 0), 0.5, 1e-12);
+    ASSERT_TRUE(paint_weight(chosen.elliptic,
+                             patch,
+                             {0.25, 0.5},
+                             {0.75, 0.5},
+                             {.radius_mm = 200.0, .value = 0.0, .hardness = 1.0}));
+    EXPECT_NEAR(map_of(chosen).high, 0.5, 1e-12);
 }
 
 TEST(WeightMap, OfAFormulaWithAPoleBetweenTheNodesShowsTheNodes) {

@@ -1,0 +1,97 @@
+#include "core/project/internal/elliptic_json.h"
+
+#include "core/project/settings.h"
+
+namespace millwright::project {
+
+namespace {
+
+grid::MixSettings mix_of(const JsonValue& value) {
+    expect_fields<grid::MixSettings>(value, mix_numbers(), {"combination"});
+    grid::MixSettings mix;
+    read_numbers<grid::MixSettings>(value, mix_numbers(), mix);
+    read_choice(value, "combination", combinations(), mix.combination);
+    if (mix.high < mix.low) {
+        value.fail("the highest weight is below the lowest");
+    }
+    return mix;
+}
+
+grid::Field field_of(const JsonValue& value) {
+    const std::vector<JsonValue> rows = value.items();
+    const int columns = rows.empty() ? 0 : static_cast<int>(rows.front().items().size());
+    const auto count = static_cast<int>(rows.size());
+    if (count < 2 || count > most_painted || columns < 2 || columns > most_painted) {
+        value.fail(fmt::format("what is painted has 2 to {} rows and columns", most_painted));
+    }
+    grid::Field field = grid::Field::constant(count, columns, 0.0);
+    for (int i = 0; i < count; ++i) {
+        const std::vector<JsonValue> row =
+            rows[static_cast<std::size_t>(i)].items(static_cast<std::size_t>(columns));
+        for (int j = 0; j < columns; ++j) {
+            field.values[field.index(i, j)] = row[static_cast<std::size_t>(j)].number(0.0, 1.0);
+        }
+    }
+    return field;
+}
+
+Json json_of(const grid::Field& field) {
+    Json rows = Json::array();
+    for (int i = 0; i < field.rows; ++i) {
+        Json row = Json::array();
+        for (int j = 0; j < field.columns; ++j) {
+            row.push_back(field.values[field.index(i, j)]);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json json_of(const grid::MixSettings& mix) {
+    Json json;
+    add_numbers<grid::MixSettings>(json, mix_numbers(), mix);
+    json["combination"] = row_of(combinations(), mix.combination).id;
+    return json;
+}
+
+} // namespace
+
+EllipticInput elliptic_of(const JsonValue& value) {
+    expect_fields<EllipticInput>(
+        value, elliptic_numbers(), {"weight", "expression", "sliding_boundary", "mix", "painted", "solver"});
+    EllipticInput result;
+    read_numbers<EllipticInput>(value, elliptic_numbers(), result);
+    read_choice(value, "weight", weight_sources(), result.weight);
+    read_choice(value, "solver", elliptic_solvers(), result.solver);
+    if (const auto expression = value.find("expression")) {
+        result.expression = expression->text();
+    }
+    if (const auto mix = value.find("mix")) {
+        result.mix = mix_of(*mix);
+    }
+    if (const auto painted = value.find("painted")) {
+        result.painted = field_of(*painted);
+    }
+    read_flag(value, "sliding_boundary", result.sliding_boundary);
+    return result;
+}
+
+Json json_of(const EllipticInput& input) {
+    Json json;
+    json["weight"] = row_of(weight_sources(), input.weight).id;
+    json["expression"] = input.expression;
+    if (input.mix != grid::MixSettings{}) {
+        json["mix"] = json_of(input.mix);
+    }
+    if (input.painted) {
+        json["painted"] = json_of(*input.painted);
+    }
+    if (input.solver != EllipticInput{}.solver) {
+        json["solver"] = row_of(elliptic_solvers(), input.solver).id;
+    }
+    add_numbers<EllipticInput>(json, elliptic_numbers(), input);
+    json["sliding_boundary"] = input.sliding_boundary;
+    return json;
+}
+
+} // namespace millwright::project
