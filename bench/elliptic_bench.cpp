@@ -1,11 +1,13 @@
 // The thesis's iteration against multigrid, to the same norm on the same grids in one run, and how the time
 // of multigrid grows with the nodes. The weight is the thesis's circle W1, as wide on every grid as on 25
 // x 25.
+#include "core/base/parallel.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid.h"
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -89,6 +91,31 @@ BENCHMARK(multigrid_growth)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Complexity(benchmark::oNLogN);
+
+/// Tables 7-1 and 7-2 of the thesis: ten iterations on 2500 to 22500 nodes, and what threads are worth.
+void thesis_ten_iterations(benchmark::State& state) {
+    const int n = static_cast<int>(state.range(0));
+    const EllipticSettings settings{
+        .functional = {.adaptation = 1.0, .orthogonality = 0.0}, .tolerance = 0.0, .max_iterations = 10};
+    const auto seconds = [&](int threads) {
+        set_thread_count(threads);
+        JacobiNewton solver(unit_spaced(n), std::make_shared<ScaledRing>(n), settings);
+        const auto before = std::chrono::steady_clock::now();
+        solve(solver);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    };
+    double alone = 0.0;
+    double together = 0.0;
+    for (auto _ : state) {
+        alone += seconds(1);
+        together += seconds(0);
+    }
+    state.counters["nodes"] = n * n;
+    state.counters["threads"] = thread_count();
+    state.counters["iterations"] = settings.max_iterations;
+    state.counters["speed_up"] = alone / together;
+}
+BENCHMARK(thesis_ten_iterations)->Arg(50)->Arg(70)->Arg(100)->Arg(150)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace millwright::grid

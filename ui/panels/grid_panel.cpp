@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/grid/expression_weight.h"
+#include "core/project/grids.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 
@@ -21,6 +22,10 @@ std::string fault_of_expression(std::string_view text) {
 }
 
 void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
+    const auto section = ui.section("mix", "Mixed weight");
+    if (!section) {
+        return;
+    }
     choice_field<grid::Combination>(
         ui,
         ask,
@@ -169,6 +174,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         project::elliptic_solvers(),
         input.solver,
         [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
+    ui.note(project::memory_sentence(project::GridMethod::elliptic, now.project.grid) + ".");
     if (input.weight == project::WeightSource::mixed) {
         draw_mix(ui, ask, input.mix);
     }
