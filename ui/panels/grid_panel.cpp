@@ -165,16 +165,6 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         project::weight_sources(),
         input.weight,
         [](Project& p, project::WeightSource w) { p.grid.elliptic.weight = w; });
-    choice_field<grid::EllipticMethod>(
-        ui,
-        ask,
-        "solver",
-        "Solver",
-        "Choose who moves the nodes",
-        project::elliptic_solvers(),
-        input.solver,
-        [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
-    ui.note(project::memory_sentence(project::GridMethod::elliptic, now.project.grid) + ".");
     if (input.weight == project::WeightSource::mixed) {
         draw_mix(ui, ask, input.mix);
     }
@@ -208,6 +198,16 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         ask.edit("Change how the boundary is held",
                  [v = *on](Project& p) { p.grid.elliptic.sliding_boundary = v; });
     }
+    choice_field<grid::EllipticMethod>(
+        ui,
+        ask,
+        "solver",
+        "Solver",
+        "Choose who moves the nodes",
+        project::elliptic_solvers(),
+        input.solver,
+        [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
+    ui.note(project::memory_sentence(project::GridMethod::elliptic, now.project.grid) + ".");
 }
 
 } // namespace millwright::panels
