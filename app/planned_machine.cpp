@@ -1,5 +1,6 @@
 #include "app/planned_machine.h"
 
+#include "app/diagnostics.h"
 #include "app/finite_number.h"
 #include "app/job_keys.h"
 #include "app/job_printer.h"
@@ -17,6 +18,7 @@
 #include <charconv>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 namespace millwright::app {
 
@@ -50,6 +52,10 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
                     "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
         ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
         ->capture_default_str();
+    command.add_option("--clock", choice.processor_hz, "Clock frequency of the CORDIC processor, Hz")
+        ->type_name("HZ")
+        ->check(CLI::Range(1.0, 1e11))
+        ->capture_default_str();
 }
 
 void check(const PlannedMachineChoice& choice) {
@@ -60,6 +66,12 @@ void check(const PlannedMachineChoice& choice) {
     const bool inside = choice.driver == "virtual" || choice.driver == "cordic";
     if (!inside && choice.controller.port.empty()) {
         throw Error("the " + choice.driver + " driver needs a port", {}, "give --port");
+    }
+}
+
+void check_from_line(const PlannedMachineChoice& choice, int from_line) {
+    if (from_line > 1 && choice.driver == "cordic") {
+        throw Error("the cordic driver runs programs from their beginning alone");
     }
 }
 
@@ -83,10 +95,22 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
         begun = true;
         printer.show(report, keys.listening());
     });
-    if (const std::string late = cordic_ == nullptr ? "" : cordic_->remark(); !late.empty()) {
+    tell_remarks(job);
+    return outcome;
+}
+
+void PlannedMachine::tell_remarks(const machine::Job& job) const {
+    if (cordic_ == nullptr) {
+        return;
+    }
+    std::vector<Diagnostic> warnings = cordic_->warnings();
+    for (Diagnostic& warning : warnings) {
+        warning.place.file = job.name;
+    }
+    print_warnings(warnings);
+    if (const std::string late = cordic_->remark(); !late.empty()) {
         fmt::print(stderr, "millwright: {}: {}\n", job.name, late);
     }
-    return outcome;
 }
 
 void PlannedMachine::connect(const machine::Job& job) {

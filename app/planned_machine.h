@@ -29,11 +29,14 @@ struct PlannedMachineChoice {
     ControllerChoice controller; ///< port of these, keys, optional stops
 };
 
-/// Adds --speed, --period and those of records to `command`.
+/// Adds --speed, --period, --clock and those of records to `command`.
 void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice);
 
 /// Throws Error for what is missing or too much, before any work is done.
 void check(const PlannedMachineChoice& choice);
+
+/// Throws Error for a machine that begins programs at their first line alone.
+void check_from_line(const PlannedMachineChoice& choice, int from_line);
 
 /// Runs jobs one after another, over one connection; the first says which machine it is.
 class PlannedMachine {
@@ -47,6 +50,8 @@ public:
 
 private:
     void connect(const machine::Job& job);
+    /// What the CORDIC processor did otherwise than the job says, and too late.
+    void tell_remarks(const machine::Job& job) const;
     [[nodiscard]] std::unique_ptr<machine::Driver> make_driver(const machine::Job& job);
 
     const PlannedMachineChoice& choice_;

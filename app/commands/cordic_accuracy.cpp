@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/cordic/accuracy.h"
 #include "core/cordic/experiments.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +32,14 @@ struct Options {
     std::string out;
     std::int64_t random = 10'000'000;
     std::uint64_t seed = 2002;
+    std::optional<std::string> format; // any of these three: the case that they name alone
+    std::optional<std::string> rounding;
+    std::optional<int> iterations; ///< not given: the thesis's 29 steps
+
+    [[nodiscard]] bool name_a_case() const { return format || rounding || iterations; }
 };
+
+using Case = std::pair<cordic::NumberFormat, cordic::Sequence>;
 
 struct Row {
     cordic::NumberFormat format;
@@ -44,8 +53,22 @@ cordic::Sequence classic(int steps) {
     return cordic::classic_sequence(cordic::CoordinateSystem::circular, steps);
 }
 
-std::vector<std::pair<cordic::NumberFormat, cordic::Sequence>> cases() {
-    std::vector<std::pair<cordic::NumberFormat, cordic::Sequence>> made;
+Case case_of(const Options& options) {
+    constexpr int least_integer_bits = 2; // for 1 itself
+    cordic::NumberFormat format = cordic::parse_number_format(options.format.value_or("f64"));
+    const bool fixed = format.kind == cordic::NumberKind::fixed;
+    if (fixed && format.integer_bits < least_integer_bits) {
+        throw Error(fmt::format("vectors of length 1 do not fit into {}", cordic::to_text(format)));
+    }
+    if (options.rounding && !fixed) {
+        throw Error("--rounding is for fixed point", {}, "--format qI.F");
+    }
+    format.rounding = options.rounding ? cordic::parse_rounding(*options.rounding) : format.rounding;
+    return {format, options.iterations ? classic(*options.iterations) : cordic::thesis_sequence()};
+}
+
+std::vector<Case> cases() {
+    std::vector<Case> made;
     const auto thesis = cordic::thesis_sequence();
     for (const Rounding rounding :
          {Rounding::truncate, Rounding::toward_zero, Rounding::nearest, Rounding::nearest_even}) {
@@ -65,7 +88,7 @@ std::vector<std::pair<cordic::NumberFormat, cordic::Sequence>> cases() {
 }
 
 std::vector<Row> measured_rows(const Options& options, const Progress& progress) {
-    const auto all = cases();
+    const auto all = options.name_a_case() ? std::vector<Case>{case_of(options)} : cases();
     std::vector<Row> rows;
     for (std::size_t n = 0; n < all.size(); ++n) {
         const auto& [format, sequence] = all[n];
@@ -139,21 +162,31 @@ void print(const std::vector<Row>& rows, const std::vector<cordic::Finding>& fin
 }
 
 /// The proven bound against the number of steps, one line a format: when more steps stop to help.
-std::string bounds_picture() {
+std::string bounds_picture(const std::vector<cordic::NumberFormat>& formats) {
     cordic::Chart chart{.title = "Proven bound of a rotation against the number of steps 0, 1, 2 ...",
                         .x_label = "steps",
                         .y_label = "largest error of a unit vector",
                         .logarithmic = true};
-    for (const char* name : {"q2.14", "q2.22", "q2.30", "f32", "f64"}) {
-        cordic::Series series{.label = name};
+    for (const cordic::NumberFormat& format : formats) {
+        cordic::Series series{.label = std::string(cordic::to_text(format))};
         for (int steps = 2; steps <= 40; ++steps) {
             series.x.push_back(steps);
-            series.y.push_back(
-                cordic::rotation_bound(cordic::parse_number_format(name), classic(steps), 1.0).total);
+            series.y.push_back(cordic::rotation_bound(format, classic(steps), 1.0).total);
         }
         chart.series.push_back(std::move(series));
     }
     return cordic::to_svg(chart);
+}
+
+std::vector<cordic::NumberFormat> formats_of_bounds(const Options& options) {
+    if (options.name_a_case()) {
+        return {case_of(options).first};
+    }
+    return {cordic::fixed_format(2, 14),
+            cordic::fixed_format(2, 22),
+            cordic::fixed_format(2, 30),
+            cordic::binary32,
+            cordic::binary64};
 }
 
 int accuracy(const Options& options) {
@@ -162,9 +195,10 @@ int accuracy(const Options& options) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const auto rows = measured_rows(options, progress);
-    const auto experiments = cordic::run_experiments();
+    const auto experiments = options.name_a_case() ? cordic::Experiments() : cordic::run_experiments();
     printer.finish();
-    std::vector<OutputFile> files = {{"accuracy.csv", table(rows)}, {"bounds.svg", bounds_picture()}};
+    std::vector<OutputFile> files = {{"accuracy.csv", table(rows)},
+                                     {"bounds.svg", bounds_picture(formats_of_bounds(options))}};
     for (const cordic::Picture& picture : experiments.pictures) {
         files.push_back({picture.name, picture.svg});
     }
@@ -185,6 +219,13 @@ void add_cordic_accuracy(CLI::App& group, Command& chosen) {
     command.add_option("--random", options->random, "Inputs of formats longer than 16 bits")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
         ->capture_default_str();
+    command.add_option(
+        "--format", options->format, "One format alone: f64 (default), f32, or qI.F as in q2.22");
+    command
+        .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
+        ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}));
+    command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+        ->check(CLI::Range(1, cordic::most_steps));
     command.add_option("--seed", options->seed, "Of the random inputs")->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return accuracy(*options); }; });
 }

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -54,6 +55,14 @@ cordic::Sequence sequence_of(const NumberOptions& options) {
                : cordic::classic_sequence(cordic::CoordinateSystem::circular, options.iterations);
 }
 
+nlohmann::ordered_json json_of(const std::array<cordic::Word, 3>& words) {
+    auto hexadecimal = nlohmann::ordered_json::array();
+    for (const cordic::Word word : words) {
+        hexadecimal.push_back(fmt::format("{:#x}", word));
+    }
+    return hexadecimal;
+}
+
 int rotate(const NumberOptions& options) {
     const cordic::Rotated found = cordic::rotate(format_of(options),
                                                  sequence_of(options),
@@ -67,9 +76,7 @@ int rotate(const NumberOptions& options) {
         answer["z"] = found.z;
         answer["error"] = found.error;
         answer["clocks"] = found.clocks;
-        for (std::size_t n = 0; n < found.words.size(); ++n) {
-            answer["words"].push_back(fmt::format("{:#x}", found.words[n]));
-        }
+        answer["words"] = json_of(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
@@ -94,6 +101,8 @@ int vector(const NumberOptions& options) {
         answer["error"] = found.length_error;
         answer["error_degrees"] = found.angle_error_deg;
         answer["clocks"] = found.clocks;
+        answer["shift"] = found.shift;
+        answer["words"] = json_of(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("magnitude {}, error {}\n{} degrees, error {}\n{} clocks\n",

@@ -155,26 +155,34 @@ void write_servo(const motion::Trajectory& trajectory, const CordicMotionOptions
 } // namespace
 
 void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) {
-    command
-        .add_option("--profile", options.profile, "Put the set-points in time and measure their step pulses")
-        ->check(CLI::IsMember({"trapezoid", "s-curve"}));
+    CLI::Option* const profile = command
+                                     .add_option("--profile",
+                                                 options.profile,
+                                                 "Put the set-points in time and measure their step pulses")
+                                     ->check(CLI::IsMember({"trapezoid", "s-curve"}));
     command.add_option("--jerk", options.jerk, "Of the S-curve, mm/s3")
         ->check(CLI::Range(1e-3, 1e9))
-        ->capture_default_str();
+        ->needs(profile)
+        ->default_str(fmt::format("{}", usual_jerk));
     command.add_option("--steps", options.steps_per_mm, "Steps a mm of each axis")
         ->check(CLI::Range(1e-3, 1e6))
+        ->needs(profile)
         ->capture_default_str();
     command.add_option("--timer", options.timer_hz, "Frequency of the timer that gives the pulses, Hz")
         ->check(CLI::Range(1.0, 1e10))
+        ->needs(profile)
         ->capture_default_str();
     command.add_option("--min-interval", options.min_interval, "Ticks between two pulses of an axis")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+        ->needs(profile)
         ->capture_default_str();
     command.add_option("--pulses", options.pulses, "Write the pulses (CSV)")->type_name("FILE");
-    command.add_option("--servo", options.servo, "Write the set-points of a servo controller (CSV)")
-        ->type_name("FILE");
+    CLI::Option* const servo =
+        command.add_option("--servo", options.servo, "Write the set-points of a servo controller (CSV)")
+            ->type_name("FILE");
     command.add_option("--period", options.servo_period, "Of the servo controller, s")
         ->check(CLI::Range(1e-6, 10.0))
+        ->needs(servo)
         ->capture_default_str();
 }
 
@@ -190,7 +198,11 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
         }
         return std::nullopt;
     }
-    const double jerk = options.profile == "s-curve" ? options.jerk : 0.0;
+    const bool s_curve = options.profile == "s-curve";
+    if (options.jerk && !s_curve) {
+        throw Error("--jerk is for the profile s-curve");
+    }
+    const double jerk = s_curve ? options.jerk.value_or(usual_jerk) : 0.0;
     constexpr double of_no_motion = 1.0;
     const double greatest = std::min(gcode::greatest_acceleration(processor), most_acceleration);
     const auto machine = gcode::cordic_machine(greatest > 0.0 ? greatest : of_no_motion, jerk);

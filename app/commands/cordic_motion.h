@@ -17,10 +17,12 @@ class App;
 
 namespace millwright::app {
 
+inline constexpr double usual_jerk = 10'000.0; // mm/s3
+
 /// What the options --profile, --jerk, --steps, --timer, --min-interval and --pulses say.
 struct CordicMotionOptions {
-    std::string profile;    ///< trapezoid, s-curve; empty: no motion is asked for
-    double jerk = 10'000.0; ///< mm/s3, of the S-curve
+    std::string profile;        ///< trapezoid, s-curve; empty: no motion is asked for
+    std::optional<double> jerk; ///< mm/s3, of the S-curve; else usual_jerk
     double steps_per_mm = 200.0;
     double timer_hz = 1e6;
     std::int64_t min_interval = 2; ///< ticks

@@ -1,5 +1,6 @@
 #include "app/commands/cordic_remarks.h"
 
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace millwright::app {
@@ -44,12 +46,33 @@ std::optional<std::string> idle_remark(const cordic::Processor& processor,
     return fmt::format("motions lead to where the axes are already, the first one at {}", place);
 }
 
+/// What is left to turn is 0 from the first step on, and the model leaves steps out, but not their gain.
+bool comes_from_sign_of_zero(const cordic::Processor& processor,
+                             const cordic::ExactPoint& from,
+                             const cordic::ExactPoint& to) {
+    return processor.settings().zero == cordic::SignOfZero::zero &&
+           (exactly_equal(to.x, from.x) || exactly_equal(to.y, from.y));
+}
+
 /// Two passes leave up to the angle of the last step each; what is more comes from the word.
-std::string cause_of_speed_error(const cordic::Processor& processor, double error) {
+std::string cause_of_speed_error(const cordic::Processor& processor,
+                                 const cordic::RunReport& report,
+                                 std::span<const cordic::ExactPoint> exact) {
+    const std::size_t n = report.speed_error_at;
+    const cordic::ExactPoint& to = exact[n];
+    const cordic::ExactPoint from = n == 0 ? cordic::ExactPoint() : exact[n - 1];
+    const double way = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
+    if (report.position_error >= 0.5 * report.speed_error * way) {
+        return fmt::format(
+            "its ends are up to {:.2g} mm beside theirs, on a way of {:.2g} mm", report.position_error, way);
+    }
+    if (comes_from_sign_of_zero(processor, from, to)) {
+        return "--matlab-zero turns nothing along an axis, and takes a gain out that was not made";
+    }
     const cordic::Sequence& sequence = processor.settings().sequence;
     const int last = sequence.shifts[static_cast<std::size_t>(sequence.step_count - 1)];
     const double left = 2.0 * std::atan(std::ldexp(1.0, -last));
-    if (left >= 0.5 * error) {
+    if (left >= 0.5 * report.speed_error) {
         return fmt::format("{} iterations turn its direction by up to {:.2g} degrees beside",
                            sequence.step_count,
                            to_degrees(left));
@@ -74,9 +97,10 @@ std::vector<std::string> remarks_on(const cordic::Processor& processor,
             "and what follows leads straight back");
     }
     if (of_gcode && report.speed_error > much) {
-        remarks.push_back(fmt::format("the speed is up to {:.0f} % beside the feed: {}",
+        remarks.push_back(fmt::format("the speed is up to {:.0f} % beside the feed (line {}): {}",
                                       100.0 * report.speed_error,
-                                      cause_of_speed_error(processor, report.speed_error)));
+                                      program.points[report.speed_error_at].line,
+                                      cause_of_speed_error(processor, report, program.points)));
     }
     return remarks;
 }

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
+#include "core/cordic/endless_watch.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
 
@@ -37,7 +38,7 @@ struct Options {
     std::string ram;     ///< what the host has left there; empty: nothing
     std::string ram_out; ///< and what it finds there then
     double clock_hz = 8e6;
-    std::int64_t most_clocks = 1'000'000'000;
+    std::optional<std::int64_t> most_clocks;
     bool json = false;
 };
 
@@ -50,13 +51,18 @@ double most_acceleration(const Options& options, const gcode::CordicProgram& pro
     return (options.choice.whole_acceleration ? 1.0 : half) * *options.source.acceleration;
 }
 
-void run_traced(cordic::Processor& processor, const Options& options) {
+void run_traced(cordic::Processor& processor, const gcode::CordicProgram& program, const Options& options) {
     constexpr std::size_t much = 1U << 20U; // a long run has gigabytes of waves
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
     FileWriter file(options.trace);
-    for (std::int64_t n = 0; n < options.most_clocks && processor.state().stop == cordic::Stop::none; ++n) {
+    cordic::EndlessWatch watch;
+    const std::int64_t most = options.most_clocks.value_or(most_clocks_of(options.source, options.choice));
+    for (std::int64_t n = 1; n <= most && processor.state().stop == cordic::Stop::none; ++n) {
         processor.clock();
         waves.add(processor.state());
+        if (!options.most_clocks && n % cordic::EndlessWatch::interval == 0 && watch.came_back(processor)) {
+            throw goes_round(processor, program, options.source);
+        }
         if (waves.size() >= much) {
             file.write(waves.take());
         }
@@ -65,7 +71,14 @@ void run_traced(cordic::Processor& processor, const Options& options) {
     file.close();
 }
 
-nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const cordic::Published& record) {
+bool is_in_space(const cordic::Published& record) {
+    using cordic::Opcode;
+    return record.opcode == Opcode::g00z || record.opcode == Opcode::g01z || record.opcode == Opcode::g02z ||
+           record.opcode == Opcode::g03z;
+}
+
+nlohmann::ordered_json
+json_of_point(const cordic::Processor& processor, const cordic::Published& record, bool with_height) {
     const auto set = processor.set_point(record);
     nlohmann::ordered_json point{{"clock", record.clock},
                                  {"x", set.x},
@@ -74,10 +87,7 @@ nlohmann::ordered_json json_of_point(const cordic::Processor& processor, const c
                                  {"vy", set.vy},
                                  {"ax", set.ax},
                                  {"ay", set.ay}};
-    using cordic::Opcode;
-    const bool in_space = record.opcode == Opcode::g00z || record.opcode == Opcode::g01z ||
-                          record.opcode == Opcode::g02z || record.opcode == Opcode::g03z;
-    if (in_space) {
+    if (with_height) {
         const auto height = processor.height_point(record);
         point["z"] = height.z;
         point["vz"] = height.vz;
@@ -111,8 +121,9 @@ void print_json(JsonMembers& answer,
     answer.add("late", report.late.size());
     answer.add("fastest_mm_per_min",
                report.fastest ? nlohmann::ordered_json(to_mm_per_min(*report.fastest)) : nullptr);
+    const bool with_height = std::ranges::any_of(processor.published(), is_in_space);
     answer.add_each("points", processor.published(), [&](const cordic::Published& record) {
-        return json_of_point(processor, record);
+        return json_of_point(processor, record, with_height);
     });
     std::size_t n = 0;
     answer.add_each("commands", processor.commanded(), [&](const cordic::Commanded& command) {
@@ -169,9 +180,9 @@ execute(cordic::Processor& processor, const gcode::CordicProgram& program, const
             processor, program.code_lines, options.source.file, options.plc, options.clock_hz);
     }
     if (options.trace.empty()) {
-        processor.run(options.most_clocks);
+        execute_to_end(processor, program, options.source, options.choice, options.most_clocks);
     } else {
-        run_traced(processor, options);
+        run_traced(processor, program, options);
     }
     return std::nullopt;
 }
@@ -251,9 +262,7 @@ void add_cordic_run(CLI::App& group, Command& chosen) {
     command.add_option("--ram-out", options->ram_out, "Write what is in the RAM at the end")
         ->type_name("FILE");
     add_cordic_choice(command, options->choice);
-    command.add_option("--clocks", options->most_clocks, "Stop after so many")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
-        ->capture_default_str();
+    add_cordic_clocks(command, options->most_clocks);
     add_cordic_motion_options(command, options->motion);
     add_cordic_plc_options(command, options->plc);
     trace->excludes("--plc");

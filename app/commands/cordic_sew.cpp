@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace millwright::app {
 
@@ -21,6 +22,7 @@ struct Options {
     CordicChoice choice;
     cordic::Sewing sewing;
     double clock_hz = 8e6;
+    std::optional<std::int64_t> most_clocks;
     bool json = false;
 };
 
@@ -32,16 +34,15 @@ int line_of(const cordic::Processor& processor, const gcode::CordicProgram& prog
 int sew(const Options& options) {
     const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
-    constexpr std::int64_t long_enough = 1'000'000'000;
-    processor.run(long_enough);
+    execute_to_end(processor, program, options.source, options.choice, options.most_clocks);
     if (processor.state().stop != cordic::Stop::halted) {
         throw not_at_its_end(processor, program, options.source, options.choice);
     }
     const cordic::SewingRun sewn =
         cordic::sew(options.sewing, cordic::stitches_of(processor, options.clock_hz));
     const cordic::StitchTimes one = cordic::stitch_times(options.sewing, 0.0);
-    const std::int64_t first_late = sewn.late.empty() ? -1 : static_cast<std::int64_t>(sewn.late.front());
-    const int late_line = first_late < 0 ? 0 : line_of(processor, program, sewn.late.front());
+    const std::size_t first_late = sewn.late.empty() ? 0 : sewn.late.front() + 1;           // 0: none
+    const int late_line = first_late > 0 ? line_of(processor, program, first_late - 1) : 0; // 0: of no line
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["stitches"] = sewn.stitches;
@@ -51,8 +52,8 @@ int sew(const Options& options) {
         answer["slowest_computation_s"] = sewn.slowest_computation;
         answer["late_computations"] = sewn.late_computations;
         answer["late_moves"] = sewn.late_moves;
-        answer["first_late"] = first_late;
-        answer["first_late_line"] = late_line;
+        answer["first_late"] = first_late > 0 ? nlohmann::ordered_json(first_late) : nullptr;
+        answer["first_late_line"] = late_line > 0 ? nlohmann::ordered_json(late_line) : nullptr;
         fmt::print("{}\n", answer.dump(2));
         return 0;
     }
@@ -63,9 +64,9 @@ int sew(const Options& options) {
     fmt::print("longest stitch {:.6g} mm, slowest computation {:.6g} ms\n",
                sewn.longest,
                1e3 * sewn.slowest_computation);
-    fmt::print("{} computations and {} moves too late\n", sewn.late_computations, sewn.late_moves);
-    if (first_late >= 0) {
-        fmt::print("first: stitch {}, {}:{}\n", first_late + 1, options.source.file, late_line);
+    fmt::print("too late: computations {}, moves {}\n", sewn.late_computations, sewn.late_moves);
+    if (first_late > 0) {
+        fmt::print("first: stitch {}, {}:{}\n", first_late, options.source.file, late_line);
     }
     return 0;
 }
@@ -79,6 +80,7 @@ void add_cordic_sew(CLI::App& group, Command& chosen) {
     add_cordic_source(command, options->source);
     add_cordic_choice(command, options->choice);
     add_cordic_clock(command, options->clock_hz);
+    add_cordic_clocks(command, options->most_clocks);
     const auto positive = CLI::Range(1e-3, 1e7);
     command
         .add_option("--needle-rpm", options->sewing.needle_rpm, "Turns a minute of the needle, a stitch each")

@@ -1,9 +1,11 @@
 #include "app/commands/cordic_source.h"
 
+#include "app/diagnostics.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/cordic/assembler.h"
+#include "core/cordic/endless_watch.h"
 #include "core/cordic/microprogram.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/interpreter.h"
@@ -14,8 +16,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -34,14 +36,6 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-constexpr std::size_t most_printed = 20; // of errors or warnings
-
-void print_first(const std::vector<Diagnostic>& found) {
-    for (std::size_t n = 0; n < std::min(found.size(), most_printed); ++n) {
-        fmt::print(stderr, "millwright: {}\n", to_text(found[n]));
-    }
-}
-
 cordic::MadeFor asked_for(const CordicArithmetic& arithmetic) {
     const cordic::MadeFor usual;
     return {arithmetic.iterations.value_or(usual.iterations),
@@ -57,13 +51,6 @@ cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
     settings.zero = made_for.zero;
     settings.sense = made_for.sense;
     return settings;
-}
-
-void print_warnings(const std::vector<Diagnostic>& warnings) {
-    print_first(warnings);
-    if (warnings.size() > most_printed) {
-        fmt::print(stderr, "millwright: {} warnings\n", warnings.size());
-    }
 }
 
 gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
@@ -161,6 +148,11 @@ gcode::CordicProgram assembled(const CordicSource& source, const CordicArithmeti
     return {std::move(made.image), {}, std::move(made.lines), {}, {}, std::move(made.warnings)};
 }
 
+bool is_gcode(const CordicSource& source) {
+    const auto kind = std::filesystem::path(source.file).extension();
+    return kind != ".bin" && kind != ".asm";
+}
+
 /// What only a microprogram of one's own comes to.
 bool is_of_microprogram(cordic::Stop stop) {
     using cordic::Stop;
@@ -237,12 +229,12 @@ void refuse(const std::vector<Diagnostic>& errors) {
 }
 
 gcode::CordicProgram cordic_program(const CordicSource& source, const CordicArithmetic& arithmetic) {
-    const auto kind = std::filesystem::path(source.file).extension();
-    if (kind != ".bin" && kind != ".asm") {
+    if (is_gcode(source)) {
         return compiled(source, arithmetic);
     }
     refuse_options_of_gcode(source);
-    return kind == ".bin" ? loaded(source, arithmetic) : assembled(source, arithmetic);
+    return std::filesystem::path(source.file).extension() == ".bin" ? loaded(source, arithmetic)
+                                                                    : assembled(source, arithmetic);
 }
 
 cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image) {
@@ -261,6 +253,43 @@ cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Ima
     return {settings, image, std::move(made.program)};
 }
 
+std::int64_t most_clocks_of(const CordicSource& source, const CordicChoice& choice) {
+    constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
+    return is_gcode(source) && choice.microprogram.empty() ? no_limit : cordic::usual_most_clocks;
+}
+
+Error goes_round(const cordic::Processor& processor,
+                 const gcode::CordicProgram& program,
+                 const CordicSource& source) {
+    const cordic::CodeAddress address = processor.state().instruction_at;
+    const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
+    return Error(Diagnostic{
+        {source.file, at.line, at.column, -1},
+        fmt::format("the program never ends: at the instruction at {:#06x} it is again as it was before, "
+                    "after {} clocks",
+                    address,
+                    processor.state().clocks.total),
+        "--clocks executes so many of it"});
+}
+
+void execute_to_end(cordic::Processor& processor,
+                    const gcode::CordicProgram& program,
+                    const CordicSource& source,
+                    const CordicChoice& choice,
+                    std::optional<std::int64_t> most_clocks) {
+    if (most_clocks) {
+        processor.run(*most_clocks);
+    } else if (cordic::run_watched(processor, most_clocks_of(source, choice))) {
+        throw goes_round(processor, program, source);
+    }
+}
+
+void add_cordic_clocks(CLI::App& command, std::optional<std::int64_t>& most_clocks) {
+    command.add_option("--clocks", most_clocks, "Stop after so many")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
+        ->default_str(fmt::format("the end; of .asm and .bin {}", cordic::usual_most_clocks));
+}
+
 Error not_at_its_end(const cordic::Processor& processor,
                      const gcode::CordicProgram& program,
                      const CordicSource& source,
@@ -268,7 +297,8 @@ Error not_at_its_end(const cordic::Processor& processor,
     const cordic::ProcessorState& state = processor.state();
     if (state.stop == cordic::Stop::none) {
         return Error(fmt::format("the program is not at its end after {} clocks", state.clocks.total),
-                     source.file);
+                     source.file,
+                     "--clocks allows more");
     }
     if (is_of_microprogram(state.stop) && !choice.microprogram.empty()) {
         const cordic::Microprogram& program_of_words = processor.microprogram();

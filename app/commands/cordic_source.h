@@ -8,6 +8,7 @@
 
 #include <CLI/App.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,21 @@ void refuse(const std::vector<Diagnostic>& errors);
                                                   const CordicArithmetic& arithmetic);
 
 [[nodiscard]] cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image);
+
+/// To the end, or `most_clocks` where they are asked for. Throws Error for a program that goes round without
+/// end, with the place in it; G-code ends, unless a microprogram of one's own executes it.
+void execute_to_end(cordic::Processor& processor,
+                    const gcode::CordicProgram& program,
+                    const CordicSource& source,
+                    const CordicChoice& choice,
+                    std::optional<std::int64_t> most_clocks);
+/// Of the instruction that goes round.
+[[nodiscard]] Error goes_round(const cordic::Processor& processor,
+                               const gcode::CordicProgram& program,
+                               const CordicSource& source);
+/// What is executed where no --clocks is given.
+[[nodiscard]] std::int64_t most_clocks_of(const CordicSource& source, const CordicChoice& choice);
+void add_cordic_clocks(CLI::App& command, std::optional<std::int64_t>& most_clocks);
 
 /// Why the processor is not at the end of `program`, with the place in it or in the microprogram. `clocks`:
 /// how many it had.

@@ -45,9 +45,6 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
 }
 
 machine::Job begun_at(machine::Job job, int line, const Options& options) {
-    if (options.machine.driver == "cordic") {
-        throw Error("the cordic driver runs programs from their beginning alone");
-    }
     machine::RunFromSettings settings;
     settings.clearance = options.clearance;
     if (options.machine.driver == "grbl") { // which executes the text
@@ -70,6 +67,7 @@ int run(const Options& options) {
         const OpenedProject opened = open_project(file);
         machine::Job job =
             job_of(opened, planned(opened, project::Scope::program, interrupt.token()), options);
+        check_from_line(options.machine, from_line);
         if (from_line > 1) {
             job = begun_at(job, from_line, options);
         }
@@ -102,11 +100,6 @@ void add_run_command(CLI::App& app, Command& chosen) {
         ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
-    command
-        .add_option("--clock", options->machine.processor_hz, "Clock frequency of the CORDIC processor, Hz")
-        ->type_name("HZ")
-        ->check(CLI::Range(1.0, 1e11))
-        ->capture_default_str();
     add_post_options(command, options->post);
     command.callback([&chosen, &command, options] {
         options->series.options = options_to_go_on(command);

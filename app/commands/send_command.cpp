@@ -11,6 +11,7 @@
 #include "core/machine/feed_check.h"
 #include "core/machine/file_job.h"
 #include "core/machine/run_from_line.h"
+#include "core/plot/path_file.h"
 #include "core/project/assets.h"
 
 #include <CLI/Config.hpp>
@@ -38,7 +39,7 @@ struct Options {
 
 bool is_moved_from_here(const Options& options) {
     const std::string& driver = options.machine.driver;
-    return driver == "virtual" || driver == "stream" || driver == "records";
+    return driver == "virtual" || driver == "stream" || driver == "records" || driver == "cordic";
 }
 
 void check_model(const Options& options) {
@@ -47,7 +48,7 @@ void check_model(const Options& options) {
         throw Error("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
     }
     if (!moved && (!options.model.empty() || !options.at.empty())) {
-        throw Error("a machine and where it stands are for the drivers virtual, stream and records");
+        throw Error("a machine and where it stands are for the drivers virtual, cordic, stream and records");
     }
 }
 
@@ -102,6 +103,7 @@ machine::Job ready(machine::Job job, const Options& options, int from_line) {
     if (from_line > 1 && options.machine.driver == "pmac") {
         throw Error("a motion program begins with its first line: what a line does depends on those above");
     }
+    check_from_line(options.machine, from_line);
     if (from_line > 1) {
         machine::RunFromSettings settings;
         settings.dialect = options.machine.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
@@ -139,6 +141,9 @@ int send_motion(const Options& options) {
     PlannedMachine machine(options.machine);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
+        if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
+            throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
+        }
         machine::Job job = ready(
             machine::file_job(file, model, {.start = place_of(*model, options.at)}), options, from_line);
         if (const auto faults = machine::preflight(job); !faults.empty()) {
@@ -147,7 +152,7 @@ int send_motion(const Options& options) {
         if (const auto slowed = machine::feeds_not_reached(job)) {
             fmt::print(stderr, "millwright: {}\n", to_text(*slowed));
         }
-        if (options.machine.driver != "virtual") {
+        if (options.machine.driver == "stream" || options.machine.driver == "records") {
             say_what_is_by_hand(job);
         }
         return job;
@@ -176,10 +181,11 @@ void add_send_command(CLI::App& app, Command& chosen) {
                        "G-code files; where a machine is named also path files; of a PMAC motion programs");
     command.add_option("--driver", options->machine.driver, "Kind of controller, or machine to run on")
         ->required()
-        ->check(CLI::IsMember({"grbl", "linuxcnc", "pmac", "stream", "records", "virtual"}));
+        ->check(CLI::IsMember({"grbl", "linuxcnc", "pmac", "stream", "records", "cordic", "virtual"}));
     command
-        .add_option(
-            "--machine", options->model, "Shipped machine or machine file, for virtual, stream and records")
+        .add_option("--machine",
+                    options->model,
+                    "Shipped machine or machine file, for virtual, cordic, stream and records")
         ->type_name("NAME");
     command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")
         ->delimiter(',')

@@ -15,7 +15,8 @@ namespace millwright::cordic {
 /// Binary places of the wide angles below; their error is under 2^-117.
 inline constexpr int angle_places = 124;
 
-/// atan (alternating) or atanh of 1/divisor by their power series.
+/// atan (alternating) or atanh of 1/divisor by their power series, not above it: of an angle below 2^-s even
+/// where nothing of the difference is left in so many places, or it would round as 2^-s does.
 [[nodiscard]] constexpr Int128 inverse_tangent(Int128 divisor, bool alternating) {
     Int128 power = (Int128{1} << angle_places) / divisor;
     const Int128 square = divisor * divisor;
@@ -25,7 +26,7 @@ inline constexpr int angle_places = 124;
         sum += alternating && k % 4 == 3 ? -term : term;
         power /= square;
     }
-    return sum;
+    return alternating ? sum - 1 : sum;
 }
 
 /// pi/4 by Machin's formula.
@@ -94,24 +95,26 @@ template <class T> [[nodiscard]] constexpr T to_floating(Int128 wide) {
 /// Binary places of inverse_gain.
 inline constexpr int gain_places = 62;
 
-/// 1/k of a sequence, gain_places after the point, within 2^-59: the largest r with r^2 k^2 <= 1, bit by bit.
+/// 1/k of a sequence, gain_places after the point, rounded to the nearest: the largest r with r^2 k^2 <= 1,
+/// bit by bit, and one more where r + 1/2 is not beyond either. k^2 is within 2^-113.
 [[nodiscard]] constexpr std::int64_t inverse_gain(const Sequence& sequence) {
-    constexpr int places = 60;
-    Int128 k_squared = Int128{1} << 120;
+    constexpr int places = 120;
+    Int128 k_squared = Int128{1} << places;
     for (int i = 0; i < sequence.step_count; ++i) {
         const int twice = 2 * sequence.shifts[static_cast<std::size_t>(i)];
-        k_squared += sign_of(sequence.m) * (twice < 120 ? k_squared >> twice : 0);
+        k_squared += sign_of(sequence.m) * (twice < places ? k_squared >> twice : 0);
     }
-    const Int128 narrow = nearest(k_squared, 120 - places); // 60 places, below 4
-    std::int64_t r = 0;
+    const auto is_within = [&](UInt128 half_units) { // of r
+        constexpr int one = 2 * (gain_places + 1) + places - 128;
+        return product(half_units * half_units, static_cast<UInt128>(k_squared)) <=
+               UInt256{UInt128{1} << one, 0};
+    };
+    std::uint64_t r = 0;
     for (int bit = gain_places; bit >= 0; --bit) { // r < 2
-        const Int128 tried = r + (std::int64_t{1} << bit);
-        const Int128 square = nearest(tried * tried, 2 * gain_places - places);
-        if (square * narrow <= (Int128{1} << (2 * places))) {
-            r = static_cast<std::int64_t>(tried);
-        }
+        const std::uint64_t tried = r + (std::uint64_t{1} << bit);
+        r = is_within(UInt128{tried} * 2) ? tried : r;
     }
-    return r;
+    return static_cast<std::int64_t>(r + (is_within(UInt128{r} * 2 + 1) ? 1 : 0));
 }
 
 } // namespace millwright::cordic

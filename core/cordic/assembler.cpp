@@ -81,7 +81,7 @@ private:
                    name == ".DIRECTION" || name == ".ZERO") {
             read_setting(name, word.text);
         } else if (name == ".BYTE") {
-            read_byte();
+            read_byte(word.column);
         } else if (name == ".PAGE") {
             fill_page();
         } else {
@@ -159,7 +159,7 @@ private:
         begun_ = true;
     }
 
-    void read_byte() {
+    void read_byte(int byte_column) {
         long long number = 0;
         if (!more() || !read_number(words_[at_].text, number) || number < 0 || number > 255) {
             fail(column(), ".byte needs a number from 0 to 255");
@@ -168,6 +168,7 @@ private:
         ++at_;
         begun_ = true;
         moves_.forget();
+        result_.lines.push_back({code_address_at(result_.image.code.size()), line_, byte_column});
         result_.image.code.push_back(static_cast<std::uint8_t>(number));
     }
 

@@ -50,6 +50,8 @@ struct Memory {
     [[nodiscard]] std::uint8_t read(std::uint16_t address, std::uint8_t page = 0) const;
     /// Nothing writes into a ROM: false.
     bool write(std::uint16_t address, std::uint8_t data);
+
+    friend bool operator==(const Memory&, const Memory&) = default;
 };
 
 /// The pins in one clock. ALE is active high; PSEN, RD and WR are active low on the chip and true here when

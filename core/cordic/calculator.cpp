@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -94,6 +95,12 @@ turn_of(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal&
     }
 }
 
+template <class Arithmetic, class Vector>
+std::array<Word, 3> words_of(const Arithmetic& arithmetic, const NumberFormat& format, const Vector& v) {
+    const auto word = [&](auto number) { return lowest_bits(arithmetic.to_word(number), format.word()); };
+    return {word(v.x), word(v.y), word(v.z)};
+}
+
 } // namespace
 
 Rotated rotate(const NumberFormat& format,
@@ -116,9 +123,7 @@ Rotated rotate(const NumberFormat& format,
                        arithmetic.to_double(turned.z),
                        0.0,
                        sequence.clock_count(),
-                       {lowest_bits(arithmetic.to_word(turned.x), format.word()),
-                        lowest_bits(arithmetic.to_word(turned.y), format.word()),
-                        lowest_bits(arithmetic.to_word(turned.z), format.word())}};
+                       words_of(arithmetic, format, turned)};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
         long double exact_x = x.nearest_long_double();
@@ -168,6 +173,8 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
         answer.angle_error_deg =
             std::abs(std::remainder(answer.angle_deg - to_degrees(std::atan2(y, x)), 360.0));
         answer.clocks = sequence.clock_count();
+        answer.shift = shift;
+        answer.words = words_of(arithmetic, format, found);
         return answer;
     });
 }

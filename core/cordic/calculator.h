@@ -35,6 +35,8 @@ struct Polar {
     double length_error = 0.0;
     double angle_error_deg = 0.0;
     int clocks = 0;
+    int shift = 0;               ///< places that the vector was shifted to the left; < 0: right
+    std::array<Word, 3> words{}; ///< the registers behind the pass: length, shifted so, rest of y, angle
 };
 
 /// Length and direction of (x, y). Throws Error for (0, 0), and for values as rotate().

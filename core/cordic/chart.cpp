@@ -1,12 +1,14 @@
 #include "core/cordic/chart.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <string_view>
@@ -17,8 +19,9 @@ namespace {
 constexpr double width = 760.0;
 constexpr double height = 460.0;
 constexpr double left = 90.0;
-constexpr double right = 30.0;
-constexpr double top = 66.0; // title and legend
+constexpr double right_margin = 30.0;
+constexpr double bar_margin = 110.0; // of a heat map, for its colour bar
+constexpr double top = 66.0;         // title and legend
 constexpr double bottom = 60.0;
 constexpr double faintest = 1e-18; // what a logarithmic scale shows of a smaller value
 
@@ -76,10 +79,55 @@ double tick_step(double size) {
     return 10.0 * power;
 }
 
+/// Round numbers of an axis, and how they are written: in short numbers, beside a base and a power of ten
+/// that the axis's title names.
+class Ticks {
+public:
+    Ticks(const Range& range, bool powers) : powers_(powers) {
+        const double step = tick_step(range.size());
+        for (double n = std::ceil(range.from / step); n * step <= range.to; n += 1.0) {
+            values_.push_back(n * step + 0.0);
+        }
+        if (powers || values_.empty()) {
+            return;
+        }
+        constexpr double most_digits = 1e4; // of a label
+        if (largest() > most_digits * step) {
+            base_ = values_[values_.size() / 2];
+        }
+        const double power = std::floor(std::log10(std::max(largest(), step)));
+        constexpr double shortest = -3.0; // 0.001 to 99999 are written as they are
+        constexpr double longest = 4.0;
+        exponent_ = power < shortest || power > longest ? power : 0.0;
+    }
+
+    [[nodiscard]] const std::vector<double>& values() const { return values_; }
+    [[nodiscard]] std::string label(double value) const {
+        return powers_ ? fmt::format("1e{:.3g}", value)
+                       : fmt::format("{:.4g}", (value - base_) / std::pow(10.0, exponent_) + 0.0);
+    }
+    [[nodiscard]] std::string title(std::string_view of_axis) const {
+        std::string all(of_axis);
+        all += exactly_equal(base_, 0.0) ? "" : fmt::format(", from {:.9g}", base_);
+        return all + (exactly_equal(exponent_, 0.0) ? "" : fmt::format(", 1e{:.0f}", exponent_));
+    }
+
+private:
+    [[nodiscard]] double largest() const {
+        return std::max(std::abs(values_.front() - base_), std::abs(values_.back() - base_));
+    }
+
+    std::vector<double> values_;
+    bool powers_;
+    double base_ = 0.0;
+    double exponent_ = 0.0;
+};
+
 /// The picture under construction: axes in data coordinates.
 class Canvas {
 public:
-    Canvas(const Range& x, const Range& y) : x_(x), y_(y) {
+    Canvas(const Range& x, const Range& y, bool powers_along_y = false, double right = right_margin)
+        : x_(x), y_(y), right_(right), x_ticks_(x, false), y_ticks_(y, powers_along_y) {
         out_ = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                            "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
                            "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
@@ -88,7 +136,7 @@ public:
     }
 
     [[nodiscard]] double across(double x) const {
-        return left + (x - x_.from) / x_.size() * (width - left - right);
+        return left + (x - x_.from) / x_.size() * (width - left - right_);
     }
     [[nodiscard]] double down(double y) const {
         return height - bottom - (y - y_.from) / y_.size() * (height - top - bottom);
@@ -104,68 +152,73 @@ public:
         add("<text x=\"{}\" y=\"26\" text-anchor=\"middle\" font-size=\"16\">{}</text>\n",
             width / 2,
             escaped(title));
-        text(width / 2, height - 14, "middle", x_label);
+        text(width / 2, height - 14, "middle", x_ticks_.title(x_label));
         add("<text x=\"20\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {0})\">{1}</text>\n",
             (height - bottom + top) / 2,
-            escaped(y_label));
+            escaped(y_ticks_.title(y_label)));
     }
-    void axes(bool logarithmic) {
+    void axes() {
         add("<g stroke=\"#dddddd\">\n");
-        for (const double x : ticks(x_)) {
+        for (const double x : x_ticks_.values()) {
             add("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>\n",
                 across(x),
                 top,
                 height - bottom);
         }
-        for (const double y : ticks(y_)) {
+        for (const double y : y_ticks_.values()) {
             add("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>\n",
                 left,
-                width - right,
+                width - right_,
                 down(y));
         }
         add("</g>\n");
-        for (const double x : ticks(x_)) {
-            text(across(x), height - bottom + 18, "middle", fmt::format("{:.4g}", x));
+        for (const double x : x_ticks_.values()) {
+            text(across(x), height - bottom + 18, "middle", x_ticks_.label(x));
         }
-        for (const double y : ticks(y_)) {
-            text(left - 8,
-                 down(y) + 4,
-                 "end",
-                 logarithmic ? fmt::format("1e{:.3g}", y) : fmt::format("{:.4g}", y));
+        for (const double y : y_ticks_.values()) {
+            text(left - 8, down(y) + 4, "end", y_ticks_.label(y));
         }
         add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#333333\"/>\n",
             left,
             top,
-            width - left - right,
+            width - left - right_,
             height - top - bottom);
     }
     [[nodiscard]] std::string done() { return out_ + "</svg>\n"; }
 
 private:
-    static std::vector<double> ticks(const Range& range) {
-        const double step = tick_step(range.size());
-        std::vector<double> found;
-        for (double n = std::ceil(range.from / step); n * step <= range.to; n += 1.0) {
-            found.push_back(n * step + 0.0);
-        }
-        return found;
-    }
-
     Range x_, y_;
+    double right_;
+    Ticks x_ticks_, y_ticks_;
     std::string out_;
 };
 
 void keep_scale(Range& x, Range& y) {
-    const double across = x.size() / (width - left - right);
+    const double across = x.size() / (width - left - right_margin);
     const double down = y.size() / (height - top - bottom);
     Range& narrow = across < down ? x : y;
-    const double wanted = across < down ? down * (width - left - right) : across * (height - top - bottom);
+    const double wanted =
+        across < down ? down * (width - left - right_margin) : across * (height - top - bottom);
     const double more = 0.5 * (wanted - narrow.size());
     narrow.from -= more;
     narrow.to += more;
 }
 
-void draw(Canvas& canvas, const Chart& chart, const Series& series, std::string_view colour) {
+/// How many later lines lie upon one, on a linear scale.
+std::size_t hidden_behind(const Canvas& canvas, const Chart& chart, std::size_t series) {
+    constexpr double apart = 1.0; // pixels
+    const Series& mine = chart.series[series];
+    const auto covers = [&](const Series& other) {
+        return mine.mark == Mark::line && other.mark == Mark::line && !chart.logarithmic &&
+               other.x == mine.x && std::ranges::equal(mine.y, other.y, [&](double a, double b) {
+                   return std::abs(canvas.down(a) - canvas.down(b)) < apart;
+               });
+    };
+    const auto later = chart.series.begin() + static_cast<std::ptrdiff_t>(series) + 1;
+    return static_cast<std::size_t>(std::count_if(later, chart.series.end(), covers));
+}
+
+void draw(Canvas& canvas, const Chart& chart, const Series& series, double line, std::string_view colour) {
     std::string points;
     for (std::size_t n = 0; n < series.x.size(); ++n) {
         if (chart.logarithmic && !(series.y[n] > 0.0)) {
@@ -180,8 +233,10 @@ void draw(Canvas& canvas, const Chart& chart, const Series& series, std::string_
         }
     }
     if (!points.empty()) {
-        canvas.add(
-            "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"{}\"/>\n", colour, points);
+        canvas.add("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" points=\"{}\"/>\n",
+                   colour,
+                   line,
+                   points);
     }
 }
 
@@ -193,7 +248,7 @@ std::string_view colour_of(std::size_t series) {
 void draw_legend(Canvas& canvas, const std::vector<Series>& series) {
     constexpr double widest = 180.0;
     constexpr double mark = 14.0;
-    const double share = std::min(widest, (width - left - right) / static_cast<double>(series.size()));
+    const double share = std::min(widest, (width - left - right_margin) / static_cast<double>(series.size()));
     double x = left;
     for (std::size_t n = 0; n < series.size(); ++n) {
         if (!series[n].label.empty()) {
@@ -220,6 +275,37 @@ std::string colour_at(double fraction) {
                        channel(1.0 - 1.6 * f));
 }
 
+/// Even steps, half a one beyond the first and the last.
+Range around_cells(const std::vector<double>& middles) {
+    const double half = 0.5 * (middles.back() - middles.front()) / static_cast<double>(middles.size() - 1);
+    return {middles.front() - half, middles.back() + half};
+}
+
+/// What the colours of the powers of ten from `value.from` to `value.to` mean.
+void draw_bar(Canvas& canvas, const Range& value, std::string_view label) {
+    constexpr int parts = 64;
+    constexpr double x = width - bar_margin + 16.0;
+    constexpr double wide = 16.0;
+    constexpr double high = height - top - bottom;
+    for (int n = 0; n < parts; ++n) {
+        canvas.add("<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                   x,
+                   top + high * n / parts,
+                   wide,
+                   high / parts,
+                   colour_at(1.0 - (n + 0.5) / parts));
+    }
+    canvas.text(x, top - 11, "start", label);
+    if (!(value.size() > 0.0)) {
+        return canvas.text(x + wide + 6, top + 0.5 * high + 4, "start", fmt::format("1e{:.3g}", value.from));
+    }
+    const Ticks powers(value, true);
+    for (const double power : powers.values()) {
+        const double y = top + high * (value.to - power) / value.size();
+        canvas.text(x + wide + 6, y + 4, "start", powers.label(power));
+    }
+}
+
 } // namespace
 
 std::string to_svg(const Chart& chart) {
@@ -239,11 +325,14 @@ std::string to_svg(const Chart& chart) {
     if (chart.same_scale) {
         keep_scale(x, y);
     }
-    Canvas canvas(x, y);
+    Canvas canvas(x, y, chart.logarithmic);
     canvas.titles(chart.title, chart.x_label, chart.y_label);
-    canvas.axes(chart.logarithmic);
+    canvas.axes();
     for (std::size_t n = 0; n < chart.series.size(); ++n) {
-        draw(canvas, chart, chart.series[n], colour_of(n));
+        constexpr double line = 1.5;
+        const double border =
+            3.0 * static_cast<double>(hidden_behind(canvas, chart, n)); // beside what covers it
+        draw(canvas, chart, chart.series[n], line + border, colour_of(n));
     }
     draw_legend(canvas, chart.series);
     return canvas.done();
@@ -252,35 +341,30 @@ std::string to_svg(const Chart& chart) {
 std::string to_svg(const HeatMap& map) {
     expects(map.x.size() > 1 && map.y.size() > 1 && map.values.size() == map.x.size() * map.y.size(),
             "a heat map has a value for each of its points");
-    const Range x{map.x.front(), map.x.back()};
-    const Range y{map.y.front(), map.y.back()};
+    const Range x = around_cells(map.x);
+    const Range y = around_cells(map.y);
     Range value;
     const auto power = [](double v) { return std::log10(std::max(v, faintest)); };
     for (const double v : map.values) {
         value.include(power(v));
     }
-    Canvas canvas(x, y);
-    const double cell_width = (width - left - right) / static_cast<double>(map.x.size() - 1);
-    const double cell_height = (height - top - bottom) / static_cast<double>(map.y.size() - 1);
+    Canvas canvas(x, y, false, bar_margin);
+    const double cell_width = (width - left - bar_margin) / static_cast<double>(map.x.size());
+    const double cell_height = (height - top - bottom) / static_cast<double>(map.y.size());
     for (std::size_t row = 0; row < map.y.size(); ++row) {
         for (std::size_t column = 0; column < map.x.size(); ++column) {
             const double v = power(map.values[row * map.x.size() + column]);
             canvas.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
                        canvas.across(map.x[column]) - 0.5 * cell_width,
                        canvas.down(map.y[row]) - 0.5 * cell_height,
-                       cell_width + 0.3,
-                       cell_height + 0.3,
+                       cell_width,
+                       cell_height,
                        colour_at((v - value.from) / std::max(value.size(), 1e-9)));
         }
     }
-    canvas.titles(fmt::format("{}  ({} from 1e{:.1f}, blue, to 1e{:.1f}, red)",
-                              map.title,
-                              map.value_label,
-                              value.from,
-                              value.to),
-                  map.x_label,
-                  map.y_label);
-    canvas.axes(false);
+    canvas.titles(map.title, map.x_label, map.y_label);
+    canvas.axes();
+    draw_bar(canvas, value, map.value_label);
     return canvas.done();
 }
 

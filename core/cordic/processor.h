@@ -30,6 +30,7 @@ public:
     [[nodiscard]] const NumberFormat& format() const { return format_; }
     [[nodiscard]] const ProcessorSettings& settings() const { return settings_; }
     [[nodiscard]] Memory& memory() { return memory_; }
+    [[nodiscard]] const Memory& memory() const { return memory_; }
     /// All that was published since reset.
     [[nodiscard]] const std::vector<Published>& published() const { return published_; }
     /// And all commands.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace millwright::cordic {
 namespace {
@@ -49,26 +49,41 @@ void compare(RunReport& report, const Processor& processor, std::span<const Exac
         const Found set = found(processor, published[n]);
         const Point to{exact[n].x, exact[n].y, exact[n].z};
         report.position_error = std::max(report.position_error, length(set.at - to));
-        report.speed_error = std::max(report.speed_error, speed_error(set, exact[n], from));
+        if (const double error = speed_error(set, exact[n], from); error > report.speed_error) {
+            report.speed_error = error;
+            report.speed_error_at = n;
+        }
         from = to;
     }
 }
 
-/// While one motion is under way the next set-point is computed.
+/// A set-point that moves the axes, and what the processor has until the next such.
+struct Motion {
+    std::int64_t clock = 0;
+    double way = 0.0, speed = 0.0;
+};
+
+/// While one motion is under way the next one is computed, and with it what between them moves nothing.
 void find_late(RunReport& report, const Processor& processor, double clock_hz, Point from) {
     const auto& published = processor.published();
-    double fastest = std::numeric_limits<double>::max();
-    for (std::size_t n = 0; n + 1 < published.size(); ++n) {
+    std::optional<Motion> under_way;
+    for (std::size_t n = 0; n < published.size(); ++n) {
         const Found set = found(processor, published[n]);
-        const double way = length(set.at - from);
-        const double computing = static_cast<double>(published[n + 1].clock - published[n].clock) / clock_hz;
-        if (way < length(set.velocity) * computing) {
-            report.late.push_back(n + 1);
+        const Motion next{published[n].clock, length(set.at - from), length(set.velocity)};
+        if (!(next.way > 0.0)) {
+            continue;
         }
-        fastest = std::min(fastest, way / computing);
+        if (under_way) {
+            const double computing = static_cast<double>(next.clock - under_way->clock) / clock_hz;
+            if (under_way->way < under_way->speed * computing) {
+                report.late.push_back(n);
+            }
+            const double fastest = under_way->way / computing;
+            report.fastest = std::min(report.fastest.value_or(fastest), fastest);
+        }
+        under_way = next;
         from = set.at;
     }
-    report.fastest = published.size() > 1 ? std::optional(fastest) : std::nullopt;
 }
 
 const char* hint_for(Stop stop) {

@@ -41,12 +41,13 @@ struct RunReport {
     std::int64_t expected = 0; ///< exact points; as many as published where the program came to its end
     ClockCounts clocks;
     double seconds = 0.0;
-    double position_error = 0.0; ///< largest distance from the exact point
-    double speed_error = 0.0;    ///< largest, in parts of the programmed speed
-    /// Set-points, from 0 and ascending, that took longer to compute than the motion before them.
+    double position_error = 0.0;    ///< largest distance from the exact point
+    double speed_error = 0.0;       ///< largest, in parts of the programmed speed
+    std::size_t speed_error_at = 0; ///< set-point, from 0, that has it
+    /// Set-points, from 0 and ascending, that took longer to compute than the motion before them. Those that
+    /// move nothing are in nobody's way.
     std::vector<std::size_t> late;
-    std::optional<double>
-        fastest; ///< speed up to which none would be late; not with fewer than two set-points
+    std::optional<double> fastest; ///< speed up to which none would be late; not with fewer than two motions
 };
 
 /// `exact` may be empty; then there are no errors to tell. `clock_hz` > 0; `start`: where the axes were.

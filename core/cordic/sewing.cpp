@@ -18,7 +18,8 @@ StitchTimes stitch_times(const Sewing& sewing, double compute_seconds) {
     StitchTimes times;
     times.period = seconds_a_minute / sewing.needle_rpm;
     times.window = (1.0 - sewing.needle_down) * times.period;
-    times.screw_rpm = sewing.stitch / sewing.screw_pitch / times.window * seconds_a_minute;
+    times.screw_rpm =
+        sewing.stitch * sewing.needle_rpm / (sewing.screw_pitch - sewing.needle_down * sewing.screw_pitch);
     times.share = compute_seconds / times.period;
     times.computed_in_time = compute_seconds <= times.period;
     times.moved_in_time = times.screw_rpm <= sewing.most_screw_rpm;

@@ -55,22 +55,23 @@ TEST_F(CordicOptions, TellTheWayOfRoundingThatTheProcessorUses) {
 }
 
 TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
-    const std::vector<std::vector<std::string>> uses{{"cordic", "run", arc, "--clock"},
-                                                     {"cordic", "run", arc, "--tolerance"},
-                                                     {"cordic", "run", arc, "--rapid"},
-                                                     {"cordic", "run", arc, "--acceleration"},
-                                                     {"cordic", "run", arc, "--jerk"},
-                                                     {"cordic", "run", arc, "--period"},
-                                                     {"cordic", "run", arc, "--steps"},
-                                                     {"cordic", "run", arc, "--timer"},
-                                                     {"cordic", "run", arc, "--plc", "x", "--scan"},
-                                                     {"cordic", "sew", arc, "--needle-rpm"},
-                                                     {"cordic", "sew", arc, "--needle-down"},
-                                                     {"cordic", "rotate", "1", "0"},
-                                                     {"cordic", "vector", "1"},
-                                                     {"run", "x.json", "--driver", "virtual", "--period"},
-                                                     {"run", "x.json", "--driver", "cordic", "--clock"},
-                                                     {"run", "x.json", "--driver", "virtual", "--clearance"}};
+    const std::vector<std::vector<std::string>> uses{
+        {"cordic", "run", arc, "--clock"},
+        {"cordic", "run", arc, "--tolerance"},
+        {"cordic", "run", arc, "--rapid"},
+        {"cordic", "run", arc, "--acceleration"},
+        {"cordic", "run", arc, "--profile", "s-curve", "--jerk"},
+        {"cordic", "run", arc, "--servo", "x", "--period"},
+        {"cordic", "run", arc, "--profile", "s-curve", "--steps"},
+        {"cordic", "run", arc, "--profile", "s-curve", "--timer"},
+        {"cordic", "run", arc, "--plc", "x", "--scan"},
+        {"cordic", "sew", arc, "--needle-rpm"},
+        {"cordic", "sew", arc, "--needle-down"},
+        {"cordic", "rotate", "1", "0"},
+        {"cordic", "vector", "1"},
+        {"run", "x.json", "--driver", "virtual", "--period"},
+        {"run", "x.json", "--driver", "cordic", "--clock"},
+        {"run", "x.json", "--driver", "virtual", "--clearance"}};
     for (const auto& use : uses) {
         for (const char* none : {"nan", "-NaN", "inf", "-infinity", "1e999"}) {
             std::vector<std::string> words = use;
@@ -82,6 +83,59 @@ TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
     }
     EXPECT_THAT(run({"cordic", "run", arc, "--clock", "nan"}).err,
                 HasSubstr("--clock: \"nan\" is no finite number"));
+}
+
+TEST_F(CordicOptions, OfAMotionAreRefusedWithoutOne) {
+    for (const char* option : {"--jerk", "--steps", "--timer", "--min-interval"}) {
+        const Ended ended = run({"cordic", "run", arc, option, "5"});
+        EXPECT_EQ(ended.exit_code, 2) << option;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr(option), HasSubstr("--profile")));
+    }
+    EXPECT_THAT(run({"cordic", "run", arc, "--period", "0.1"}).err, HasSubstr("--servo"));
+    const Ended trapezoid = run({"cordic", "run", arc, "--profile", "trapezoid", "--jerk", "5"});
+    EXPECT_EQ(trapezoid.exit_code, 1);
+    EXPECT_THAT(trapezoid.err, HasSubstr("--jerk is for the profile s-curve"));
+}
+
+TEST_F(CordicOptions, TellWhereAProgramGoesRoundForEver) {
+    const std::string file =
+        written("loop.asm", "MOV Vmax, 1\nMOV Amax, 1\nL: MOV XI, 1\nG01\nMOV XI, 2\nG01\nMOV PC, L\n");
+    for (const char* command : {"run", "sew"}) {
+        const Ended ended = run({"cordic", command, file});
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_EQ(ended.out, "");
+        EXPECT_THAT(ended.err, HasSubstr("the program never ends"));
+        EXPECT_THAT(ended.err, HasSubstr("loop.asm:"));
+        const Ended some = run({"cordic", command, file, "--clocks", "5000"});
+        EXPECT_EQ(some.exit_code, 1);
+        EXPECT_THAT(some.err, HasSubstr("not at its end after 5000 clocks"));
+    }
+    EXPECT_THAT(run({"cordic", "run", file, "--trace", path("loop.vcd")}).err,
+                HasSubstr("the program never ends"));
+}
+
+TEST_F(CordicOptions, NameTheCauseOfASpeedThatIsBesideTheFeed) {
+    const std::string file = written("x8.ngc", "F30\nG1 X3 Y4\nG1 X8\nM2\n");
+    const Ended ended = run({"cordic", "run", file, "--matlab-zero", "--format", "f64"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("(line 3): --matlab-zero turns nothing along an axis"));
+    EXPECT_THAT(ended.err, Not(HasSubstr("too few bits")));
+    const Ended adrift = run({"cordic", "run", arc, "--iterations", "9", "--whole-arcs"});
+    EXPECT_THAT(adrift.err, HasSubstr("its ends are up to 1.3 mm beside theirs"));
+}
+
+TEST_F(CordicOptions, CountNoMotionWithoutLengthAsLate) {
+    const std::string head = "MOV Vmax, 1\nMOV Amax, 1\nMOV XI, 1\nG01\n";
+    const auto answer = [&](const std::string& text) {
+        const Ended ended = run({"cordic", "run", written("z.asm", head + text + "HLT\n"), "--json"});
+        EXPECT_EQ(ended.exit_code, 0);
+        return nlohmann::json::parse(ended.out);
+    };
+    const auto idle = answer("G01\nMOV XI, 2\nG01\n");
+    EXPECT_EQ(idle.at("late"), 0);
+    // While 1 mm is moved, both are computed: G01 in 85 clocks, MOV in 18 and G01 in 85, at 8 MHz.
+    EXPECT_NEAR(idle.at("fastest_mm_per_min").get<double>(), 60.0 * 8e6 / 188.0, 1e-6 * 60.0 * 8e6 / 188.0);
+    EXPECT_TRUE(answer("G01\n").at("fastest_mm_per_min").is_null());
 }
 
 TEST_F(CordicOptions, OfGCodeAreRefusedForProgramsThatAreMadeAlready) {
@@ -113,7 +167,12 @@ TEST_F(CordicOptions, WriteTheHeightOfEveryPointInSpace) {
         before = z;
     }
     EXPECT_EQ(before, -4.0);
-    EXPECT_FALSE(points.back().contains("z")); // level
+    EXPECT_EQ(points.back().at("z"), -4.0); // level, at the height where the helix ends
+    EXPECT_EQ(points.back().at("vz"), 0.0);
+    EXPECT_EQ(points.back().at("az"), 0.0);
+    const std::string flat = written("flat.ngc", "G21 F600\nG1 X5\nM2\n");
+    const Ended level = run({"cordic", "run", flat, "--json"});
+    EXPECT_FALSE(nlohmann::json::parse(level.out).at("points").at(0).contains("z"));
 }
 
 TEST_F(CordicOptions, PrintErrorsInTheirOrderAndNotWithoutEnd) {

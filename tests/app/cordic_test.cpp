@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ TEST(Cordic, VectorAnswersWithLengthAndDegrees) {
     EXPECT_NEAR(answer.at("magnitude").get<double>(), 5.0, 1e-6);
     EXPECT_NEAR(answer.at("degrees").get<double>(), 126.8698976458, 1e-5);
     EXPECT_EQ(answer.at("clocks"), 25);
+    const int shift = answer.at("shift").get<int>();
+    EXPECT_EQ(shift, -2); // to the right: its gain must not overflow
+    const auto length = std::stoull(answer.at("words").at(0).get<std::string>(), nullptr, 16);
+    EXPECT_EQ(std::ldexp(static_cast<double>(length), -28 - shift), answer.at("magnitude").get<double>());
 }
 
 TEST(Cordic, SaysWhatDoesNotFit) {
@@ -48,6 +53,29 @@ TEST(Cordic, SaysWhatDoesNotFit) {
     EXPECT_THAT(format.err, HasSubstr("\"q2\" is no number format"));
     EXPECT_EQ(run({"cordic", "rotate", "1", "0"}).exit_code, 2);
     EXPECT_EQ(run({"cordic", "rotate", "1", "0", "10", "--iterations", "63"}).exit_code, 2);
+}
+
+TEST(Cordic, AccuracyMeasuresOneFormatThatIsAskedFor) {
+    const ScratchFolder folder;
+    const auto out = folder.path().string();
+    const std::vector<std::string> words{"cordic", "accuracy", "--out", out, "--random", "1000", "--format"};
+    const auto of_format = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return run(more);
+    };
+    const Ended ended = of_format({"q3.20", "--rounding", "nearest", "--iterations", "18"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    std::istringstream table(content_of(folder.path() / "accuracy.csv"));
+    std::vector<std::string> rows;
+    for (std::string row; std::getline(table, row);) {
+        rows.push_back(row);
+    }
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_THAT(rows[1], testing::StartsWith("q3.20,nearest,classic 18,1000,"));
+    EXPECT_THAT(content_of(folder.path() / "bounds.svg"), HasSubstr("q3.20"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "e1-pre.svg")) << "the thesis's are in binary64";
+    EXPECT_THAT(of_format({"q1.15"}).err, HasSubstr("vectors of length 1 do not fit into q1.15"));
+    EXPECT_THAT(of_format({"f32", "--rounding", "nearest"}).err, HasSubstr("--rounding is for fixed point"));
 }
 
 TEST(Cordic, AccuracyWritesItsTableAndPictures) {
@@ -288,6 +316,7 @@ TEST(Cordic, ComparesWithTheMicrocontrollerOfTheThesis) {
     for (const char* figure : {"10696", "44876", "6486486", "99.308 %", "144.5", "6.685 %", "675"}) {
         EXPECT_THAT(ended.out, HasSubstr(figure));
     }
+    EXPECT_EQ(nlohmann::json::parse(run({"cordic", "compare", "--json"}).out).at("screw_rpm"), 675.0);
 }
 
 TEST(Cordic, SewsAProgramAndSaysWhatComesTooLate) {
@@ -301,10 +330,13 @@ TEST(Cordic, SewsAProgramAndSaysWhatComesTooLate) {
     EXPECT_NEAR(answer.at("period_s").get<double>(), 0.02, 1e-12);
     EXPECT_EQ(answer.at("late_computations"), 0);
     EXPECT_EQ(answer.at("late_moves"), 1); // 60 mm in 13.3 ms: 13,500 turns a minute of the screw
+    EXPECT_EQ(answer.at("first_late"), 3); // as the text below counts
     EXPECT_EQ(answer.at("first_late_line"), 4);
     const Ended slow = run({"cordic", "sew", file.string(), "--clock", "1000", "--screw-rpm", "1e5"});
-    EXPECT_THAT(slow.out, HasSubstr("3 computations and 0 moves too late"));
+    EXPECT_THAT(slow.out, HasSubstr("too late: computations 3, moves 0"));
     EXPECT_THAT(slow.out, HasSubstr("first: stitch 1, "));
+    const Ended none = run({"cordic", "sew", file.string(), "--screw-rpm", "1e5", "--json"});
+    EXPECT_TRUE(nlohmann::json::parse(none.out).at("first_late").is_null());
 }
 
 TEST(Cordic, RunsBesideTheLogicOfAMachine) {

@@ -142,6 +142,26 @@ TEST_F(Send, PlansFeedsOfNoLengthAndDwellsOfNoTime) {
     EXPECT_EQ(last_record(logs).at("end"), "done");
 }
 
+TEST_F(Send, DispatchesAFileToTheCordicProcessor) {
+    write_content(file, "G21 G90 F600\nG61.1\nG1 X5\nG3 X0 Y5 I-5 J0\nM2\n");
+    const std::vector<std::string> words{"send", file, "--machine", "router-xyz", "--driver", "cordic"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        more.insert(more.end(), {"--speed", "0", "--log", logs});
+        return run(more);
+    };
+    const Ended ended = with({});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor passes through corners"));
+    EXPECT_EQ(last_record(logs).at("end"), "done");
+    EXPECT_THAT(with({"--clock", "1000"}).err, HasSubstr("took longer to compute at 0.001 MHz"));
+    EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from their beginning alone"));
+    EXPECT_THAT(run({"send", file, "--driver", "cordic"}).err,
+                HasSubstr("the cordic driver needs a machine"));
+    write_content(file, "G21 F600\nG38.2 X5\nM2\n");
+    EXPECT_EQ(with({}).exit_code, 1);
+}
+
 TEST_F(Send, TellsWhichFaultEndedTheJob) {
     write_content(file, zigzag(2000));
     Emulator emulator(port, {"--speed", "20", "--faults", "alarm=3000"});

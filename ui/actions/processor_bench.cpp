@@ -14,8 +14,8 @@ namespace millwright::actions {
 
 namespace {
 
-constexpr std::int64_t clocks_a_frame = 300'000;    // some milliseconds
-constexpr std::int64_t clocks_of_a_run = 1'000'000; // that are followed for the differences: 30 ms
+constexpr std::int64_t clocks_a_frame = 300'000; // some milliseconds
+constexpr std::int64_t clocks_at_once = WholeRun::clocks_at_once;
 
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;
@@ -54,7 +54,8 @@ cordic::Processor nothing() {
 
 } // namespace
 
-ProcessorBench::ProcessorBench() : debugger_(nothing(), {}) {
+ProcessorBench::ProcessorBench(std::function<void()> wake)
+    : debugger_(nothing(), {}), whole_(std::move(wake)) {
     micro_lines_ = lines_of(cordic::microprogram_text(cordic::Publishing::latch));
 }
 
@@ -86,7 +87,7 @@ void ProcessorBench::set(const ProcessorChoice& choice) {
     if (!(before == choice) && !name_.empty()) {
         compile();
     } else if (!(slower == choice)) {
-        judge();
+        whole_.judge(terms());
     }
 }
 
@@ -122,29 +123,12 @@ void ProcessorBench::compile() {
         const int line = words.lines[static_cast<std::size_t>(address)];
         micro_addresses_[static_cast<std::size_t>(line - 1)] = address;
     }
-    execute_all(made);
+    if (failure_) {
+        whole_.clear();
+    } else {
+        whole_.begin(made, program_.points, terms());
+    }
     halt_ = cordic::Halt::done;
-}
-
-void ProcessorBench::execute_all(const cordic::Processor& processor) {
-    executed_.reset();
-    differences_.clear();
-    if (!failure_) {
-        executed_ = processor;
-        executed_->run(clocks_of_a_run);
-        differences_ = cordic::path_differences(*executed_, program_.points);
-    }
-    judge();
-}
-
-void ProcessorBench::judge() {
-    report_ = {};
-    sewing_ = {};
-    if (executed_) {
-        report_ = cordic::report_of(*executed_, program_.points, choice_.clock_hz);
-        sewing_ = cordic::sew({.needle_rpm = choice_.needle_rpm},
-                              cordic::stitches_of(*executed_, choice_.clock_hz));
-    }
 }
 
 std::ptrdiff_t ProcessorBench::code_row() const {
@@ -190,17 +174,17 @@ void ProcessorBench::run() {
 
 void ProcessorBench::run_to(cordic::CodeAddress address) {
     running_ = false;
-    halt_ = debugger_.run_to(address, clocks_of_a_run);
+    halt_ = debugger_.run_to(address, clocks_at_once);
 }
 
 void ProcessorBench::run_to_line(int line) {
     running_ = false;
-    halt_ = debugger_.run_to_line(line, clocks_of_a_run);
+    halt_ = debugger_.run_to_line(line, clocks_at_once);
 }
 
 void ProcessorBench::run_to_micro(std::uint8_t address) {
     running_ = false;
-    halt_ = debugger_.run_to_micro(address, clocks_of_a_run);
+    halt_ = debugger_.run_to_micro(address, clocks_at_once);
 }
 
 const CodeRow* ProcessorBench::first_of_line(int line) const {
@@ -226,8 +210,9 @@ void ProcessorBench::reset() {
 }
 
 bool ProcessorBench::advance(double seconds) {
+    const bool known = whole_.take();
     if (!running_) {
-        return false;
+        return known;
     }
     std::int64_t clocks = clocks_a_frame;
     if (choice_.clocks_a_second > 0.0) {
@@ -239,7 +224,7 @@ bool ProcessorBench::advance(double seconds) {
         halt_ = debugger_.run(clocks);
         running_ = halt_ == cordic::Halt::limit;
     }
-    return clocks > 0;
+    return known || clocks > 0;
 }
 
 } // namespace millwright::actions

@@ -1,16 +1,17 @@
 // The CORDIC processor on the bench: a program compiled for it, stepped by hand or running, and what a whole
-// run of it comes to. A run goes on a little in each frame, so that the window never waits for it.
+// run of it comes to. A run by hand goes on a little in each frame, so that the window never waits for it.
 #pragma once
 
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
-#include "core/cordic/run_report.h"
-#include "core/cordic/sewing.h"
 #include "core/gcode/reader/cordic_program.h"
+#include "ui/actions/whole_run.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct CodeRow {
 
 class ProcessorBench {
 public:
-    ProcessorBench();
+    /// `wake`: from any thread, when more is known of a whole run.
+    explicit ProcessorBench(std::function<void()> wake = {});
 
     /// Takes a program in place of the present one and compiles it. `name` is not empty.
     void load(ProcessorSource source, std::string text, std::filesystem::path name);
@@ -67,10 +69,16 @@ public:
     [[nodiscard]] std::ptrdiff_t micro_row() const; ///< that is executed next
 
     /// Of a run from reset to the end, or as far as it was followed.
-    [[nodiscard]] const cordic::RunReport& report() const { return report_; }
-    [[nodiscard]] const std::vector<cordic::PathDifference>& differences() const { return differences_; }
+    [[nodiscard]] const cordic::RunReport& report() const { return whole_.report(); }
+    [[nodiscard]] std::span<const cordic::PathDifference> differences() const { return whole_.differences(); }
     /// The same run, each of its set-points being a stitch.
-    [[nodiscard]] const cordic::SewingRun& sewing() const { return sewing_; }
+    [[nodiscard]] const cordic::SewingRun& sewing() const { return whole_.sewing(); }
+    /// The rest of that run is still worked out: what is told of it is a part.
+    [[nodiscard]] bool follows() const { return whole_.goes_on(); }
+    /// Until it is; advance() then takes it.
+    void wait_idle() const { whole_.wait_idle(); }
+    /// Set-points that the whole program publishes.
+    [[nodiscard]] std::size_t set_points() const { return program_.points.size(); }
 
     void step(ProcessorStep step);
     void run();
@@ -95,8 +103,7 @@ public:
 
 private:
     void compile();
-    void execute_all(const cordic::Processor& processor);
-    void judge(); ///< what was executed, at the chosen clock
+    [[nodiscard]] RunTerms terms() const { return {choice_.clock_hz, choice_.needle_rpm}; }
     [[nodiscard]] const CodeRow* first_of_line(int line) const;
     [[nodiscard]] cordic::ProcessorSettings settings() const;
 
@@ -110,10 +117,7 @@ private:
     std::vector<CodeRow> code_;
     std::vector<std::string> micro_lines_;
     std::vector<int> micro_addresses_;
-    std::optional<cordic::Processor> executed_; ///< behind the whole run
-    cordic::RunReport report_;
-    cordic::SewingRun sewing_;
-    std::vector<cordic::PathDifference> differences_;
+    WholeRun whole_;
     bool running_ = false;
     double owed_clocks_ = 0.0;
     cordic::Halt halt_ = cordic::Halt::done;

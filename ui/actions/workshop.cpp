@@ -43,7 +43,7 @@ Workshop::Workshop(WorkshopOptions options)
     controller_ = std::make_unique<Controller>(options_.log_folder, wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
-    processor_ = std::make_unique<ProcessorBench>();
+    processor_ = std::make_unique<ProcessorBench>(wake);
     arm_ = std::make_unique<ArmBench>(options_.assets, wake);
     approach_ = std::make_unique<ApproachFinder>(wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);

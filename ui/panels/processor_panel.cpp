@@ -65,6 +65,18 @@ std::string halt_text(const ProcessorBench& bench) {
                                                       : "Stands between two clocks";
 }
 
+/// Of a run that is not at the end of its program.
+std::string followed_text(const ProcessorBench& bench) {
+    const cordic::RunReport& report = bench.report();
+    if (report.stop != cordic::Stop::none) {
+        return "Stops: " + std::string(cordic::to_text(report.stop)) + ".";
+    }
+    return fmt::format("{} of {} set-points are followed: {}",
+                       report.published,
+                       bench.set_points(),
+                       bench.follows() ? "the rest comes." : "more takes too long.");
+}
+
 std::string late_text(std::int64_t late, std::int64_t stitches) {
     return fmt::format("{} of {} stitches", late, stitches);
 }
@@ -274,9 +286,7 @@ void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
     ui.value("speed", "Speed", fmt::format("{:.3g}", 100.0 * report.speed_error), "% of the feed");
     ui.value("clocks", "Clocks", fmt::format("{}", report.clocks.total));
     if (report.stop != cordic::Stop::halted) {
-        ui.text(report.stop == cordic::Stop::none
-                    ? "Longer than what is followed here: the errors are those of its beginning."
-                    : "Stops: " + std::string(cordic::to_text(report.stop)) + ".");
+        ui.text(followed_text(now.processor));
     }
 }
 

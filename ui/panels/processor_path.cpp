@@ -116,14 +116,24 @@ std::vector<glm::dvec3> places_of(std::span<const cordic::PathDifference> path) 
     return places;
 }
 
+/// Where the last set-point leads, in scene coordinates.
+glm::dvec3 tool_place(const cordic::Processor& processor) {
+    if (processor.published().empty()) {
+        return {0.0, 0.0, 0.0};
+    }
+    const cordic::Published& last = processor.published().back();
+    const auto set = processor.set_point(last);
+    return {set.x, set.y, processor.height_point(last).z};
+}
+
 } // namespace
 
 void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
     const auto& processor = now.processor.debugger().processor();
     const std::size_t done = processor.published().size();
     const std::span<const cordic::PathDifference> path = now.processor.differences();
-    const Rect inside =
-        below_title(ui, place, fmt::format("Tool path, {} of {} set-points", done, path.size()));
+    const Rect inside = below_title(
+        ui, place, fmt::format("Tool path, {} of {} set-points", done, now.processor.set_points()));
     const widgets::Canvas canvas = widgets::canvas(ui, "path", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");
@@ -159,16 +169,15 @@ void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
     const std::vector<std::size_t> chosen = thinned(path.size());
     draw_axes(sketch, ui, at, bounds);
     std::optional<Point> before = at(places.front());
-    std::optional<Point> tool = before;
     for (std::size_t n = 1; n < places.size(); ++n) {
         const auto here = at(places[n]);
         const bool passed = chosen[n - 1] < done;
         if (before && here) {
             sketch.line(*before, *here, passed ? colours.accent : colours.line, passed ? 2.0F : 1.2F);
         }
-        tool = passed && here ? here : tool;
         before = here;
     }
+    const std::optional<Point> tool = at(tool_place(processor));
     if (tool) {
         sketch.dot(*tool, ui.px(4.0F), colours.warning);
     }

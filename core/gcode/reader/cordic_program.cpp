@@ -207,7 +207,7 @@ private:
         const double behind = std::fmod(std::abs(move.sweep), 2.0 * pi);
         if (behind < hair_sweep && behind * radius > same_place) {
             code_.warn(
-                move.source,
+                {move.source},
                 fmt::format("the arc ends {:.3g} mm, {:.2g} rad, behind its start and is a full circle: "
                             "less than {:.0e} rad is none",
                             behind * radius,

@@ -54,7 +54,7 @@ struct CordicProgram {
     std::vector<cordic::CodeLine> code_lines; ///< of each instruction, in the order of their addresses
     std::vector<int> command_lines;           ///< of each command that it will hand over, in that order
     std::vector<Diagnostic> faults;           ///< what the processor cannot do; such moves are left out
-    std::vector<Diagnostic> warnings;         ///< moves without length, which are left out
+    std::vector<Diagnostic> warnings;         ///< what is left out, or done otherwise than asked for
 };
 
 class CordicProgramBuilder final : public CanonSink {

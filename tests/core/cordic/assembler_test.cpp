@@ -1,6 +1,7 @@
 #include "core/cordic/assembler.h"
 
 #include "core/cordic/disassembler.h"
+#include "core/cordic/processor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -210,6 +211,16 @@ TEST(Assembler, WarnsOfMotionsWithoutSpeedOrAcceleration) {
     EXPECT_EQ(without[0].place.column, 3);
     EXPECT_THAT(without[0].message, HasSubstr("a motion without Vmax or Amax: the processor will stop"));
     EXPECT_TRUE(warnings("MOV Vmax, 1\nLD Amax, 0x8000\nMOV XI, 1\nG01\nHLT\n").empty());
+}
+
+TEST(Assembler, KnowsTheLineOfAByteThatStopsTheProcessor) {
+    const Assembled made = assemble("NOP\n  .byte 0x77\nHLT\n", "a.asm");
+    Processor processor({}, made.image);
+    processor.run(100);
+    ASSERT_EQ(processor.state().stop, Stop::illegal_instruction);
+    const CodeLine at = line_at(made.lines, processor.state().instruction_at);
+    EXPECT_EQ(at.line, 2);
+    EXPECT_EQ(at.column, 3);
 }
 
 TEST(Assembler, DoesNotWarnWhereAnotherWayMayLead) {

@@ -83,6 +83,48 @@ TEST(ProcessorBench, TellsWhatComesTooLateAtASlowerClockAndStaysWhereItStands) {
     EXPECT_EQ(bench.debugger().state().clocks.total, stands);
 }
 
+/// Lines of 0.1 mm at 10 mm/s, to and fro.
+std::string long_program(int lines) {
+    std::string text = "G21 F600\n";
+    for (int n = 0; n < lines; ++n) {
+        text += n % 2 == 0 ? "G1 X0.1\n" : "G1 X0\n";
+    }
+    return text + "M2\n";
+}
+
+TEST(ProcessorBench, FollowsALongProgramToItsEndInTheBackground) {
+    constexpr int lines = 12'000; // 1.2 million clocks
+    ProcessorBench bench = loaded(long_program(lines));
+    EXPECT_EQ(bench.set_points(), 12'000U);
+    EXPECT_TRUE(bench.follows());
+    EXPECT_LT(bench.report().published, lines);
+    bench.wait_idle();
+    EXPECT_TRUE(bench.advance(0.0));
+    EXPECT_FALSE(bench.follows());
+    EXPECT_EQ(bench.report().stop, cordic::Stop::halted);
+    EXPECT_EQ(bench.report().published, lines);
+    EXPECT_EQ(bench.differences().size(), bench.set_points());
+    EXPECT_EQ(bench.sewing().stitches, lines);
+    EXPECT_FALSE(bench.advance(0.0));
+
+    ProcessorChoice choice = bench.choice();
+    choice.clock_hz = 1000.0; // 0.1 s a line, for 0.01 s of motion
+    bench.set(choice);
+    bench.wait_idle();
+    EXPECT_TRUE(bench.advance(0.0));
+    EXPECT_EQ(bench.report().late.size(), bench.set_points() - 1);
+}
+
+TEST(ProcessorBench, ForgetsALongProgramForTheNextOne) {
+    ProcessorBench bench = loaded(long_program(12'000));
+    bench.load(ProcessorSource::opened_file, square, "part.ngc");
+    EXPECT_FALSE(bench.follows());
+    bench.wait_idle();
+    EXPECT_FALSE(bench.advance(0.0));
+    EXPECT_EQ(bench.report().published, 4);
+    EXPECT_EQ(bench.differences().size(), 4U);
+}
+
 TEST(ProcessorBench, KeepsWhatIsWrongWithAProgramAndExecutesNothing) {
     ProcessorBench bench = loaded("G21\nG0 X1 C5\nM2\n");
     ASSERT_TRUE(bench.failure());

@@ -50,8 +50,8 @@ CordicProgram CordicCode::take() {
     return std::move(result_);
 }
 
-void CordicCode::warn(SourcePlace source, std::string message) {
-    result_.warnings.push_back({place_of({source}), std::move(message), {}});
+void CordicCode::warn(const FaultyWord& word, std::string message, std::string hint) {
+    result_.warnings.push_back({place_of(word), std::move(message), std::move(hint)});
 }
 
 std::optional<Word> CordicCode::number(double value, std::string_view what, const FaultyWord& word) {

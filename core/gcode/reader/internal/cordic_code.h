@@ -32,7 +32,7 @@ public:
     void fault(const FaultyWord& word, std::string message, std::string hint = {});
     /// Whether the line that asked has such a word.
     [[nodiscard]] bool has_word(SourcePlace source, char letter, double code) const;
-    void warn(SourcePlace source, std::string message);
+    void warn(const FaultyWord& word, std::string message, std::string hint = {});
 
     /// The bits of a number; nothing, and a fault, if it does not fit.
     std::optional<cordic::Word> number(double value, std::string_view what, const FaultyWord& word);

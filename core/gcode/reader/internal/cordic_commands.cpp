@@ -76,6 +76,11 @@ void CordicCommands::turn_spindle(Opcode opcode, SourcePlace source) {
     hand_over(opcode, std::abs(spindle_rpm_), {source, 'S'}, "a spindle speed in rpm");
 }
 
+bool CordicCommands::switches_spindle(SourcePlace source) const {
+    return code_.has_word(source, 'M', 3.0) || code_.has_word(source, 'M', 4.0) ||
+           code_.has_word(source, 'M', 5.0);
+}
+
 void CordicCommands::switch_coolant_off(SourcePlace source) {
     if (coolant_) { // the reader tells mist and flood apart, M09 does not
         coolant_ = false;
@@ -92,6 +97,21 @@ void CordicCommands::user_command(const Command& command) {
     hand_over(Opcode::muser, command.index, word, "a command's number");
 }
 
+void CordicCommands::warn_of_corners(const Command& command) {
+    const auto mode = static_cast<PathMode>(command.index);
+    const bool rests = mode == PathMode::exact_stop;
+    const bool rounds = mode == PathMode::continuous && command.value > 0.0;
+    const FaultyWord word{command.source, 'G', rests ? 61.1 : 64.0};
+    if (!(rests || rounds) || !code_.has_word(word.source, word.letter, *word.code)) {
+        return; // what a cycle changes on its own is as the program had it
+    }
+    code_.warn(word,
+               rests ? "the CORDIC processor passes through corners, it does not rest in them as G61.1 asks"
+                     : "the CORDIC processor rounds no corner, as it might with this tolerance: its path "
+                       "leads through the programmed points",
+               rests ? "G4 between two moves lets the axes rest" : "");
+}
+
 void CordicCommands::end(SourcePlace source) {
     hand_over(code_.has_word(source, 'M', 30.0) ? Opcode::m30 : Opcode::m02, source);
     ended_ = true;
@@ -100,6 +120,8 @@ void CordicCommands::end(SourcePlace source) {
 void CordicCommands::command(const Command& command) {
     const SourcePlace source = command.source;
     switch (command.kind) {
+    case CommandKind::set_motion_control_mode:
+        return warn_of_corners(command);
     case CommandKind::dwell:
         if (command.value > 0.0) {
             hand_over(Opcode::g04, command.value * microseconds, {source, 'P'}, "a dwell in us");
@@ -107,7 +129,7 @@ void CordicCommands::command(const Command& command) {
         return;
     case CommandKind::set_spindle_speed:
         spindle_rpm_ = command.value;
-        if (spindle_ != Opcode::m05) {
+        if (spindle_ != Opcode::m05 && !switches_spindle(source)) {
             turn_spindle(spindle_, source);
         }
         return;

@@ -19,8 +19,12 @@ private:
     void hand_over(cordic::Opcode opcode, SourcePlace source);
     void hand_over(cordic::Opcode opcode, double parameter, const FaultyWord& word, std::string_view what);
     void turn_spindle(cordic::Opcode opcode, SourcePlace source);
+    /// The line does so behind its S word, whose speed is then for that.
+    [[nodiscard]] bool switches_spindle(SourcePlace source) const;
     void switch_coolant_off(SourcePlace source);
     void user_command(const Command& command);
+    /// Its motions lead exactly through the programmed points, and do not rest there.
+    void warn_of_corners(const Command& command);
     void end(SourcePlace source);
 
     CordicCode& code_;

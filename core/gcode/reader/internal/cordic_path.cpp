@@ -87,12 +87,12 @@ void CordicPath::line(const LineOpcodes& opcodes, const Place3& to, const FeedOf
     if (!is_held(*wanted)) {
         go(opcodes, *wanted, to, feed);
     } else if (length > same_place) {
-        code_.warn(feed.source,
+        code_.warn({feed.source},
                    fmt::format("a move of {:.3g} mm is less than {} can tell and is left out",
                                length,
                                to_text(settings_.format)));
     } else {
-        code_.warn(feed.source, "a move without length is left out");
+        code_.warn({feed.source}, "a move without length is left out");
     }
 }
 
@@ -243,7 +243,7 @@ void CordicPath::arc_in_parts(const DividedTurn& arc, const Place3& end, const F
         }
     }
     if (code_.result().points.size() == points_before) {
-        code_.warn(feed.source,
+        code_.warn({feed.source},
                    fmt::format("an arc of radius {:.3g} mm is less than {} can tell and is left out",
                                turn.radius(),
                                to_text(settings_.format)));

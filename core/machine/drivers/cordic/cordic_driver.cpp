@@ -81,6 +81,11 @@ std::string CordicDriver::remark() const {
         to_mm_per_min(done.fastest.value_or(0.0))); // with late ones there are two at least
 }
 
+std::vector<Diagnostic> CordicDriver::warnings() const {
+    const std::scoped_lock lock(mutex_);
+    return warnings_;
+}
+
 gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {
     gcode::CordicProgramSettings settings = options_.program;
     settings.processor = options_.processor;
@@ -158,7 +163,7 @@ void CordicDriver::start(Work work) {
         throw Error(fmt::format("the machine is {} and takes no program", to_text(before.state)));
     }
     const AxisValues start = values_of(before.position, *model_);
-    const gcode::CordicProgram made = compiled(*work.listing, start);
+    gcode::CordicProgram made = compiled(*work.listing, start);
     cordic::Processor processor(options_.processor, made.image);
     processor.run(options_.most_clocks);
     refuse_unfinished(processor, made);
@@ -173,6 +178,7 @@ void CordicDriver::start(Work work) {
     const std::scoped_lock lock(mutex_);
     machine_.start({records, trajectory, nullptr, {}}); // whose blocks know their lines
     report_ = report;
+    warnings_ = std::move(made.warnings);
     blocks_ = map_of(*records, *work.listing);
 }
 

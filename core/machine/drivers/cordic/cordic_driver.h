@@ -3,6 +3,8 @@
 // the processor cannot do is refused before anything moves: docs/reference/cordic.md#compiler.
 #pragma once
 
+#include "core/base/error.h"
+#include "core/cordic/endless_watch.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/cordic_program.h"
 #include "core/machine/clock.h"
@@ -20,8 +22,8 @@ namespace millwright::machine {
 struct CordicDriverOptions {
     gcode::CordicProgramSettings program; ///< but for the start and the processor
     cordic::ProcessorSettings processor;
-    double clock_hz = 8e6;                  ///< for the report: which set-points would come late
-    std::int64_t most_clocks = 200'000'000; ///< a program that takes more is refused
+    double clock_hz = 8e6; ///< for the report: which set-points would come late
+    std::int64_t most_clocks = cordic::usual_most_clocks; ///< a program that takes more is refused
 };
 
 class CordicDriver final : public Driver {
@@ -41,6 +43,9 @@ public:
     [[nodiscard]] cordic::RunReport report() const;
     /// Of set-points of the last program that came late, in a sentence; empty where none did.
     [[nodiscard]] std::string remark() const;
+
+    /// What the last program asks for and the processor does otherwise, by line.
+    [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
     void connect() override { machine_.connect(); }
     /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, and if it
@@ -83,6 +88,7 @@ private:
     VirtualMachine machine_;
     mutable std::mutex mutex_; ///< guards what follows
     cordic::RunReport report_;
+    std::vector<Diagnostic> warnings_;
     BlockMap blocks_;
 };
 

@@ -262,6 +262,28 @@ TEST(CordicCompiler, MakesOneInstructionOfAHelixOfManyTurns) {
     EXPECT_LT(processor.set_point(processor.published()[1]).y, 0.0);
 }
 
+// The old sense of rotation would be told the new speed first.
+TEST(CordicCompiler, ReversesTheSpindleInOneCommand) {
+    const CordicProgram program = compiled("M3 S1000\nS500 M4\nM4 S400\nS300\nM5 S200\nM2\n");
+    const cordic::Processor processor = run(program);
+    std::string all;
+    for (const auto& command : processor.commanded()) {
+        all += std::string(cordic::to_text(command.opcode)) + " " + std::to_string(command.parameter) + "\n";
+    }
+    EXPECT_EQ(all, "M03 1000\nM04 500\nM04 400\nM04 300\nM05 0\nM02 0\n");
+}
+
+TEST(CordicCompiler, WarnsOfCornersThatItDoesNotGoThroughAsAskedFor) {
+    const CordicProgram program = compiled("G21 F600 G61\nG1 X1\n  G61.1 G1 X2\nG64 P0.05 Q0.1\nG1 X3\n"
+                                           "G64\nG1 X4\nG61.1\nG81 X5 Z-1 R1\nM2\n");
+    ASSERT_TRUE(program.faults.empty());
+    ASSERT_EQ(program.warnings.size(), 3U) << "G61 and G64 without P ask for nothing that it does not do";
+    EXPECT_EQ(to_text(program.warnings[0]).find("part.ngc:3:3: the CORDIC processor passes through corners"),
+              0U);
+    EXPECT_EQ(to_text(program.warnings[1]).find("part.ngc:4:1: the CORDIC processor rounds no corner"), 0U);
+    EXPECT_EQ(program.warnings[2].place.line, 8); // not also where the cycle returns to it
+}
+
 TEST(CordicCompiler, MakesCommandsOfMCodesSpindleSpeedAndDwell) {
     const CordicProgram program =
         compiled("G21 T3 M6\nS8000 M3\nM7\nM8\nG0 X1\nG4 P0.25\nS500\nM0\nM1\nM9\nM4\nM5\nM123\nM30\n");

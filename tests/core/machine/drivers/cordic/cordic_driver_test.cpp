@@ -98,6 +98,17 @@ TEST(CordicDriver, TellsOfSetPointsThatCameLate) {
     EXPECT_THAT(driver.remark(), HasSubstr("set-points took longer to compute at 0.01 MHz than the motion"));
 }
 
+TEST(CordicDriver, TellsWhatOfTheLastProgramItDoesOtherwise) {
+    Bench bench;
+    (void)bench.dispatcher.run(text_job("G21 F600\nG61.1\nG1 X1\nM2\n", "part.ngc"), {});
+    const auto warnings = bench.driver.warnings();
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].place.line, 2);
+    EXPECT_THAT(warnings[0].message, HasSubstr("does not rest in them"));
+    (void)bench.dispatcher.run(text_job("G21 F600\nG1 X2\nM2\n", "next.ngc"), {});
+    EXPECT_TRUE(bench.driver.warnings().empty());
+}
+
 TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove) {
     Bench bench;
     EXPECT_THAT(bench.refusal_of("G21 G0 X1\nG38.2 X5 F100\nM2\n"),
