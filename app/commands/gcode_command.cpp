@@ -1,5 +1,7 @@
 #include "app/commands/gcode_command.h"
 
+#include "app/commands/gcode_options.h"
+#include "app/commands/gcode_pulses.h"
 #include "app/posting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -35,40 +37,12 @@ namespace {
 
 /// `check` shows so many errors of a program at most.
 constexpr int most_errors_shown = 100;
-constexpr double grbl_junction_deviation = 0.01; ///< mm: $11 as Grbl ships
-constexpr int grbl_look_ahead = 15;              ///< moves
 
 /// The tools that rs274 knows when it is given no table.
 constexpr std::string_view rs274_tools = "T1 P1 Z0.511 D0.125\n"
                                          "T2 P2 Z0.1 D0.0625\n"
                                          "T3 P3 Z1.273 D0.201\n"
                                          "T99999 P123 Z0.1\n";
-
-struct Options {
-    std::string file;
-    std::string dialect = "linuxcnc";
-    std::string tools;
-    std::string machine;
-    double path_tolerance = 0.0;              ///< mm; 0: exact path
-    std::optional<double> junction_deviation; ///< mm; 0: corners by small steps
-    std::optional<int> look_ahead;            ///< moves; 0: all
-    std::optional<double> chord_length;       ///< mm; not given: arcs by tolerance
-    std::string out;
-    PostChoice post;
-    bool block_delete = false;
-    bool json = false;
-};
-
-gcode::ReaderSettings settings_of(const Options& options) {
-    gcode::ReaderSettings settings;
-    settings.dialect = gcode::dialect_of(options.dialect).value();
-    settings.block_delete = options.block_delete;
-    if (!options.tools.empty()) {
-        settings.tools = gcode::read_tool_table(options.tools);
-    }
-    settings.any_tool = options.tools.empty();
-    return settings;
-}
 
 class MoveCounter final : public gcode::CanonSink {
 public:
@@ -107,8 +81,8 @@ void print_json(const gcode::Interpreter& program, std::int64_t moves) {
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-int check(const Options& options) {
-    gcode::ReaderSettings settings = settings_of(options);
+int check(const GcodeOptions& options) {
+    gcode::ReaderSettings settings = reader_settings(options);
     settings.most_errors = most_errors_shown;
     settings.read_on = true;
     MoveCounter moves;
@@ -135,8 +109,8 @@ int check(const Options& options) {
 }
 
 /// As rs274 does: tool table and parameters in inch, the first error is the last.
-int canon(const Options& options) {
-    gcode::ReaderSettings settings = settings_of(options);
+int canon(const GcodeOptions& options) {
+    gcode::ReaderSettings settings = reader_settings(options);
     settings.machine_unit = gcode::LengthUnit::inch;
     if (options.tools.empty()) {
         settings.tools = gcode::parse_tool_table(rs274_tools, "rs274's tool table");
@@ -160,34 +134,19 @@ void throw_first(const std::vector<Diagnostic>& errors) {
     }
 }
 
-motion::PlannerSettings planner_settings(const Options& options) {
-    motion::PlannerSettings settings;
-    if (options.path_tolerance > 0.0) {
-        settings.path = {gcode::PathMode::continuous, options.path_tolerance};
-    }
-    const bool is_grbl = options.dialect == "grbl";
-    const double deviation = options.junction_deviation.value_or(is_grbl ? grbl_junction_deviation : 0.0);
-    if (deviation > 0.0) {
-        settings.corner_rule = motion::CornerRule::junction_deviation;
-        settings.junction_deviation = deviation;
-    }
-    settings.look_ahead = options.look_ahead.value_or(is_grbl ? grbl_look_ahead : 0);
-    return settings;
-}
-
 /// A program as its machine executes it. Throws Error with the first thing that is wrong.
 struct MachineRun {
     kinematics::MachineModel machine;
     gcode::MachineProgram found;
 };
 
-MachineRun machine_run(const Options& options) {
+MachineRun machine_run(const GcodeOptions& options) {
     auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
     gcode::MachineProgramSettings making;
     making.chord_length = options.chord_length;
     gcode::MachineProgramBuilder builder(machine, options.file, making);
-    gcode::Interpreter program(options.file, settings_of(options), builder);
+    gcode::Interpreter program(options.file, reader_settings(options), builder);
     program.run();
     throw_first(program.errors());
     gcode::MachineProgram found = builder.take();
@@ -196,7 +155,7 @@ MachineRun machine_run(const Options& options) {
 }
 
 /// For another control.
-int convert(const Options& options) {
+int convert(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
     throw_first(run.found.lost);
     for (const Diagnostic& simplified : run.found.simplified) {
@@ -218,12 +177,12 @@ int convert(const Options& options) {
 class BlockStream {
 public:
     /// `text`: the file's, if it can be read only once.
-    BlockStream(const Options& options,
+    BlockStream(const GcodeOptions& options,
                 const kinematics::MachineModel& machine,
                 const std::optional<std::string>& text)
         : builder_(machine, options.file, settings()),
-          reader_(text ? gcode::Interpreter(*text, options.file, settings_of(options), builder_)
-                       : gcode::Interpreter(options.file, settings_of(options), builder_)) {}
+          reader_(text ? gcode::Interpreter(*text, options.file, reader_settings(options), builder_)
+                       : gcode::Interpreter(options.file, reader_settings(options), builder_)) {}
 
     /// False at the end of the file.
     [[nodiscard]] bool next(std::vector<gcode::Block>& blocks) {
@@ -252,7 +211,7 @@ private:
 };
 
 /// Reads as much as it takes to know: of most programs the first lines.
-motion::FilterTime filter_time(const Options& options,
+motion::FilterTime filter_time(const GcodeOptions& options,
                                const kinematics::MachineModel& machine,
                                const kinematics::AxisPositions& start,
                                const std::optional<std::string>& text) {
@@ -282,7 +241,7 @@ struct EstimatedTime {
 
 /// How long the machine takes: the duration of the motion that is planned for it. Throws Error with the first
 /// thing that is wrong.
-EstimatedTime estimated_time(const Options& options) {
+EstimatedTime estimated_time(const GcodeOptions& options) {
     const auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
     const auto start = gcode::MachineProgramBuilder(machine, options.file).take().program.start;
@@ -309,7 +268,7 @@ EstimatedTime estimated_time(const Options& options) {
     return {estimate.finish(), rest.length, count, rest.beyond_travel};
 }
 
-int time(const Options& options) {
+int time(const GcodeOptions& options) {
     const EstimatedTime found = estimated_time(options);
     for (const Diagnostic& warning : found.beyond_travel) {
         fmt::print(stderr, "millwright: {}\n", to_text(warning));
@@ -331,45 +290,31 @@ int time(const Options& options) {
     return 0;
 }
 
-CLI::App&
-add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
-    CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("FILE", options->file, "G-code file")->required();
-    command.add_option("--dialect", options->dialect, "Whose rules hold")
-        ->check(CLI::IsMember({"linuxcnc", "grbl"}))
-        ->capture_default_str();
-    command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
-    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
-    return command;
+int pulses(const GcodeOptions& options) {
+    const MachineRun run = machine_run(options);
+    const motion::Trajectory trajectory =
+        motion::plan(run.found.program, run.machine, planner_settings(options), Progress());
+    return report_pulses(trajectory, run.found.program, options.pulses, options.file, options.json);
 }
 
 } // namespace
 
 void add_gcode_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<GcodeOptions>();
     CLI::App& group = *app.add_subcommand("gcode", "Read a G-code program");
     group.require_subcommand(1);
-    CLI::App& checking = add_reader(group, "check", "Say what is wrong in it", options);
+    CLI::App& checking = add_reader_options(group, "check", "Say what is wrong in it", options);
     checking.add_flag("--json", options->json, "Print the answer as JSON");
     checking.callback([&chosen, options] { chosen = [options] { return check(*options); }; });
-    CLI::App& printing =
-        add_reader(group, "canon", "Print what the machine does, as LinuxCNC's rs274 prints it", options);
-    CLI::App& timing = add_reader(group, "time", "Say how long a machine takes for it", options);
-    timing.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
-    constexpr double most_mm = 100.0;
-    constexpr int most_blocks = 1'000'000;
-    timing
-        .add_option("--path-tolerance",
-                    options->path_tolerance,
-                    "Tolerance of corners where the program says none, mm")
-        ->check(CLI::Range(0.0, most_mm));
-    timing.add_option("--junction-deviation", options->junction_deviation, "Corners as Grbl takes them, mm")
-        ->check(CLI::Range(0.0, most_mm));
-    timing
-        .add_option("--look-ahead", options->look_ahead, "Moves that the controller knows at a time; 0: all")
-        ->check(CLI::Range(0, most_blocks));
-    timing.add_flag("--json", options->json, "Print the answer as JSON");
-    CLI::App& converting = add_reader(
+    CLI::App& printing = add_reader_options(
+        group, "canon", "Print what the machine does, as LinuxCNC's rs274 prints it", options);
+    CLI::App& timing = add_reader_options(group, "time", "Say how long a machine takes for it", options);
+    add_motion_options(timing, options);
+    CLI::App& stepping =
+        add_reader_options(group, "pulses", "Report the step pulses of a machine and their jitter", options);
+    add_motion_options(stepping, options);
+    add_pulse_options(stepping, options->pulses);
+    CLI::App& converting = add_reader_options(
         group, "convert", "Write it for another control; read back before it is released", options);
     converting.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
     converting.add_option("--out", options->out, "File; without it standard output")->type_name("FILE");
@@ -391,6 +336,7 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
     add_post_options(converting, options->post).required();
     converting.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });
+    stepping.callback([&chosen, options] { chosen = [options] { return pulses(*options); }; });
     printing.callback([&chosen, options] { chosen = [options] { return canon(*options); }; });
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace millwright::test {
 namespace {
 
@@ -167,6 +169,71 @@ TEST(Gcode, TimeNeedsAMachineWithTheAxes) {
     EXPECT_EQ(unknown.exit_code, 1);
     EXPECT_THAT(unknown.err, HasSubstr("unknown machine 'lathe' (known: ac-table"));
     EXPECT_EQ(run({"gcode", "time", file.string()}).exit_code, 2);
+}
+
+/// A timer's tick is missed by up to its half, anywhere in it with the same likelihood: 1 / sqrt(12) of it.
+TEST(Gcode, PulsesAreAsManyAsTheStepsAndAsUnevenAsTheTimer) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "there.ngc";
+    write_content(file, "G21 G90\nG1 X100 Y-20.5 F3000\nX90 F1500\nC10 F1000\nM2\n");
+    const Ended ended = run({"gcode",
+                             "pulses",
+                             file.string(),
+                             "--machine",
+                             "ac-table",
+                             "--steps",
+                             "Y=80",
+                             "--timer",
+                             "1e5",
+                             "--min-interval",
+                             "1",
+                             "--jitter-limit",
+                             "4",
+                             "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto answer = nlohmann::json::parse(ended.out);
+    const auto& axes = answer.at("axes");
+    ASSERT_EQ(axes.size(), 5U); // X Y Z A C
+    const auto& x = axes[0];
+    EXPECT_EQ(x.at("pulses"), 250 * (100 + 10));
+    EXPECT_EQ(x.at("reversals"), 1);
+    const double planned = 250.0 * 50.0 * 100.0 / std::hypot(100.0, 20.5);
+    EXPECT_NEAR(x.at("planned_hz").get<double>(), planned, 1e-3 * planned);
+    EXPECT_LE(x.at("max_jitter_s").get<double>(), 0.5e-5 * (1.0 + 1e-9));
+    EXPECT_NEAR(x.at("rms_jitter_s").get<double>(), 1e-5 / std::sqrt(12.0), 0.03e-5);
+    EXPECT_NEAR(x.at("over_limit").get<double>(), 0.2 * 250 * 110, 0.02 * 250 * 110);
+    EXPECT_EQ(axes[1].at("pulses"), 1640);
+    EXPECT_EQ(axes[2].at("pulses"), 0);
+    EXPECT_EQ(axes[4].at("pulses"), 1000);
+    EXPECT_EQ(axes[4].at("steps_per_deg"), 100.0);
+    const Ended timed = run({"gcode", "time", file.string(), "--machine", "ac-table", "--json"});
+    EXPECT_NEAR(
+        answer.at("time_s").get<double>(), nlohmann::json::parse(timed.out).at("time_s").get<double>(), 1e-9);
+}
+
+TEST(Gcode, PulsesSayWhereTheTimerDoesNotKeepUp) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "fast.ngc";
+    write_content(file, "G21 G90\nG1 X1 F60\nX100 F3000\nM2\n");
+    const auto pulses = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"gcode", "pulses", file.string(), "--machine", "router-xyz"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Ended kept = pulses({});
+    EXPECT_EQ(kept.exit_code, 0) << kept.err;
+    EXPECT_THAT(kept.out, HasSubstr("250/mm        25000"));
+    const Ended slow = pulses({"--timer", "10000"});
+    EXPECT_EQ(slow.exit_code, 1);
+    EXPECT_THAT(slow.err,
+                HasSubstr("fast.ngc:3: from here on the timer does not keep up with X: 12500 pulses a second "
+                          "are due, it gives 5000"));
+    for (const char* steps : {"A=100", "X=0", "X=", "X", "XY=1", "X=1e9", "X=nan", "X=5mm"}) {
+        const Ended ended = pulses({"--steps", steps});
+        EXPECT_EQ(ended.exit_code, 1) << steps;
+        EXPECT_THAT(ended.err,
+                    HasSubstr(std::string("--steps ") + steps + " is no axis of the machine with its steps"));
+    }
 }
 
 TEST(Gcode, WhatIsMissingOrWrongIsNamed) {

@@ -56,7 +56,9 @@ void check_letters(const Block& block) {
     }
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
         if (block.has(letter) && (word_bit(letter) & letters) == 0) {
-            refuse(block.column_of(letter), fmt::format("Grbl does not know {} words (error 20)", letter));
+            refuse(block.column_of(letter),
+                   fmt::format("Grbl does not know {} words (error 20)", letter),
+                   letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
         }
     }
     constexpr double last_tool = 255.0;

@@ -273,7 +273,8 @@ void check_uses(const Block& block) {
     for (const WordUse& use : word_uses) {
         if (block.has(use.letter) && !use.used(block)) {
             refuse(block.column_of(use.letter),
-                   fmt::format("{} word without anything that uses it ({})", use.letter, use.users));
+                   fmt::format("{} word without anything that uses it ({})", use.letter, use.users),
+                   use.letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
         }
     }
 }

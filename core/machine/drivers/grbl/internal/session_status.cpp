@@ -51,7 +51,12 @@ std::optional<Diagnostic> Session::stranger() const {
     if (stage_ != Stage::alarm || !readout_.settings.empty()) {
         return std::nullopt;
     }
-    return Diagnostic{{}, message_, "is it the right port, and switched on?"};
+    const bool moves = report_ && report_->moving();
+    return Diagnostic{
+        {},
+        message_,
+        moves ? "or still goes on with what it has of a job that was broken off; wait until it stands"
+              : "is it the right port, and switched on?"};
 }
 
 DriverStatus Session::status() const {

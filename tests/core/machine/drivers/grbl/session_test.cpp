@@ -411,6 +411,20 @@ TEST(GrblSession, WakesAControllerThatALimitSwitchHasMadeDeaf) {
     EXPECT_NE(wire.session.status().position_doubt, "");
 }
 
+/// As after a job whose program was killed: what the controller has goes on.
+TEST(GrblSession, LeavesAMovingControllerAloneAndSaysWhatToWaitFor) {
+    GrblWire wire;
+    wire.grbl.receive("G1 X50 F600\n");
+    wire.grbl.advance(0.1);
+    wire.session = Session();
+    wire.session.opened(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.stranger().has_value(); }, 10.0));
+    EXPECT_EQ(wire.session.stranger()->message, "the machine is moving for somebody else");
+    EXPECT_EQ(wire.session.stranger()->hint,
+              "or still goes on with what it has of a job that was broken off; wait until it stands");
+    EXPECT_TRUE(wire.grbl.moving());
+}
+
 TEST(GrblSession, SurvivesALimitSwitchWhileItIsBeingAsked) {
     GrblWire wire;
     wire.session = Session();

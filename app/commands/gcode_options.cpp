@@ -1,0 +1,72 @@
+#include "app/commands/gcode_options.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace millwright::app {
+
+namespace {
+
+constexpr double grbl_junction_deviation = 0.01; ///< mm: $11 as Grbl ships
+constexpr int grbl_look_ahead = 15;              ///< moves
+
+} // namespace
+
+gcode::ReaderSettings reader_settings(const GcodeOptions& options) {
+    gcode::ReaderSettings settings;
+    settings.dialect = gcode::dialect_of(options.dialect).value();
+    settings.block_delete = options.block_delete;
+    if (!options.tools.empty()) {
+        settings.tools = gcode::read_tool_table(options.tools);
+    }
+    settings.any_tool = options.tools.empty();
+    return settings;
+}
+
+motion::PlannerSettings planner_settings(const GcodeOptions& options) {
+    motion::PlannerSettings settings;
+    if (options.path_tolerance > 0.0) {
+        settings.path = {gcode::PathMode::continuous, options.path_tolerance};
+    }
+    const bool is_grbl = options.dialect == "grbl";
+    const double deviation = options.junction_deviation.value_or(is_grbl ? grbl_junction_deviation : 0.0);
+    if (deviation > 0.0) {
+        settings.corner_rule = motion::CornerRule::junction_deviation;
+        settings.junction_deviation = deviation;
+    }
+    settings.look_ahead = options.look_ahead.value_or(is_grbl ? grbl_look_ahead : 0);
+    return settings;
+}
+
+void add_motion_options(CLI::App& command, const std::shared_ptr<GcodeOptions>& options) {
+    constexpr double most_mm = 100.0;
+    constexpr int most_blocks = 1'000'000;
+    command.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    command
+        .add_option("--path-tolerance",
+                    options->path_tolerance,
+                    "Tolerance of corners where the program says none, mm")
+        ->check(CLI::Range(0.0, most_mm));
+    command.add_option("--junction-deviation", options->junction_deviation, "Corners as Grbl takes them, mm")
+        ->check(CLI::Range(0.0, most_mm));
+    command
+        .add_option("--look-ahead", options->look_ahead, "Moves that the controller knows at a time; 0: all")
+        ->check(CLI::Range(0, most_blocks));
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+}
+
+CLI::App& add_reader_options(CLI::App& group,
+                             const char* name,
+                             const char* text,
+                             const std::shared_ptr<GcodeOptions>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    command.add_option("FILE", options->file, "G-code file")->required();
+    command.add_option("--dialect", options->dialect, "Whose rules hold")
+        ->check(CLI::IsMember({"linuxcnc", "grbl"}))
+        ->capture_default_str();
+    command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
+    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
+    return command;
+}
+
+} // namespace millwright::app

@@ -1,0 +1,47 @@
+// What the options of `millwright gcode` say: whose program it is, for which machine, how that moves.
+#pragma once
+
+#include "app/commands/gcode_pulses.h"
+#include "app/posting.h"
+#include "core/gcode/reader/settings.h"
+#include "core/motion/planner.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+struct GcodeOptions {
+    std::string file;
+    std::string dialect = "linuxcnc";
+    std::string tools;
+    std::string machine;
+    double path_tolerance = 0.0;              ///< mm; 0: exact path
+    std::optional<double> junction_deviation; ///< mm; 0: corners by small steps
+    std::optional<int> look_ahead;            ///< moves; 0: all
+    std::optional<double> chord_length;       ///< mm; not given: arcs by tolerance
+    std::string out;
+    PostChoice post;
+    PulseOptions pulses;
+    bool block_delete = false;
+    bool json = false;
+};
+
+/// Throws Error for a tool table that cannot be read.
+[[nodiscard]] gcode::ReaderSettings reader_settings(const GcodeOptions& options);
+[[nodiscard]] motion::PlannerSettings planner_settings(const GcodeOptions& options);
+
+/// A command of `group` that reads a program.
+CLI::App& add_reader_options(CLI::App& group,
+                             const char* name,
+                             const char* text,
+                             const std::shared_ptr<GcodeOptions>& options);
+/// The machine, and how its motion is planned.
+void add_motion_options(CLI::App& command, const std::shared_ptr<GcodeOptions>& options);
+
+} // namespace millwright::app
