@@ -34,6 +34,9 @@ Permission machine_ready(const Workbench& now) {
     if (now.arm_connected()) {
         return Permission::refused("A PMAC runs motion programs in its own language, and no G-code.");
     }
+    if (now.controller.status.link_lost) {
+        return Permission::refused("The link is lost: reconnect first.");
+    }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm) {
         return Permission::refused("There is an alarm: home or unlock first.");

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/text_search.h"
+#include "ui/panels/internal/hand_fields.h"
 #include "ui/widgets/listing.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace {
 
 using machine::ConsoleKind;
 using machine::ConsoleLine;
-using machine::DriverState;
 using widgets::Permission;
 
 constexpr std::size_t most_kept = 20'000;
@@ -46,18 +46,18 @@ std::string text_of(const ConsoleLine& line, double start) {
     return fixed(line.time - start, 2) + (line.sent ? "  > " : "  < ") + line.text;
 }
 
-Permission can_send(const Workbench& now) {
+Permission can_type(const Workbench& now) {
     if (!now.controller.connected()) {
         return Permission::refused("No machine is connected.");
     }
     if (!now.controller.can.command) {
         return Permission::refused("This machine takes no single lines.");
     }
-    const DriverState state = now.controller.status.state;
-    return !now.job.running && (state == DriverState::idle || state == DriverState::stopped)
-               ? Permission{}
-               : Permission::refused(state == DriverState::alarm ? "There is an alarm: home or unlock first."
-                                                                 : "The machine is moving.");
+    return {};
+}
+
+Permission can_send(const Workbench& now) {
+    return now.job.running ? Permission::refused("A job is running.") : at_rest(now.controller);
 }
 
 } // namespace
@@ -120,6 +120,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
     {
         const auto width = ui.width(0.5F * whole);
         const auto labels = ui.label_share(0.16F);
+        const auto permitted = ui.permitted(can_type(now));
         if (const auto line =
                 ui.command_line("command",
                                 "MDI",

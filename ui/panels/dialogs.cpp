@@ -16,6 +16,7 @@ namespace {
 using widgets::Rank;
 
 constexpr float width = 500.0F;
+constexpr float wide = 600.0F; ///< three buttons, one with a long label
 
 std::string where(const std::filesystem::path& file) {
     return file.empty() ? "never saved" : file.string();
@@ -116,7 +117,7 @@ void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) c
 }
 
 void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("broken_job", "A job was broken off", ui.px(width));
+    const auto dialog = ui.dialog("broken_job", "A job was broken off", ui.px(wide));
     if (!dialog) {
         return;
     }
@@ -126,7 +127,8 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
     {
         const auto labels = ui.label_share(0.2F);
         ui.value("program", "Program", shortened(story.start.project));
-        ui.value("machine", "Machine", story.start.driver);
+        const std::string at = story.start.address.empty() ? "" : " at " + story.start.address;
+        ui.value("machine", "Machine", story.start.driver + at);
         if (!story.start.started_at.empty()) {
             ui.value("started", "Started", story.start.started_at);
         }

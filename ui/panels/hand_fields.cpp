@@ -10,6 +10,9 @@ using machine::DriverState;
 using widgets::Permission;
 
 Permission at_rest(const ControllerView& machine) {
+    if (machine.status.link_lost) {
+        return Permission::refused("The link is lost: reconnect first.");
+    }
     const DriverState state = machine.status.state;
     if (state == DriverState::alarm) {
         return Permission::refused("There is an alarm: home or unlock first.");

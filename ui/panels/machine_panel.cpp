@@ -34,6 +34,22 @@ int speed_index(double speed) {
     return 0;
 }
 
+/// A controller is chosen and not connected.
+bool waits_for_a_link(const Workbench& now) {
+    return now.controller.link == actions::LinkState::none &&
+           now.session.hand.choice.kind != machine::DriverKind::virtual_machine;
+}
+
+std::string checked_sentence(const Workbench& now, const std::string& name) {
+    const bool another =
+        now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+    return fmt::format(
+        "Checked: axes and travel are within those of {}{}. Feeds beyond its axes are slowed.{}",
+        name,
+        another ? ", the machine of the workbench" : "",
+        another ? " Those of the connected one are checked before it moves." : "");
+}
+
 /// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
 /// that is not executed for certain.
 std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
@@ -97,11 +113,8 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
     const auto& opened = *now.opened;
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
     if (found == 0) {
-        ui.note(opened.motion && opened.machine
-                    ? fmt::format("Checked: axes and travel are within those of {}. Feeds beyond its "
-                                  "axes are slowed.",
-                                  opened.machine->name())
-                    : "Checked: the program can be read.");
+        ui.note(opened.motion && opened.machine ? checked_sentence(now, opened.machine->name())
+                                                : "Checked: the program can be read.");
         return;
     }
     const Diagnostic& first = !opened.errors.empty()   ? opened.errors.front()
@@ -145,8 +158,11 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                   ask,
                   catalogue_,
                   "machine.run",
-                  widgets::Rank::primary,
+                  waits_for_a_link(now) ? widgets::Rank::normal : widgets::Rank::primary,
                   begin.on ? fmt::format("Run from line {}", begin.line) : std::string("Run"));
+    if (waits_for_a_link(now)) {
+        ui.note("Until the chosen machine is connected, the virtual machine runs it.");
+    }
     {
         const auto row = ui.row(3);
         action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");

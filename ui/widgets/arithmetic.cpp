@@ -49,8 +49,10 @@ Evaluated finite(std::string_view text, double value) {
     return {value, {}};
 }
 
+/// A field that counts shows "of 12" in place of a unit.
 std::string with_unit(double value, std::string_view unit) {
-    return unit.empty() ? shortest(value) : fmt::format("{} {}", shortest(value), unit);
+    return unit.empty() || unit.starts_with("of ") ? shortest(value)
+                                                   : fmt::format("{} {}", shortest(value), unit);
 }
 
 std::string range_sentence(const FieldInfo& info) {

@@ -54,10 +54,11 @@ std::optional<std::string> Ui::command_line(std::string_view id,
     box.path = path(id);
     box.tip = tip;
     box.font = look_.fonts.mono;
-    box.permission = permission;
     box.completed = [=](std::string_view text) { return completed(text, history, words); };
     box.enter_only = true;
-    box.refusal = [](std::string_view) { return std::string(); };
+    box.refusal = [&permission](std::string_view) {
+        return permission.allowed ? std::string() : permission.reason;
+    };
     box.stepped = [lines = std::vector<std::string>(history.begin(), history.end())](
                       std::string_view text, double steps) { return line_of_history(lines, text, steps); };
     return text_row(*this, label, box);

@@ -27,6 +27,8 @@ std::string speed_text(double speed) {
     return fmt::format("× {:g}", speed);
 }
 
+constexpr float speed_width = 78.0F;
+
 std::optional<TimelineAsk> speed_choice(Ui& ui, double now) {
     std::array<std::string, speeds.size()> labels;
     std::vector<Option> options;
@@ -41,7 +43,7 @@ std::optional<TimelineAsk> speed_choice(Ui& ui, double now) {
     if (known == speeds.end()) {
         options.push_back({.id = "now", .label = own});
     }
-    const auto width = ui.width(ui.px(78.0F));
+    const auto width = ui.width(ui.px(speed_width));
     const auto chosen = ui.choice("speed", "", index, options, "Speed of the playback, times real time.");
     if (!chosen || *chosen >= std::ssize(speeds)) {
         return std::nullopt;
@@ -85,11 +87,18 @@ void where(Ui& ui, const TimelineView& view) {
     const std::string block = fmt::format("{} / {}", view.block, view.blocks);
     const std::string widest = fmt::format("{} / {}", view.blocks, view.blocks);
     const std::string caption = std::string(view.what) + "  ";
-    const float width = text_width(font, caption) + text_width(font, widest) + ui.px(18.0F);
-    fixed_words(ui, caption, block, width);
+    const float gap = ui.px(18.0F);
+    const float width = text_width(font, caption) + text_width(font, widest) + gap;
+    const std::string total = clock_time(view.total_s);
+    const float time_width = text_width(font, total + " / " + total) + gap;
+    const float room = ui.rest().w - ui.px(speed_width);
+    const float caption_width = text_width(font, caption);
+    const bool narrow = room < width + time_width; // the choice of the speed must not be cut off
+    fixed_words(ui, narrow ? "" : caption, block, narrow ? width - caption_width : width);
     ui.beside();
-    const std::string time = clock_time(view.time_s) + " / " + clock_time(view.total_s);
-    fixed_words(ui, "", time, text_width(font, time) + ui.px(18.0F));
+    const bool no_total = narrow && room < width - caption_width + time_width;
+    const std::string time = no_total ? clock_time(view.time_s) : clock_time(view.time_s) + " / " + total;
+    fixed_words(ui, "", time, text_width(font, time) + gap);
     ui.beside();
 }
 

@@ -154,7 +154,8 @@ bool Ui::is_typing() const {
 }
 
 bool Ui::was_typing() const {
-    return state_->typing_at_begin || text_field_active();
+    return state_->typing_at_begin || text_field_active() ||
+           ImGui::GetFrameCount() <= state_->edit.kept_until;
 }
 
 void Ui::keep_clear(std::string_view path) {

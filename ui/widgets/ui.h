@@ -228,9 +228,9 @@ public:
                                           std::string_view value,
                                           std::string_view tip = {},
                                           const Permission& permission = {});
-    /// A line to be sent: Enter answers it and empties the field, leaving the field sends nothing. The arrow
-    /// keys bring back the lines of `history`, oldest first; Tab completes from it and from `words`
-    /// (completion.h).
+    /// A line to be sent: Enter answers it, empties the field and leaves it the keyboard; while `permission`
+    /// is refused, Enter shows why. Leaving the field sends nothing. The arrows bring back the lines of
+    /// `history`, oldest first; Tab completes from it and from `words` (completion.h).
     std::optional<std::string> command_line(std::string_view id,
                                             std::string_view label,
                                             std::span<const std::string> history,

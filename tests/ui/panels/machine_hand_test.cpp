@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -225,6 +226,8 @@ TEST_F(MachineByHand, TellsOfALostLinkAndOffersToMakeItAgain) {
     person.frames(3);
     EXPECT_FALSE(machine().status.message.empty());
     EXPECT_TRUE(person.sees("inspector/connection/machine_reconnect"));
+    EXPECT_EQ(person.refusal("hand/jog/plus_X"), "The link is lost: reconnect first.");
+    EXPECT_EQ(person.refusal("inspector/job/machine_run"), "The link is lost: reconnect first.");
     person.keep("machine-lost");
 }
 
@@ -341,6 +344,33 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
     person.press_key(render::Key::up);
     person.press_key(render::Key::enter);
     EXPECT_EQ(person.workshop().session().hand.commands.back(), "G1 X2 F600");
+}
+
+/// A line takes its time, and who goes on typing means the field: keys that jog must not get there.
+TEST_F(MachineByHand, KeepsTheKeyboardInTheCommandLineWhileALineIsExecuted) {
+    connect();
+    person.workshop().run("machine.arm_keys");
+    person.click("lower/command");
+    person.type("G4 P1.5");
+    person.press_key(render::Key::enter);
+    person.hold_keys({render::Key::up}); // brings the line back
+    live(0.3);
+    person.hold_keys({});
+    person.frames(2);
+    person.type("G0 X3");
+    const auto lines_with = [&](const std::string& text) {
+        const auto lines = grbl.lines();
+        return std::count(lines.begin(), lines.end(), text);
+    };
+    ASSERT_TRUE(live_until([&] {
+        if (is(DriverState::idle) && lines_with("G0X3") == 0) {
+            person.press_key(render::Key::enter); // refused as long as the dwell lasts, and the text stays
+        }
+        return lines_with("G0X3") > 0;
+    }));
+    EXPECT_TRUE(live_until([this] { return rests_at(0, 3.0); }));
+    EXPECT_EQ(grbl.position()[1], 0.0);
+    EXPECT_EQ(lines_with("G4P1.5"), 1);
 }
 
 TEST_F(MachineByHand, MakesThisPlaceTheZero) {

@@ -65,6 +65,8 @@ TEST(Arithmetic, TheRangeIsPartOfTheReason) {
     EXPECT_DOUBLE_EQ(evaluate_number("5000", info).value.value(), 5000.0);
     const FieldInfo at_least{.id = "n", .label = "n", .unit = "", .tip = "", .min = 2.0};
     EXPECT_EQ(evaluate_number("1", at_least).reason, "Must be at least 2.");
+    const FieldInfo line{.id = "line", .label = "Line", .unit = "of 12", .tip = "", .min = 1.0, .max = 12.0};
+    EXPECT_EQ(evaluate_integer("13", line).reason, "Must be from 1 to 12.");
 }
 
 TEST(Arithmetic, AWholeNumberIsWhole) {

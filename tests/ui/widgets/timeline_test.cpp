@@ -38,6 +38,21 @@ protected:
     }
 };
 
+/// Of a long program the numbers are wide.
+TEST(NarrowTimeline, KeepsTheChoiceOfTheSpeedWhole) {
+    for (const float width : {800.0F, 640.0F, 560.0F, 500.0F}) {
+        TimelineView view{.block = 1, .blocks = 1'000'003, .time_s = 3000.0, .total_s = 90'000.0};
+        Stage stage([&](Ui& ui) {
+            const auto pane = ui.pane("time", {0.0F, 0.0F, width, 110.0F});
+            (void)timeline(ui, "timeline", view);
+        });
+        stage.frames(2);
+        const Rect speed = stage.place("time/timeline/speed");
+        EXPECT_NEAR(speed.w, 78.0F, 1.0F) << width;
+        EXPECT_LE(speed.right(), width) << width;
+    }
+}
+
 TEST_F(Timeline, AClickOnTheTrackGoesThere) {
     stage.click_at(on_track(0.25F));
     ASSERT_EQ(asked.size(), 1U);

@@ -96,6 +96,12 @@ void refuse(Ui& ui, const std::string& path, std::string reason) {
     ui.state().refusals[path] = {std::move(reason), ImGui::GetTime() + refusal_shown};
 }
 
+/// Enter took the keyboard away from the box that was drawn last.
+void take_keyboard_again(Ui::State::Edit& edit) {
+    edit.kept_until = ImGui::GetFrameCount() + frames_to_refocus;
+    ImGui::SetKeyboardFocusHere(-1);
+}
+
 /// The keyboard left the box: commit, refuse or revert.
 std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed) {
     Ui::State::Edit& edit = ui.state().edit;
@@ -107,9 +113,7 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
         refuse(ui, box.path, reason);
         if (typed.entered) {
             edit.text = text;
-            edit.keep = true;
-            edit.frames_kept = 0;
-            ImGui::SetKeyboardFocusHere(-1);
+            take_keyboard_again(edit);
             return std::nullopt;
         }
         if (box.keeps_refused) {
@@ -120,6 +124,10 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
         ui.state().drafts.erase(box.path);
     }
     edit = {};
+    if (box.enter_only && typed.entered) {
+        edit.path = box.path;
+        take_keyboard_again(edit);
+    }
     return reason.empty() && changed && !reverted ? std::optional(text) : std::nullopt;
 }
 
@@ -136,14 +144,14 @@ std::optional<std::string> follow(Ui& ui, const EditBox& box, const Typed& typed
     }
     if (typed.active) {
         edit.text = typed.text;
-        edit.keep = false;
+        edit.kept_until = -1;
         const std::string reason = edit.text == edit.initial ? std::string() : box.refusal(edit.text);
         if (reason.empty()) {
             ui.state().refusals.erase(box.path);
         } else {
             refuse(ui, box.path, reason);
         }
-    } else if (!edit.keep || ++edit.frames_kept > frames_to_refocus) {
+    } else if (ImGui::GetFrameCount() > edit.kept_until) {
         edit = {};
     }
     return std::nullopt;

@@ -15,8 +15,7 @@ struct Ui::State {
         std::string path;    ///< of the one field being typed into; empty: none
         std::string text;    ///< as typed
         std::string initial; ///< as it was before
-        bool keep = false;   ///< refused by Enter: the field takes the keyboard again with its text
-        int frames_kept = 0;
+        int kept_until = -1; ///< ImGui's frame: behind Enter the field takes the keyboard again until then
     };
     struct Refusal {
         std::string reason;
