@@ -81,24 +81,28 @@ void fixed_words(Ui& ui, std::string_view caption, std::string_view text, float 
     draw_text(ui, ui.look().fonts.text, words, ui.colours().text, text);
 }
 
+/// Where there is little room for the choice of the speed behind it, less and less of it is said.
 void where(Ui& ui, const TimelineView& view) {
     ui.move_by(ui.px(10.0F), 0.0F);
     const ImFont* font = ui.look().fonts.text;
-    const std::string block = fmt::format("{} / {}", view.block, view.blocks);
-    const std::string widest = fmt::format("{} / {}", view.blocks, view.blocks);
-    const std::string caption = std::string(view.what) + "  ";
-    const float gap = ui.px(18.0F);
-    const float width = text_width(font, caption) + text_width(font, widest) + gap;
-    const std::string total = clock_time(view.total_s);
-    const float time_width = text_width(font, total + " / " + total) + gap;
+    const auto width_of = [&](std::string_view text) { return text_width(font, text); };
     const float room = ui.rest().w - ui.px(speed_width);
-    const float caption_width = text_width(font, caption);
-    const bool narrow = room < width + time_width; // the choice of the speed must not be cut off
-    fixed_words(ui, narrow ? "" : caption, block, narrow ? width - caption_width : width);
+    const float spaces = 2.0F * ui.px(18.0F);
+    const std::string last = std::to_string(view.blocks);
+    const std::string end = clock_time(view.total_s);
+    const std::string caption = std::string(view.what) + "  ";
+    const float least = width_of(last) + width_of(end) + spaces;
+    const float with_end = least + width_of(" / " + end);
+    const float with_last = with_end + width_of(" / " + last);
+    const std::string_view said = room < with_last + width_of(caption) ? "" : std::string_view(caption);
+    const std::string of_last = room < with_last ? "" : " / " + last;
+    fixed_words(ui,
+                said,
+                std::to_string(view.block) + of_last,
+                width_of(said) + width_of(last + of_last) + 0.5F * spaces);
     ui.beside();
-    const bool no_total = narrow && room < width - caption_width + time_width;
-    const std::string time = no_total ? clock_time(view.time_s) : clock_time(view.time_s) + " / " + total;
-    fixed_words(ui, "", time, text_width(font, time) + gap);
+    const std::string time = clock_time(view.time_s) + (room < with_end ? "" : " / " + end);
+    fixed_words(ui, "", time, width_of(time) + 0.5F * spaces);
     ui.beside();
 }
 
