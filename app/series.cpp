@@ -250,15 +250,19 @@ void add_series_options(CLI::App& command, SeriesChoice& choice, const std::stri
 }
 
 std::string options_to_go_on(const CLI::App& command) {
-    constexpr std::array<std::string_view, 9> said_otherwise{"--driver",
-                                                             "--port",
-                                                             "--log",
-                                                             "--from-line",
-                                                             "--continue",
-                                                             "--yes",
-                                                             "--clearance",
-                                                             "--at",
-                                                             "--trust-position"};
+    // Nor is any consent given twice.
+    constexpr std::array<std::string_view, 12> said_otherwise{"--driver",
+                                                              "--port",
+                                                              "--log",
+                                                              "--from-line",
+                                                              "--continue",
+                                                              "--yes",
+                                                              "--clearance",
+                                                              "--at",
+                                                              "--trust-position",
+                                                              "--unlock",
+                                                              "--home",
+                                                              "--power"};
     return given_options(command, said_otherwise);
 }
 

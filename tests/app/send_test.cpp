@@ -330,8 +330,9 @@ TEST_F(Send, AsksForAMachineWhereItPlans) {
                 HasSubstr("needs a machine (give --machine)"));
     EXPECT_THAT(run({"send", file, "--driver", "stream", "--machine", "router-xyz"}).err,
                 HasSubstr("the stream driver needs a port"));
-    EXPECT_THAT(run({"send", file, "--driver", "grbl", "--port", port, "--machine", "router-xyz"}).err,
-                HasSubstr("a machine and where it stands are for the drivers virtual, stream and records"));
+    EXPECT_THAT(
+        run({"send", file, "--driver", "grbl", "--port", port, "--machine", "router-xyz"}).err,
+        HasSubstr("a machine and where it stands are for the drivers virtual, cordic, stream and records"));
 }
 
 TEST_F(Send, ListsJobsAndPorts) {
