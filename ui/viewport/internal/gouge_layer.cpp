@@ -3,7 +3,6 @@
 
 #include "core/base/text.h"
 #include "ui/viewport/internal/boxes.h"
-#include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
 
 #include <algorithm>
@@ -53,9 +52,9 @@ public:
             return;
         }
         const render::ViewColors& colors = canvas.colors;
-        draw_marks(canvas, local_, 9.0F, 2.0F, colors.warning, 0.0F);
-        draw_marks(canvas, cutter_, 8.0F, 1.0F, colors.danger, 1.0F);
-        draw_marks(canvas, holder_, 13.0F, 3.0F, colors.danger, 0.0F);
+        draw_rings(canvas, local_, 9.0F, 2.0F, colors.warning, 0.0F);
+        draw_rings(canvas, cutter_, 8.0F, 1.0F, colors.danger, 1.0F);
+        draw_rings(canvas, holder_, 13.0F, 3.0F, colors.danger, 0.0F);
     }
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
@@ -75,22 +74,6 @@ public:
     }
 
 private:
-    static void draw_marks(const Canvas& canvas,
-                           const render::PointBuffer& points,
-                           float size,
-                           float ring,
-                           const glm::vec3& color,
-                           float inside) {
-        canvas.painter.points(points,
-                              {.coloring = {.color = with_opacity(color, inside)},
-                               .model = canvas.s_T_w,
-                               .size_px = size,
-                               .ring_px = ring,
-                               .ring_color = with_opacity(color, 1.0F),
-                               .depth = render::Depth::ghost},
-                              canvas.view);
-    }
-
     std::shared_ptr<const project::CutStudy> cut_;
     render::PointBuffer cutter_;
     render::PointBuffer holder_;

@@ -1,5 +1,7 @@
 #include "ui/viewport/internal/layer.h"
 
+#include "ui/viewport/internal/curves.h"
+
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
@@ -42,6 +44,22 @@ void draw_seamed(const Canvas& canvas,
     seam.depth = render::Depth::ghost;
     canvas.painter.lines(lines, seam, view);
     canvas.painter.lines(lines, style, view);
+}
+
+void draw_rings(const Canvas& canvas,
+                const render::PointBuffer& points,
+                float size,
+                float ring,
+                const glm::vec3& color,
+                float inside) {
+    canvas.painter.points(points,
+                          {.coloring = {.color = with_opacity(color, inside)},
+                           .model = canvas.s_T_w,
+                           .size_px = size,
+                           .ring_px = ring,
+                           .ring_color = with_opacity(color, 1.0F),
+                           .depth = render::Depth::ghost},
+                          canvas.view);
 }
 
 } // namespace millwright::viewport

@@ -30,6 +30,15 @@ void draw_seamed(const Canvas& canvas,
                  const render::LineStyle& style,
                  const render::View& view);
 
+/// Marks of `size` pixels with a ring of `ring` around them, seen through what hides them; `inside`: their
+/// opacity.
+void draw_rings(const Canvas& canvas,
+                const render::PointBuffer& points,
+                float size,
+                float ring,
+                const glm::vec3& color,
+                float inside);
+
 class Layer {
 public:
     Layer() = default;

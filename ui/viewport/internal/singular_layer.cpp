@@ -1,7 +1,6 @@
 // Places of the surface where the machine loses an axis: a ring around each and its name.
 
 #include "ui/viewport/internal/boxes.h"
-#include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
 
 #include <algorithm>
@@ -35,9 +34,9 @@ public:
             return;
         }
         const render::ViewColors& colors = canvas.colors;
-        draw_ring(canvas, 19.0F, 2.0F + 1.5F, colors.background_bottom, 0.0F);
-        draw_ring(canvas, 17.0F, 2.0F, colors.selected, 0.0F);
-        draw_ring(canvas, 5.0F, 0.0F, colors.selected, 1.0F);
+        draw_rings(canvas, points_, 19.0F, 2.0F + 1.5F, colors.background_bottom, 0.0F);
+        draw_rings(canvas, points_, 17.0F, 2.0F, colors.selected, 0.0F);
+        draw_rings(canvas, points_, 5.0F, 0.0F, colors.selected, 1.0F);
     }
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
@@ -53,17 +52,6 @@ public:
     }
 
 private:
-    void draw_ring(const Canvas& canvas, float size, float ring, const glm::vec3& color, float inside) const {
-        canvas.painter.points(points_,
-                              {.coloring = {.color = with_opacity(color, inside)},
-                               .model = canvas.s_T_w,
-                               .size_px = size,
-                               .ring_px = ring,
-                               .ring_color = with_opacity(color, 1.0F),
-                               .depth = render::Depth::ghost},
-                              canvas.view);
-    }
-
     std::vector<render::PointVertex> made_from_;
     render::PointBuffer points_;
 };
