@@ -1,13 +1,17 @@
 #include "app/controller.h"
 
+#include "app/arm_choice.h"
 #include "app/job_keys.h"
 #include "app/job_printer.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/drivers/make_driver.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/machine/emulators/pmac/motion_program.h"
 #include "core/machine/survey.h"
 
 #include <CLI/App.hpp>
@@ -49,7 +53,11 @@ Controller::Controller(ControllerChoice choice, const std::string& log_folder)
     wanted.address = choice_.port;
     wanted.axes = choice_.axes;
     wanted.one_by_one = choice_.one_by_one;
-    driver_ = machine::make_driver(wanted, {}, clock_);
+    machine::MovedAxes moved;
+    if (wanted.kind == machine::DriverKind::pmac) {
+        moved.arm = std::make_shared<const kinematics::ArmModel>(arm_of(choice_.arm));
+    }
+    driver_ = machine::make_driver(wanted, moved, clock_);
 }
 
 Controller::~Controller() {
@@ -63,6 +71,7 @@ void Controller::check(const machine::Job& job) const {
 void Controller::connect(bool at_a_line, const std::stop_token& stop) {
     driver_->connect();
     memory_.remind(*driver_);
+    expect_rest();
     prepare(at_a_line, stop);
     if (choice_.optional_stop) {
         driver_->set_optional_stop(true);
@@ -71,6 +80,20 @@ void Controller::connect(bool at_a_line, const std::stop_token& stop) {
         driver_->set_single_block(true);
     }
     say_who_is_there();
+}
+
+/// What runs there for somebody else, or from a job whose link broke, is left alone. Throws Error.
+void Controller::expect_rest() const {
+    using machine::DriverState;
+    const machine::DriverStatus now = driver_->status();
+    if (now.state == DriverState::running || now.state == DriverState::holding ||
+        now.state == DriverState::stopping) {
+        const std::string why = now.message.empty() ? std::string(machine::to_text(now.state)) : now.message;
+        throw Error("the machine takes no job: " + why,
+                    {},
+                    "wait until it stands, or end that: millwright stop --driver " + choice_.driver +
+                        " --port " + choice_.port);
+    }
 }
 
 /// What a person said may be done before the job. Nothing is, for a job that is refused; homing ends every
@@ -182,8 +205,28 @@ void Controller::show_warnings(const machine::Job& job) const {
     }
 }
 
+/// Of a motion program, on an emulated card: whether the joints would leave their limits.
+void Controller::check_joints(const machine::Job& job, const std::stop_token& stop) const {
+    const kinematics::ArmModel arm = arm_of(choice_.arm);
+    const machine::DriverStatus now = driver_->status();
+    machine::MotionSimulationSettings settings;
+    settings.card = machine::within_limits(machine::arm_settings_of(choice_.axes), arm);
+    for (Eigen::Index n = 0; n < now.position.size(); ++n) {
+        settings.start_deg.push_back(to_degrees(now.position[n]));
+    }
+    const Progress progress([](const Progress::Report&) {}, stop);
+    const machine::MotionSimulation found =
+        machine::simulate_motion_program(job.listing->text, job.project, settings, progress);
+    if (found.beyond_limits) {
+        throw Error(*found.beyond_limits);
+    }
+}
+
 machine::JobOutcome Controller::run(const machine::Job& job, const std::stop_token& stop) {
     show_warnings(job);
+    if (choice_.driver == "pmac") {
+        check_joints(job, stop);
+    }
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder_);
     JobPrinter printer;
     const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});

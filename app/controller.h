@@ -30,10 +30,11 @@ struct ControllerChoice {
     bool trust_position = false; ///< a person has looked: the machine stands where the controller says
     bool keys = false;           ///< of JobKeys also from an input that is no terminal
     bool optional_stop = false;
-    bool single_block = false; ///< from the first block on
-    std::string axes = "XYZ";  ///< of a LinuxCNC
-    bool power = false;        ///< a person has looked: the motors may have power
-    bool home = false;         ///< find the zero of every axis first
+    bool single_block = false;      ///< from the first block on
+    std::string axes = "XYZ";       ///< of a LinuxCNC
+    std::string arm = "motoman-l3"; ///< of a PMAC: a name or a file
+    bool power = false;             ///< a person has looked: the motors may have power
+    bool home = false;              ///< find the zero of every axis first
 };
 
 /// Adds these to `command`; returns --port.
@@ -59,6 +60,7 @@ public:
     [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop);
 
 private:
+    void expect_rest() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
     void wait_for(const std::function<bool(const machine::DriverStatus&)>& done, const std::stop_token& stop);
     void unlock();
@@ -66,6 +68,7 @@ private:
     void say_who_is_there() const;
     void remember();
     void show_warnings(const machine::Job& job) const;
+    void check_joints(const machine::Job& job, const std::stop_token& stop) const;
 
     ControllerChoice choice_;
     std::string log_folder_;

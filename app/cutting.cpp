@@ -146,6 +146,9 @@ void write_program(const plot::CutPath& path,
         write_file(options.preview.file, preview);
     }
     print_notes(text);
+    if (const auto slower = gcode::speeds_not_reached(path, machine)) {
+        fmt::print(stderr, "millwright: {}\n", to_text(*slower));
+    }
     const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
     const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
     constexpr double m = 1e-3;

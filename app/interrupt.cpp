@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 
 namespace millwright::app {
@@ -46,7 +47,11 @@ Interrupt::~Interrupt() {
 }
 
 void Interrupt::listen() const {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds one_press{
+        500}; // reaches a program once by its terminal, once by its parent
     std::stop_source asked = asked_;
+    Clock::time_point first{};
     while (true) {
         std::array<pollfd, 2> handles{{{signals_, POLLIN, 0}, {over_, POLLIN, 0}}};
         if (::poll(handles.data(), handles.size(), -1) < 0) {
@@ -60,10 +65,13 @@ void Interrupt::listen() const {
             continue;
         }
         constexpr int interrupted = 130;
-        if (asked.stop_requested() && signal.ssi_signo != SIGHUP) { // of which more than one comes
+        if (!asked.stop_requested()) {
+            first = Clock::now();
+            asked.request_stop();
+        } else if (signal.ssi_signo != SIGHUP &&
+                   Clock::now() - first > one_press) { // SIGHUP comes more than once
             ::_exit(interrupted);
         }
-        asked.request_stop();
     }
 }
 

@@ -1,5 +1,5 @@
 // Ctrl+C, asking politely: the first SIGINT, SIGTERM or SIGQUIT, or a terminal that is closed, asks the work
-// to stop; a second signal ends the program.
+// to stop; another one, half a second later or more, ends the program.
 #pragma once
 
 #include <stop_token>

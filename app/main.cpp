@@ -4,8 +4,11 @@
 #include "app/commands/cordic_command.h"
 #include "app/commands/cutter_command.h"
 #include "app/commands/emulate_command.h"
+#include "app/commands/export_command.h"
 #include "app/commands/gcode_command.h"
+#include "app/commands/import_command.h"
 #include "app/commands/jobs_command.h"
+#include "app/commands/join_command.h"
 #include "app/commands/machine_command.h"
 #include "app/commands/picture_command.h"
 #include "app/commands/plan_command.h"
@@ -13,9 +16,12 @@
 #include "app/commands/pmac_command.h"
 #include "app/commands/ports_command.h"
 #include "app/commands/render_command.h"
+#include "app/commands/reshape_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/send_command.h"
+#include "app/commands/stop_command.h"
 #include "app/commands/study_command.h"
+#include "app/commands/thesis_command.h"
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
 #include "app/output_files.h"
@@ -72,7 +78,12 @@ int main(int argc, char** argv) {
     add_render_command(app, chosen);
     add_run_command(app, chosen);
     add_send_command(app, chosen);
+    add_stop_command(app, chosen);
     add_study_command(app, chosen);
+    add_import_command(app, chosen);
+    add_export_command(app, chosen);
+    add_join_command(app, chosen);
+    add_reshape_command(app, chosen);
     add_jobs_command(app, chosen);
     add_pmac_command(app, chosen);
     add_ports_command(app, chosen);
@@ -84,6 +95,7 @@ int main(int argc, char** argv) {
     add_cordic_command(app, chosen);
     add_plot_command(app, chosen);
     add_picture_command(app, chosen);
+    add_thesis_command(app, chosen);
     expect_finite_numbers(app);
     try {
         app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "app/picture_choice.h"
 
+#include "app/names.h"
 #include "core/base/error.h"
 
 #include <CLI/App.hpp>
@@ -36,7 +37,8 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
         ->allow_extra_args(false);
     command
         .add_option("--gray", choice.reading.gray, "Brightness of colours: mean (as the thesis) or luminance")
-        ->transform(CLI::CheckedTransformer(gray_rules))
+        ->transform(one_of(gray_rules))
+        ->type_name(listed(gray_rules))
         ->default_str("mean");
     command.add_flag("--invert", choice.reading.invert, "Dark becomes bright");
 }

@@ -1,18 +1,49 @@
 #include "app/pmac_talk.h"
 
+#include "app/arm_choice.h"
 #include "core/base/error.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
+
+#include <utility>
 
 namespace millwright::app {
 
-machine::PmacSettings patient_settings() {
-    machine::PmacSettings settings = machine::arm_settings();
+namespace {
+
+std::unique_ptr<machine::PmacDriver>
+connected(const std::string& port, machine::PmacSettings settings, const machine::SteadyClock& clock) {
     settings.patience = 10.0; // s
-    return settings;
+    auto driver = std::make_unique<machine::PmacDriver>(machine::make_link(port), clock, std::move(settings));
+    driver->connect();
+    return driver;
 }
 
-PmacTalk::PmacTalk(const std::string& port) : driver_(machine::make_link(port), clock_, patient_settings()) {
-    driver_.connect();
+bool has_motor_5(machine::PmacDriver& driver, machine::SteadyClock& clock) {
+    constexpr double glance = 0.001;
+    const int number = driver.command("I500");
+    machine::DriverStatus now = driver.status();
+    while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
+        clock.wait(glance);
+        now = driver.status();
+    }
+    return now.answer.text == "1";
 }
+
+} // namespace
+
+std::unique_ptr<machine::PmacDriver>
+connected_pmac(const std::string& port, const std::string& arm, machine::SteadyClock& clock) {
+    const kinematics::ArmModel model = arm_of(arm);
+    auto driver = connected(port, machine::within_limits(machine::arm_settings(), model), clock);
+    if (model.joint_count() > 4 && has_motor_5(*driver, clock)) {
+        driver.reset();
+        driver = connected(port, machine::within_limits(machine::five_axis_arm_settings(), model), clock);
+    }
+    return driver;
+}
+
+PmacTalk::PmacTalk(const std::string& port, const std::string& arm)
+    : driver_(connected_pmac(port, arm, clock_)) {}
 
 machine::CardTalk PmacTalk::card() {
     return {.ask = [this](const std::string& line) { return ask(line); },
@@ -23,6 +54,23 @@ machine::CardTalk PmacTalk::card() {
                 }};
 }
 
+void PmacTalk::give_power() {
+    constexpr double glance = 0.02, patience = 5.0; // s
+    driver_->enable();
+    for (double waited = 0.0; waited < patience; waited += glance) {
+        check();
+        clock_.wait(glance);
+        const machine::DriverStatus now = driver_->status();
+        if (now.state == machine::DriverState::alarm) {
+            throw Error(now.message);
+        }
+        if (now.powered && now.state == machine::DriverState::idle) {
+            return;
+        }
+    }
+    throw Error("the motors get no power", {}, "are all of them active (Ix00 = 1)?");
+}
+
 void PmacTalk::check() {
     if (!cancelled_ && interrupt_.token().stop_requested()) {
         cancelled_ = true;
@@ -30,14 +78,25 @@ void PmacTalk::check() {
     }
 }
 
+void PmacTalk::wait_for_rest() {
+    constexpr double glance = 0.005;
+    while (driver_->status().activity == machine::Activity::command) {
+        check();
+        clock_.wait(glance);
+    }
+}
+
 std::string PmacTalk::ask(const std::string& line) {
     check();
     constexpr double glance = 0.001;
-    const int number = driver_.command(line);
-    machine::DriverStatus now = driver_.status();
+    if (machine::PmacDriver::needs_rest(line)) {
+        wait_for_rest();
+    }
+    const int number = driver_->command(line);
+    machine::DriverStatus now = driver_->status();
     while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
         clock_.wait(glance);
-        now = driver_.status();
+        now = driver_->status();
     }
     if (now.answer.state != machine::CommandAnswer::State::done) {
         throw Error(now.answer.text.empty() ? "the card did not take '" + line + "'" : now.answer.text);

@@ -6,30 +6,38 @@
 #include "core/machine/drivers/pmac/pmac_driver.h"
 #include "core/machine/service/card_talk.h"
 
+#include <memory>
 #include <string>
 
 namespace millwright::app {
 
+/// Connected, with the joint limits of `arm` (a name or a file) and with axis 5 where the card has a motor 5,
+/// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if
+/// nobody answers as a PMAC.
+[[nodiscard]] std::unique_ptr<machine::PmacDriver>
+connected_pmac(const std::string& port, const std::string& arm, machine::SteadyClock& clock);
+
 class PmacTalk {
 public:
-    /// Throws Error if nobody answers as a PMAC.
-    explicit PmacTalk(const std::string& port);
+    /// As connected_pmac().
+    PmacTalk(const std::string& port, const std::string& arm);
 
     /// For commands that set up motors. Ctrl+C throws Cancelled out of it once, so that what was begun can be
     /// put in order. It must not outlive this.
     [[nodiscard]] machine::CardTalk card();
+    /// Closes the loops of the arm's motors: only because a person looked and said so. Throws Error for an
+    /// alarm or a motor that gets none.
+    void give_power();
 
 private:
     std::string ask(const std::string& line);
     void check();
+    void wait_for_rest();
 
     Interrupt interrupt_;
     machine::SteadyClock clock_;
-    machine::PmacDriver driver_;
+    std::unique_ptr<machine::PmacDriver> driver_;
     bool cancelled_ = false;
 };
-
-/// As a person wants it: nothing moves for long without us, so a slow line may be slow.
-[[nodiscard]] machine::PmacSettings patient_settings();
 
 } // namespace millwright::app

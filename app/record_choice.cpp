@@ -10,7 +10,10 @@ void add_record_options(CLI::App& command, RecordChoice& choice) {
     command
         .add_option(
             "--record", choice.pattern, "Records of a coordinate stream, as \"t {X} {Y} {Z} {a} {s}\"")
-        ->type_name("PATTERN");
+        ->type_name("PATTERN")
+        ->check([](const std::string& pattern) {
+            return pattern.empty() ? std::string("a record tells something") : std::string();
+        });
     command.add_option("--ending", choice.ending, "Of a record: lf, crlf or cr")
         ->check(CLI::IsMember({"lf", "crlf", "cr"}))
         ->capture_default_str();

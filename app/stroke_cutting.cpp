@@ -1,11 +1,13 @@
 #include "app/stroke_cutting.h"
 
 #include "app/finite_number.h"
+#include "app/names.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/left_alone.h"
 #include "core/plot/level_text.h"
 #include "core/plot/ordering.h"
+#include "core/plot/standing_tabs.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>
@@ -56,6 +58,7 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
         return std::ranges::find(named, level.pen, &plot::Level::pen) != named.end();
     });
     cut.levels.insert(cut.levels.begin(), named.begin(), named.end());
+    cut.levels = plot::with_standing_tabs(std::move(cut.levels), options.plan.tool_diameter);
     return cut;
 }
 
@@ -83,7 +86,8 @@ std::string way_for_people(const plot::WorkTime& time) {
 
 void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command.add_option("--side", options.plan.side, "Of closed strokes: on-line, outside or inside")
-        ->transform(CLI::CheckedTransformer(sides))
+        ->transform(one_of(sides))
+        ->type_name(listed(sides))
         ->default_str("on-line");
     command
         .add_option(
@@ -91,7 +95,8 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
         ->check(above_zero())
         ->capture_default_str();
     command.add_option("--corners", options.plan.corners, "For --side: sharp or round")
-        ->transform(CLI::CheckedTransformer(corner_kinds))
+        ->transform(one_of(corner_kinds))
+        ->type_name(listed(corner_kinds))
         ->default_str("sharp");
     command
         .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm")

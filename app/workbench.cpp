@@ -1,12 +1,20 @@
 #include "app/workbench.h"
 
+#include "app/interrupt.h"
+#include "core/base/error.h"
 #include "core/project/assets.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
 #include "ui/panels/desktop.h"
 #include "ui/render/window_context.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <stop_token>
 
 namespace millwright::app {
 
@@ -34,7 +42,9 @@ void wait_for_frame(render::WindowContext& window, const panels::Desktop& deskto
     }
 }
 
-void run(render::WindowContext& window, actions::Workshop& workshop) {
+/// Until the user closes the window, or the system asks for the end: then without a question, and what has
+/// not been saved stays for the next start. Whatever moves is stopped with the workshop.
+void run(render::WindowContext& window, actions::Workshop& workshop, const std::stop_token& system) {
     panels::Desktop desktop(window, workshop);
     int due = frames_an_event;
     using Clock = std::chrono::steady_clock;
@@ -50,6 +60,9 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
             window.keep_open();
             workshop.run("file.quit");
         }
+        if (system.stop_requested()) {
+            throw Cancelled();
+        }
         if (workshop.session().quit) {
             workshop.close();
             return;
@@ -58,20 +71,34 @@ void run(render::WindowContext& window, actions::Workshop& workshop) {
     }
 }
 
+/// The window is gone without a word: whatever moves is stopped, as at the end that the system asks for, and
+/// what has not been saved stays for the next start. Nothing that belongs to a display may be touched again.
+[[noreturn]] void end_without_display(std::unique_ptr<actions::Workshop>& workshop) {
+    fmt::print(stderr, "millwright: the display is gone; whatever moves is stopped\n");
+    workshop.reset();
+    constexpr int failed = 1;
+    std::_Exit(failed);
+}
+
 } // namespace
 
 void run_workbench(const std::optional<std::filesystem::path>& file) {
+    const Interrupt interrupt; // before any thread
     render::WindowContext window({});
-    actions::Workshop workshop({.assets = project::assets_folder(),
-                                .log_folder = project::job_logs_place(),
-                                .settings = project::recent_files_place(),
-                                .recovery = project::recovery_place(),
-                                .wake = [&window] { window.request_redraw(); }});
-    window.on_drop([&workshop](const std::vector<std::filesystem::path>& files) { workshop.receive(files); });
+    auto workshop = std::make_unique<actions::Workshop>(
+        actions::WorkshopOptions{.assets = project::assets_folder(),
+                                 .log_folder = project::job_logs_place(),
+                                 .settings = project::recent_files_place(),
+                                 .recovery = project::recovery_place(),
+                                 .wake = [&window] { window.request_redraw(); }});
+    window.on_display_lost([&workshop] { end_without_display(workshop); });
+    window.on_drop(
+        [&workshop](const std::vector<std::filesystem::path>& files) { workshop->receive(files); });
     if (file) {
-        workshop.receive({*file});
+        workshop->receive({*file});
     }
-    run(window, workshop);
+    const std::stop_callback wake(interrupt.token(), [&window] { window.request_redraw(); });
+    run(window, *workshop, interrupt.token());
 }
 
 } // namespace millwright::app

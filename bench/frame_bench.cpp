@@ -201,7 +201,8 @@ void arm(benchmark::State& state) {
         scene.arm->joints[0] = 0.001 * ++frame;
         drawn.update(scene);
         target.begin(pane);
-        drawn.draw(turned(camera, frame).view(pane, drawn.depth_range()), colors, {});
+        const render::Edges edges = state.range(0) == 1 ? render::Edges::rough : render::Edges::smooth;
+        drawn.draw(turned(camera, frame).view(pane, drawn.depth_range()), colors, {}, edges);
         target.end();
         glFinish();
     }

@@ -60,7 +60,7 @@ struct Wire {
             std::move(links), clock, machine::GrblEmulatorOptions{.keep_truth = false});
         driver = std::make_unique<machine::GrblDriver>(std::move(near_end), clock);
         driver->connect();
-        for (const char* setting : {"$110=12000", "$120=9000"}) {
+        for (const char* setting : {"$110=12000", "$120=9000", "$130=1000"}) {
             (void)driver->command(setting);
             watch(*driver, [] {});
         }

@@ -16,6 +16,7 @@
 #include "core/kinematics/arm_path.h"
 #include "core/kinematics/arm_simulation.h"
 #include "core/kinematics/arm_solver.h"
+#include "core/kinematics/arm_zone.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
 
@@ -72,6 +73,7 @@ int forward(const ArmOptions& options) {
     const double measure =
         kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
     const int outside = arm.joint_outside(q);
+    const auto breaches = kinematics::zone_breaches(arm, q);
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["x"] = rounded(tip.x());
@@ -79,7 +81,7 @@ int forward(const ArmOptions& options) {
         answer["z"] = rounded(tip.z());
         answer["tool"] = {rounded(axis.x()), rounded(axis.y()), rounded(axis.z())};
         answer["manipulability"] = measure;
-        answer["inside_limits"] = outside < 0;
+        answer["inside_limits"] = outside < 0 && breaches.empty();
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nmanipulability {:.6f}\n",
@@ -94,6 +96,9 @@ int forward(const ArmOptions& options) {
     if (outside >= 0) {
         fmt::print(stderr, "millwright: joint {} is outside of its limits\n", arm.joint(outside).name);
     }
+    for (const kinematics::ZoneBreach& breach : breaches) {
+        fmt::print(stderr, "millwright: {}\n", breach.why);
+    }
     return 0;
 }
 
@@ -102,6 +107,17 @@ struct Solutions {
     std::string reason;
     double projected_deg = 0.0; ///< by how much the tool axis was turned
 };
+
+/// Without those that leave the arm's zone; the reason of the last if none is left.
+void keep_zone(const ArmModel& arm, Solutions& found) {
+    std::string why;
+    std::erase_if(found.joints, [&](const JointPositions& q) {
+        const auto breaches = kinematics::zone_breaches(arm, q);
+        why = breaches.empty() ? why : breaches.front().why;
+        return !breaches.empty();
+    });
+    found.reason = found.joints.empty() && !why.empty() ? why : found.reason;
+}
 
 /// Any roll will do; an arm with fewer joints than a frame has freedoms may need another one than ours.
 Solutions sought(const ArmModel& arm, const Frame& goal) {
@@ -112,6 +128,7 @@ Solutions sought(const ArmModel& arm, const Frame& goal) {
     if (found.joints.empty()) {
         found.reason = fmt::format("none was found from {} starting points", starting_points);
     }
+    keep_zone(arm, found);
     return found;
 }
 
@@ -132,6 +149,7 @@ Solutions solved(const ArmModel& arm, kinematics::PointedGoal goal, bool project
     auto answer = kinematics::arm_inverse(arm, goal, resting(arm));
     found.joints = std::move(answer.branches);
     found.reason = std::move(answer.why);
+    keep_zone(arm, found);
     return found;
 }
 
@@ -147,6 +165,18 @@ nlohmann::ordered_json shown(const ArmModel& arm, const std::vector<JointPositio
     return list;
 }
 
+/// Which of the solutions are at a place where the arm cannot move its tip in every direction.
+void say_what_is_singular(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
+    constexpr double singular = 1e-6;
+    for (std::size_t n = 0; n < solutions.size(); ++n) {
+        const double measure = kinematics::manipulability(kinematics::arm_jacobian(arm, solutions[n]),
+                                                          kinematics::stretched_length(arm));
+        if (measure < singular) {
+            fmt::print(stderr, "millwright: the arm is singular at solution {}\n", n + 1);
+        }
+    }
+}
+
 int inverse(const ArmOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const auto& v = options.numbers;
@@ -159,6 +189,7 @@ int inverse(const ArmOptions& options) {
     }
     const Solutions found = solved(arm, {tip, axis.normalized()}, options.project);
     const auto list = shown(arm, found.joints);
+    say_what_is_singular(arm, found.joints);
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["solutions"] = list;

@@ -1,9 +1,11 @@
 #include "app/commands/arm_motor.h"
 
+#include "app/arm_choice.h"
 #include "app/pmac_talk.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/service/direction_check.h"
 #include "core/machine/service/offset_finder.h"
 #include "core/machine/service/step_test.h"
@@ -14,6 +16,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,17 +28,19 @@ namespace {
 struct Options {
     int motor = 1;
     std::string port;
+    std::string arm = "motoman-l3";
     bool apply = false;
     std::optional<int> from;
     double most_way = machine::OffsetSearch().most_way;
     machine::StepTest step;
     machine::DirectionCheck direction;
+    bool power = false; ///< a person has looked: the motors may have power
     std::string out;
     std::string picture;
 };
 
 int offset(const Options& options) {
-    PmacTalk talk(options.port);
+    PmacTalk talk(options.port, options.arm);
     machine::OffsetSearch search;
     search.from = options.from;
     search.most_way = options.most_way;
@@ -87,8 +92,30 @@ std::string seconds(double time) {
     return time < 0.0 ? std::string("never") : fmt::format("{:.3f} s", time);
 }
 
+/// Throws Error for a step that the driver makes a ramp of.
+void expect_step(const Options& options) {
+    for (const machine::PmacAxis& axis : machine::five_axis_arm_settings().axes) {
+        const double degrees = std::abs(options.step.size) / axis.counts_per_degree;
+        if (axis.motor == options.motor && degrees > machine::pmac_step_deg) {
+            throw Error(
+                fmt::format("a step of {:.0f} counts is one of {:.1f} degrees, and beyond {} degrees a "
+                            "jog is slowed down",
+                            options.step.size,
+                            degrees,
+                            machine::pmac_step_deg),
+                {},
+                fmt::format("--size {:.0f} at most",
+                            std::floor(machine::pmac_step_deg * axis.counts_per_degree)));
+        }
+    }
+}
+
 int step(const Options& options) {
-    PmacTalk talk(options.port);
+    expect_step(options);
+    PmacTalk talk(options.port, options.arm);
+    if (options.power) {
+        talk.give_power();
+    }
     const machine::StepResponse response = machine::step_test(talk.card(), options.motor, options.step);
     fmt::print("motor {}: rise {}, overshoot {:.1f} %, settled {}, {:+.1f} counts at the end\n",
                options.motor,
@@ -111,7 +138,10 @@ int step(const Options& options) {
 }
 
 int direction(const Options& options) {
-    PmacTalk talk(options.port);
+    PmacTalk talk(options.port, options.arm);
+    if (options.power) {
+        talk.give_power();
+    }
     const machine::DirectionFound found =
         machine::direction_check(talk.card(), options.motor, options.direction);
     fmt::print("motor {}: {}{} of a jog were {:+.0f} counts, of a program {:+.0f}: {}\n",
@@ -134,7 +164,12 @@ CLI::App& add(CLI::App& group, const char* name, const char* text, const std::sh
     command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT of the PMAC")
         ->required()
         ->type_name("PORT");
+    add_arm_option(command, options->arm);
     return command;
+}
+
+void add_power(CLI::App& command, const std::shared_ptr<Options>& options) {
+    command.add_flag("--power", options->power, "The arm's motors may have power; somebody has looked");
 }
 
 } // namespace
@@ -155,17 +190,19 @@ void add_arm_motor_commands(CLI::App& group, Command& chosen) {
     way.add_option("--way", options->direction.way, "There and back, degrees")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();
+    add_power(way, options);
     way.callback([&chosen, options] { chosen = [options] { return direction(*options); }; });
     CLI::App& answer =
         add(group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
     answer.add_option("--size", options->step.size, "Counts, there and back")
-        ->check(CLI::Range(-1e6, 1e6))
+        ->check(CLI::Range(-1e4, 1e4))
         ->capture_default_str();
     answer.add_option("--seconds", options->step.duration, "That are watched")
         ->check(CLI::Range(0.05, 60.0))
         ->capture_default_str();
     answer.add_option("--out", options->out, "File for the readings: seconds,counts")->type_name("CSV");
     answer.add_option("--picture", options->picture, "File for a plot of them")->type_name("PNG");
+    add_power(answer, options);
     answer.callback([&chosen, options] { chosen = [options] { return step(*options); }; });
 }
 

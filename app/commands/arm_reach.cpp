@@ -124,8 +124,13 @@ std::optional<double> planned_time(const ArmModel& arm,
     return motion::plan(motion.program(), arm, settings, progress).duration();
 }
 
+/// Before the first move no line has moved anything.
+std::string line_of(int line) {
+    return line == 0 ? "where the program begins" : fmt::format("line {}", line);
+}
+
 std::string lines_of(const ArmHole& hole) {
-    return hole.first_line == hole.last_line ? fmt::format("line {}", hole.first_line)
+    return hole.first_line == hole.last_line ? line_of(hole.first_line)
                                              : fmt::format("lines {} to {}", hole.first_line, hole.last_line);
 }
 
@@ -160,7 +165,8 @@ void print_text(const Options& options,
                    arm.joint(joint).kind == kinematics::JointKind::revolute ? "deg" : "mm");
     }
     if (reach.lowest.size() > 0) {
-        fmt::print("least manipulability {:.6f}, line {}\n", reach.least_manipulability, reach.least_line);
+        fmt::print(
+            "least manipulability {:.6f}, {}\n", reach.least_manipulability, line_of(reach.least_line));
         fmt::print("tool axis turned by at most {:.3f} deg\n", to_degrees(reach.most_tilt));
     }
     if (planned) {
@@ -235,6 +241,7 @@ void add_arm_reach_command(CLI::App& group, Command& chosen) {
             "Where the part is in the arm's base: mm and degrees, turned about x, then y, then z of the base")
         ->delimiter(',')
         ->expected(6)
+        ->allow_extra_args(false)
         ->type_name("X,Y,Z,A,B,C")
         ->capture_default_str();
     command.add_option("--machine", options->machine, "Machine that a program with rotary axes is for")

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace millwright::app {
@@ -28,8 +29,9 @@ bool has_arcs(const cordic::Processor& processor) {
 }
 
 /// Set-points that are where the axes were already. Those of G-code are left out when it is compiled.
-std::optional<std::string> idle_remark(const cordic::Processor& processor,
-                                       const gcode::CordicProgram& program) {
+std::optional<Diagnostic> idle_remark(const cordic::Processor& processor,
+                                      const gcode::CordicProgram& program,
+                                      const std::string& file) {
     const auto& published = processor.published();
     const auto same_place = [](const cordic::Published& a, const cordic::Published& b) {
         constexpr std::size_t z = 6;
@@ -41,9 +43,10 @@ std::optional<std::string> idle_remark(const cordic::Processor& processor,
     }
     const cordic::CodeAddress address = std::next(first)->instruction_at;
     const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
-    const std::string place =
-        at.line > 0 ? fmt::format("line {}, column {}", at.line, at.column) : fmt::format("{:#06x}", address);
-    return fmt::format("motions lead to where the axes are already, the first one at {}", place);
+    constexpr std::string_view what = "the first motion that leads to where the axes are already";
+    return Diagnostic{{file, at.line, at.column, -1},
+                      at.line > 0 ? std::string(what) : fmt::format("{}, at {:#06x}", what, address),
+                      {}};
 }
 
 /// What is left to turn is 0 from the first step on, and the model leaves steps out, but not their gain.
@@ -82,25 +85,29 @@ std::string cause_of_speed_error(const cordic::Processor& processor,
 
 } // namespace
 
-std::vector<std::string> remarks_on(const cordic::Processor& processor,
-                                    const cordic::RunReport& report,
-                                    const gcode::CordicProgram& program,
-                                    const CordicChoice& choice) {
+std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
+                                   const cordic::RunReport& report,
+                                   const gcode::CordicProgram& program,
+                                   const CordicChoice& choice,
+                                   const std::string& file) {
     const bool of_gcode = !program.points.empty();
-    std::vector<std::string> remarks;
-    if (auto idle = idle_remark(processor, program)) {
+    std::vector<Diagnostic> remarks;
+    if (auto idle = idle_remark(processor, program, file)) {
         remarks.push_back(std::move(*idle));
     }
     if (of_gcode && choice.arithmetic.thesis_direction && has_arcs(processor)) {
-        remarks.emplace_back(
-            "arcs turn the other way, as in the thesis's model: they end beside where the program says, "
-            "and what follows leads straight back");
+        remarks.push_back(
+            {{file, 0, 0, -1},
+             "arcs turn the other way, as in the thesis's model: they end beside where the program says, "
+             "and what follows leads straight back",
+             {}});
     }
     if (of_gcode && report.speed_error > much) {
-        remarks.push_back(fmt::format("the speed is up to {:.0f} % beside the feed (line {}): {}",
-                                      100.0 * report.speed_error,
-                                      program.points[report.speed_error_at].line,
-                                      cause_of_speed_error(processor, report, program.points)));
+        remarks.push_back({{file, program.points[report.speed_error_at].line, 0, -1},
+                           fmt::format("the speed is up to {:.0f} % beside the feed: {}",
+                                       100.0 * report.speed_error,
+                                       cause_of_speed_error(processor, report, program.points)),
+                           {}});
     }
     return remarks;
 }

@@ -10,10 +10,11 @@
 
 namespace millwright::app {
 
-/// Sentences; none if all is as promised.
-[[nodiscard]] std::vector<std::string> remarks_on(const cordic::Processor& processor,
-                                                  const cordic::RunReport& report,
-                                                  const gcode::CordicProgram& program,
-                                                  const CordicChoice& choice);
+/// With the place in `file`, as far as they have one; none if all is as promised.
+[[nodiscard]] std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
+                                                 const cordic::RunReport& report,
+                                                 const gcode::CordicProgram& program,
+                                                 const CordicChoice& choice,
+                                                 const std::string& file);
 
 } // namespace millwright::app

@@ -106,12 +106,26 @@ nlohmann::ordered_json json_of(const cordic::ClockCounts& clocks) {
             {"control", clocks.control()}};
 }
 
+nlohmann::ordered_json number_or_null(int one_based) {
+    return one_based > 0 ? nlohmann::ordered_json(one_based) : nullptr;
+}
+
+nlohmann::ordered_json json_of_warning(const Diagnostic& warning) {
+    const std::string message =
+        warning.hint.empty() ? warning.message : fmt::format("{} ({})", warning.message, warning.hint);
+    return {{"line", number_or_null(warning.place.line)},
+            {"column", number_or_null(warning.place.column)},
+            {"message", message}};
+}
+
 void print_json(JsonMembers& answer,
                 const cordic::Processor& processor,
                 const gcode::CordicProgram& program,
                 const cordic::RunReport& report,
+                const std::optional<cordic::SupervisedRun>& supervised,
                 bool has_exact) {
-    answer.add("stop", cordic::to_text(report.stop));
+    const bool by_logic = supervised && supervised->end == cordic::SupervisedEnd::stopped;
+    answer.add("stop", by_logic ? cordic::to_text(supervised->end) : cordic::to_text(report.stop));
     answer.add("format", cordic::to_text(processor.format()));
     answer.add("clocks", json_of(report.clocks));
     answer.add("seconds", report.seconds);
@@ -187,15 +201,18 @@ execute(cordic::Processor& processor, const gcode::CordicProgram& program, const
     return std::nullopt;
 }
 
-/// Stopped by the logic is what the logic is for.
+/// Throws Error, with the reason, where it was not the processor that did not come there.
 bool is_at_an_end(const cordic::Processor& processor,
                   const std::optional<cordic::SupervisedRun>& supervised) {
     using cordic::SupervisedEnd;
     if (supervised && supervised->end == SupervisedEnd::out_of_time) {
         throw Error("the machine is not at the end of the program when its time is over", {}, "--time");
     }
-    return processor.state().stop == cordic::Stop::halted ||
-           (supervised && supervised->end == SupervisedEnd::stopped);
+    if (supervised && supervised->end == SupervisedEnd::stopped) {
+        throw Error(
+            "the logic stopped the machine before the end of the program", {}, "as an emergency stop does");
+    }
+    return processor.state().stop == cordic::Stop::halted;
 }
 
 int run(const Options& options) {
@@ -215,17 +232,21 @@ int run(const Options& options) {
     const auto motion = report.stop == cordic::Stop::halted
                             ? move_along(processor, program, options.motion, most, options.source.file)
                             : std::nullopt;
-    auto remarks = remarks_on(processor, report, program, options.choice);
+    auto remarks = remarks_on(processor, report, program, options.choice, options.source.file);
     if (motion) {
-        remarks.insert(remarks.end(), motion->remarks.begin(), motion->remarks.end());
+        for (const std::string& remark : motion->remarks) {
+            remarks.push_back({{options.source.file, 0, 0, -1}, remark, {}});
+        }
     }
-    for (const std::string& remark : remarks) {
-        fmt::print(stderr, "warning: {}: {}\n", options.source.file, remark);
+    for (const Diagnostic& remark : remarks) {
+        fmt::print(stderr, "warning: {}\n", to_text(remark));
     }
     if (options.json) {
         JsonMembers answer(stdout);
-        print_json(answer, processor, program, report, has_exact);
-        answer.add("warnings", remarks);
+        print_json(answer, processor, program, report, supervised, has_exact);
+        std::vector<Diagnostic> warnings = program.warnings;
+        warnings.insert(warnings.end(), remarks.begin(), remarks.end());
+        answer.add_each("warnings", warnings, json_of_warning);
         if (motion) {
             answer.add("motion", json_of(*motion));
         }

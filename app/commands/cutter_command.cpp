@@ -36,7 +36,7 @@ struct Options {
 };
 
 void print_summary(const project::Plan& plan, const project::Project& project) {
-    const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    const project::Evaluation& chosen = *plan.program_path(project);
     const project::CutStudy& study = *plan.cut;
     fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
                fixed(chosen.closest.max, 4),
@@ -46,8 +46,9 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                fixed(study.scallops.max, 4),
                fixed(study.scallops.mean, 4),
                fixed(100.0 * study.scallops.not_cut, 2));
-    fmt::print("tracks: at most {} mm apart; a scallop of {} mm asks for {}\n",
-               fixed(chosen.track_gap, 3),
+    fmt::print("tracks: {}; a scallop of {} mm asks for {}\n",
+               chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"
+                                : "as far apart as the scallop allows",
                project.tool.scallop_mm,
                std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
     fmt::print("deepest cut below the surface: {} mm; estimated time {}\n",

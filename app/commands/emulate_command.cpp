@@ -15,7 +15,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,7 @@ namespace {
 struct Options {
     EmulationChoice wire;
     std::string eeprom;
+    std::optional<double> surface; ///< height of what a probe touches, mm
     std::string machine = "router-xyz";
     bool line_numbers = false;
     bool echo = false;
@@ -35,12 +38,17 @@ struct Options {
 };
 
 int emulate_grbl(const Options& options) {
+    std::function<double(double, double)> surface;
+    if (options.surface) {
+        surface = [z = *options.surface](double, double) { return z; };
+    }
     return serve(options.wire, "Grbl 1.1h", [&] {
         return std::make_unique<machine::GrblEmulator>(
             machine::GrblEmulatorOptions{.eeprom_file = options.eeprom,
                                          .line_numbers = options.line_numbers,
                                          .echo = options.echo,
-                                         .keep_truth = false});
+                                         .keep_truth = false,
+                                         .surface = surface});
     });
 }
 
@@ -108,6 +116,8 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
     grbl.add_option("--eeprom", options->eeprom, "File that keeps settings and offsets")->type_name("FILE");
     grbl.add_flag("--line-numbers", options->line_numbers, "Report the number of the line in motion");
     grbl.add_flag("--echo", options->echo, "Repeat each line as it was read");
+    grbl.add_option("--surface", options->surface, "A probe touches at this height, machine coordinates, mm")
+        ->type_name("Z");
     grbl.callback([&chosen, options] { chosen = [options] { return emulate_grbl(*options); }; });
     CLI::App& linuxcnc = add_emulated(group, "linuxcnc", "LinuxCNC behind its linuxcncrsh", options);
     linuxcnc.add_option("--machine", options->machine, "Shipped machine or machine file")

@@ -28,12 +28,17 @@ struct TableChoice {
     machine::TableOptions table;
 };
 
-void tell_records(const machine::TableEmulator& table, const kinematics::MachineModel& model) {
+void tell_records(const machine::TableEmulator& table,
+                  const kinematics::MachineModel& model,
+                  const std::string& pattern) {
     fmt::print("{} records obeyed, {} lines that were none, at", table.records(), table.bad_lines());
     for (int n = 0; n < model.axis_count(); ++n) {
         fmt::print(" {} {:.4f}", model.axis(n).letter, table.position()[static_cast<std::size_t>(n)]);
     }
     fmt::print("\n");
+    if (table.bad_lines() > 0) {
+        fmt::print("a record of this table is \"{}\"\n", pattern);
+    }
 }
 
 int emulate_table(const TableChoice& choice) {
@@ -49,7 +54,7 @@ int emulate_table(const TableChoice& choice) {
         model.name(),
         [&] { return std::make_unique<machine::TableEmulator>(format, model, choice.table); },
         [&](const machine::Emulator& served) {
-            tell_records(static_cast<const machine::TableEmulator&>(served), model);
+            tell_records(static_cast<const machine::TableEmulator&>(served), model, format.pattern);
         });
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/commands/gcode_options.h"
 #include "app/commands/gcode_pulses.h"
+#include "app/origin_choice.h"
 #include "app/posting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -317,6 +318,7 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
     CLI::App& converting = add_reader_options(
         group, "convert", "Write it for another control; read back before it is released", options);
     converting.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    add_origin_option(converting, options->origin);
     converting.add_option("--out", options->out, "File; without it standard output")->type_name("FILE");
     constexpr double shortest_chord = 1e-3;
     constexpr double longest_chord = 1e3;

@@ -1,5 +1,8 @@
 #include "app/commands/gcode_options.h"
 
+#include "app/origin_choice.h"
+#include "core/gcode/reader/work_origin.h"
+
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
@@ -20,6 +23,7 @@ gcode::ReaderSettings reader_settings(const GcodeOptions& options) {
         settings.tools = gcode::read_tool_table(options.tools);
     }
     settings.any_tool = options.tools.empty();
+    gcode::put_origin(settings, origin_from(options.origin));
     return settings;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -21,6 +22,7 @@ struct GcodeOptions {
     std::string dialect = "linuxcnc";
     std::string tools;
     std::string machine;
+    std::vector<double> origin;               ///< where the program's zero lies on it: X, Y and perhaps Z, mm
     double path_tolerance = 0.0;              ///< mm; 0: exact path
     std::optional<double> junction_deviation; ///< mm; 0: corners by small steps
     std::optional<int> look_ahead;            ///< moves; 0: all

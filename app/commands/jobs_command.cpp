@@ -68,7 +68,7 @@ void say_how_it_goes_on(const machine::JobStory& story) {
     if (from_here) {
         fmt::print("    with the place of X, Y and Z where the table stands: it does not tell it.\n");
     }
-    if (from_line && !story.position_doubt.empty()) {
+    if (from_line && !from_here && !story.position_doubt.empty()) {
         fmt::print(
             "    --trust-position belongs to it if you have brought the machine to where its controller "
             "says.\n");

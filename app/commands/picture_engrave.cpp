@@ -13,6 +13,8 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -44,14 +46,39 @@ plot::CutPath dither_path(const Options& options, const SizedPicture& sized) {
     return plot::cut_path(dots, settings);
 }
 
+/// The darkness, above 0 to 1, from which on all its holes are as wide as the tip.
+double darkest_hole(const plot::HalftoneSettings& settings) {
+    const double widest = plot::radius(settings.tip) / settings.pitch;
+    return std::min(1.0, pi * widest * widest);
+}
+
+/// What is darker than the tool can show is engraved, but all alike.
+void tell_saturation(const plot::CutPath& path, const plot::HalftoneSettings& settings) {
+    const double darkest = darkest_hole(settings);
+    const double deepest = -plot::rise(settings.tip, plot::radius(settings.tip));
+    const bool reached =
+        std::ranges::any_of(path, [&](const plot::CutPoint& point) { return point.at.z() <= deepest; });
+    if (darkest < 1.0 && reached) {
+        fmt::print(
+            stderr,
+            "note: the holes of {} are at most {:.3g} mm wide: what is darker than {:.0f} % looks alike; "
+            "a wider tool or a --pitch of {:.3g} mm shows all\n",
+            plot::to_text(settings.tip),
+            2.0 * plot::radius(settings.tip),
+            100.0 * darkest,
+            std::floor(1000.0 * plot::radius(settings.tip) * std::sqrt(pi)) / 1000.0);
+    }
+}
+
 plot::CutPath halftone_path(const Options& options, const SizedPicture& sized, const plot::ToolTip& tip) {
-    return plot::halftone(sized.picture,
-                          sized.pitch,
-                          {.pitch = options.pitch,
-                           .angle = from_degrees(options.angle_deg),
-                           .tip = tip,
-                           .plunging = from_mm_per_min(options.cutting.plunge_mm_per_min),
-                           .safe_height = options.cutting.safe_height});
+    const plot::HalftoneSettings settings{.pitch = options.pitch,
+                                          .angle = from_degrees(options.angle_deg),
+                                          .tip = tip,
+                                          .plunging = from_mm_per_min(options.cutting.plunge_mm_per_min),
+                                          .safe_height = options.cutting.safe_height};
+    plot::CutPath path = plot::halftone(sized.picture, sized.pitch, settings);
+    tell_saturation(path, settings);
+    return path;
 }
 
 int engrave(const Options& options) {

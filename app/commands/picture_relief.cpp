@@ -58,9 +58,12 @@ int relief(const Options& options) {
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.2));
     const plot::HeightField field = plot::height_field(sized.picture, sized.pitch, options.depth);
-    const plot::CutPath path =
-        plot::relief_path(field, plan_of(options, tip), work.progress().part(0.2, 0.5));
+    const plot::ReliefPlan plan = plan_of(options, tip);
+    const plot::CutPath path = plot::relief_path(field, plan, work.progress().part(0.2, 0.5));
     work.finish();
+    if (const auto notice = plot::frame_notice(plan)) {
+        fmt::print(stderr, "millwright: {}\n", to_text(*notice));
+    }
     write_program(path,
                   options.cutting,
                   tip,

@@ -9,6 +9,7 @@
 #include "core/project/cut_study.h"
 #include "core/project/report.h"
 #include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
@@ -18,6 +19,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <optional>
@@ -38,6 +40,7 @@ struct Options {
     PostChoice post;
     std::string sequencing; ///< empty: as the project says
     std::optional<double> largest_step_deg;
+    bool any_memory = false;
 };
 
 void print_figures(std::string_view name, const project::Evaluation& evaluation) {
@@ -47,7 +50,21 @@ void print_figures(std::string_view name, const project::Evaluation& evaluation)
                fixed(evaluation.closest.mean, 4),
                fixed(evaluation.closest.lmean, 4),
                fixed(to_degrees(evaluation.closest.axis_max), 2),
-               fixed(evaluation.track_gap, 3));
+               evaluation.track_gap ? fixed(*evaluation.track_gap, 3) : "-");
+}
+
+/// What is wrong with a grid, also where it is only compared with the program's.
+void print_warnings(const project::Plan& plan) {
+    for (const project::GridMethod method : project::every_grid_method) {
+        const std::string_view id = project::row_of(project::grid_methods(), method).id;
+        if (const auto& failure = plan.failure(method)) {
+            fmt::print(stderr, "warning: no {} grid to compare with: {}\n", id, to_text(*failure));
+        }
+        const auto& evaluation = plan.evaluation(method);
+        if (evaluation && !evaluation->outcome.warning.empty()) {
+            fmt::print(stderr, "warning: {} grid: {}\n", id, evaluation->outcome.warning);
+        }
+    }
 }
 
 void print_summary(const project::Plan& plan, const project::Project& project) {
@@ -59,11 +76,20 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                "axis deg",
                "gap mm");
     for (const project::GridMethod method : project::every_grid_method) {
+        const std::string_view id = project::row_of(project::grid_methods(), method).id;
         if (const auto& evaluation = plan.evaluation(method)) {
-            print_figures(project::row_of(project::grid_methods(), method).id, *evaluation);
+            print_figures(id, *evaluation);
+        } else if (plan.failure(method)) {
+            fmt::print("{:<10} failed\n", id);
         }
     }
-    const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    if (project::has_own_path(project)) {
+        print_figures("path", *plan.path);
+    }
+    const project::Evaluation& chosen = *plan.program_path(project);
+    if (project.toolpath.strategy != project::StrategyInput::zigzag) {
+        fmt::print("strategy: {}\n", project::strategy_text(project));
+    }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("{} points, path {} mm, estimated time {}\n",
                chosen.toolpath.points.size(),
@@ -83,6 +109,7 @@ project::Project changed(project::Project project, const Options& options) {
     }
     project.sequencing.largest_step_deg =
         options.largest_step_deg.value_or(project.sequencing.largest_step_deg);
+    project.grid.elliptic.any_memory = project.grid.elliptic.any_memory || options.any_memory;
     return project;
 }
 
@@ -106,11 +133,14 @@ void print_sequencing(const project::Plan& plan,
     if (project.sequencing == project::SequencingInput{} || workpiece.machine.rotary_axes().empty()) {
         return;
     }
-    const project::Evaluation& chosen = *plan.evaluation(project.grid.method);
+    const project::Evaluation& chosen = *plan.program_path(project);
     project::Workpiece plain = workpiece;
     plain.sequencing = {};
-    const project::Evaluation before =
-        project::evaluate(plain, chosen.outcome, project::report_samples, Progress({}, stop));
+    const project::Evaluation before = project::evaluate(plain,
+                                                         chosen.outcome,
+                                                         project::strategy_settings(project),
+                                                         project::report_samples,
+                                                         Progress({}, stop));
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
                "sequence",
                "points",
@@ -127,12 +157,16 @@ void print_cut(const project::CutStudy& cut) {
                fixed(cut.scallops.max, 4),
                fixed(cut.scallops.mean, 4),
                fixed(cut.deepest, 4));
-    if (!cut.bites.empty() || !cut.local_gouges.empty()) {
-        fmt::print(stderr,
-                   "warning: {} blocks bring the tool into the part, and it does not fit at {} nodes; "
-                   "`millwright cutter` names them\n",
-                   cut.bites.size(),
-                   cut.local_gouges.size());
+    std::vector<std::string> found;
+    if (!cut.bites.empty()) {
+        found.push_back(fmt::format("{} blocks bring the tool into the part", cut.bites.size()));
+    }
+    if (!cut.local_gouges.empty()) {
+        found.push_back(
+            fmt::format("the surface is bent more than the tool at {} nodes", cut.local_gouges.size()));
+    }
+    if (!found.empty()) {
+        fmt::print(stderr, "warning: {}; `millwright cutter` names them\n", fmt::join(found, ", and "));
     }
 }
 
@@ -153,6 +187,7 @@ int plan(const Options& options) {
                    {"preview.png", render::to_png(preview)}},
                   opened.file);
     print_notes(text);
+    print_warnings(plan);
     print_summary(plan, opened.project);
     print_sequencing(plan, opened.project, interrupt.token());
     if (plan.cut) {
@@ -184,6 +219,9 @@ void add_plan_command(CLI::App& app, Command& chosen) {
                     options->largest_step_deg,
                     "Add points where a rotary axis turns by more degrees in a move; 0 adds none")
         ->check(CLI::Range(0.0, 180.0));
+    command.add_flag("--any-memory",
+                     options->any_memory,
+                     "Make an elliptic grid even where it takes more than half of the memory that is free");
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }

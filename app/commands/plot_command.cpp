@@ -2,6 +2,7 @@
 
 #include "app/commands/plot_play.h"
 #include "app/finite_number.h"
+#include "app/names.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -251,14 +252,16 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
     command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm")
         ->check(above_zero());
     command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
-        ->transform(CLI::CheckedTransformer(by_id(project::fill_modes())))
+        ->transform(one_of(by_id(project::fill_modes())))
+        ->type_name(listed(by_id(project::fill_modes())))
         ->default_str("hatched");
     command.add_flag("--solid", options->solid, "Dashed lines are drawn solid");
     command
         .add_option("--line-ends",
                     options->reading.line_ends,
                     "In numbers: automatic, join (listings wrapped anywhere) or separate")
-        ->transform(CLI::CheckedTransformer(by_id(project::line_ends())))
+        ->transform(one_of(by_id(project::line_ends())))
+        ->type_name(listed(by_id(project::line_ends())))
         ->default_str("automatic");
     command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
     return command;
@@ -274,10 +277,12 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     command.add_option("--period", decoding.period, "Between two points, s")->check(above_zero())->required();
     command.add_option("--out", options->out, "Point file")->required();
     command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
-        ->transform(CLI::CheckedTransformer(modes))
+        ->transform(one_of(modes))
+        ->type_name(listed(modes))
         ->default_str("segments");
     command.add_option("--rounding", decoding.rounding, "Of the number of steps of a segment")
-        ->transform(CLI::CheckedTransformer(roundings))
+        ->transform(one_of(roundings))
+        ->type_name(listed(roundings))
         ->default_str("nearest");
     command.add_option("--fastest", options->fastest, "What no rounding exceeds, mm/s")->check(above_zero());
     command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s")

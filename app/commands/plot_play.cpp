@@ -36,7 +36,7 @@ struct Options {
     std::string port; ///< empty: nothing is sent
     std::string machine = "forming-table";
     machine::PlayerOptions player;
-    RecordChoice record = {.pattern = machine::PlayerOptions().format.pattern, .format = {}};
+    RecordChoice record = {.pattern = machine::RecordFormat().pattern, .format = {}};
     bool json = false;
 };
 
@@ -76,6 +76,7 @@ void print_json(const PlayStatus& status) {
     const nlohmann::ordered_json answer = {
         {"done", status.state == PlayState::done},
         {"points", status.points},
+        {"sent", status.sent},
         {"time_s", status.time},
         {"position_mm", {status.position.x(), status.position.y(), status.position.z()}},
         {"late_s",
@@ -127,8 +128,14 @@ int play(const Options& options) {
                    end.position.z());
         print_jitter(end.jitter);
     }
+    if (!options.port.empty() && player.format.answer.empty()) {
+        fmt::print(stderr,
+                   "millwright: no answer was asked for (--answer), so nobody knows whether the table takes "
+                   "records as \"{}\"\n",
+                   player.format.pattern);
+    }
     if (end.state != PlayState::done) {
-        throw Error(fmt::format("{}: nothing was sent after point {}", end.sentence, end.points));
+        throw Error(fmt::format("{}: nothing was sent after point {}", end.sentence, end.sent));
     }
     return 0;
 }

@@ -1,5 +1,6 @@
 #include "app/commands/pmac_command.h"
 
+#include "app/arm_choice.h"
 #include "app/interrupt.h"
 #include "app/pmac_talk.h"
 #include "core/base/error.h"
@@ -25,53 +26,95 @@ struct Options {
     std::vector<std::string> commands;
     std::string port;
     std::string file;
+    std::string arm = "motoman-l3";
 };
 
-/// What the card said. A refusal is an Error unless the rest was to be sent all the same.
-bool wait_and_show(machine::PmacDriver& driver, int number, const Interrupt& interrupt) {
-    machine::SteadyClock clock;
-    constexpr double glance = 0.005;
-    machine::DriverStatus now = driver.status();
-    while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
-        if (interrupt.token().stop_requested()) {
-            driver.emergency_stop();
-        }
-        clock.wait(glance);
-        now = driver.status();
-    }
-    const bool done = now.answer.state == machine::CommandAnswer::State::done;
-    if (!now.answer.text.empty()) {
-        fmt::print(done ? stdout : stderr, "{}\n", now.answer.text);
-    }
-    return done;
-}
+class Conversation {
+public:
+    Conversation(const std::string& port, const std::string& arm)
+        : driver_(connected_pmac(port, arm, clock_)) {}
 
-bool load(const Options& options, machine::PmacDriver& driver, const Interrupt& interrupt) {
-    const machine::PmacFile file = machine::read_pmac_file(read_file(options.file), options.file);
-    for (const Diagnostic& warning : file.warnings) {
-        fmt::print(stderr, "warning: {}\n", to_text(warning));
+    /// Whether the card took all of it.
+    bool load(const std::string& path) {
+        const machine::PmacFile file = machine::read_pmac_file(read_file(path), path);
+        for (const auto& found : {file.omissions, file.warnings}) {
+            for (const Diagnostic& warning : found) {
+                fmt::print(stderr, "warning: {}\n", to_text(warning));
+            }
+        }
+        std::vector<std::string> lines;
+        for (const machine::PmacFile::Line& line : file.lines) {
+            lines.push_back(line.text);
+        }
+        if (lines.empty()) {
+            throw Error("there is no command in it", path);
+        }
+        const bool done = answered(driver_->load(lines));
+        wait_for_rest();
+        return done && file.left_out == 0;
     }
-    std::vector<std::string> lines;
-    for (const machine::PmacFile::Line& line : file.lines) {
-        lines.push_back(line.text);
+
+    bool say(const std::string& command) {
+        const bool done = answered(driver_->command(command));
+        wait_for_rest();
+        return done;
     }
-    if (lines.empty()) {
-        throw Error("there is no command in it", options.file);
+
+private:
+    /// What the card said. A refusal is an Error unless the rest was to be sent all the same.
+    bool answered(int number) {
+        constexpr double glance = 0.005;
+        machine::DriverStatus now = driver_->status();
+        while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
+            if (interrupt_.token().stop_requested()) {
+                driver_->emergency_stop();
+            }
+            clock_.wait(glance);
+            now = driver_->status();
+        }
+        const bool done = now.answer.state == machine::CommandAnswer::State::done;
+        if (!now.answer.text.empty()) {
+            fmt::print(done ? stdout : stderr, "{}\n", now.answer.text);
+        }
+        return done;
     }
-    return wait_and_show(driver, driver.load(lines), interrupt);
-}
+
+    /// What the command set going goes to its end, or until Ctrl+C.
+    void wait_for_rest() {
+        constexpr double glance = 0.005, patience = 0.5; // s
+        double waited = 0.0;
+        while (driver_->status().activity == machine::Activity::command) {
+            if (interrupt_.token().stop_requested()) {
+                driver_->stop();
+                throw Cancelled();
+            }
+            clock_.wait(glance);
+            waited += glance;
+            if (waited >= patience && waited < patience + glance) {
+                fmt::print(stderr, "motors move; Ctrl+C stops them\n");
+            }
+        }
+        if (const machine::DriverStatus now = driver_->status();
+            now.state == machine::DriverState::alarm ||
+            (now.state == machine::DriverState::stopped && !now.message.empty())) {
+            throw Error(now.message);
+        }
+    }
+
+    Interrupt interrupt_;
+    machine::SteadyClock clock_;
+    std::unique_ptr<machine::PmacDriver> driver_;
+};
 
 int talk(const Options& options) {
     if (options.commands.empty() && options.file.empty()) {
         throw Error("there is nothing to send", {}, "a command as '#1P', or --load FILE");
     }
-    const Interrupt interrupt;
-    machine::SteadyClock clock;
-    machine::PmacDriver driver(machine::make_link(options.port), clock, patient_settings());
-    driver.connect();
-    bool done = options.file.empty() || load(options, driver, interrupt);
+    Conversation card(options.port, options.arm);
+    // A card that is set up by half is told nothing more.
+    bool done = options.file.empty() || card.load(options.file);
     for (const std::string& command : options.commands) {
-        done = done && wait_and_show(driver, driver.command(command), interrupt);
+        done = done && card.say(command);
     }
     return done ? 0 : 1;
 }
@@ -87,6 +130,7 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
         ->type_name("PORT");
     command.add_option("--load", options->file, "File of commands to send before, as pmac.ini")
         ->type_name("FILE");
+    add_arm_option(command, options->arm);
     command.callback([&chosen, options] { chosen = [options] { return talk(*options); }; });
 }
 

@@ -2,6 +2,8 @@
 
 #include "app/interrupt.h"
 #include "core/base/error.h"
+#include "core/kinematics/machine_solids.h"
+#include "core/project/assets.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/picture.h"
 
@@ -58,6 +60,12 @@ std::vector<std::string> view_names() {
     return names;
 }
 
+/// The bodies of its file, as in the window.
+viewport::MachineSolids solids_of(const OpenedProject& opened, const project::Plan& plan) {
+    const auto file = project::machine_path(opened.project, opened.folders.project, opened.folders.assets);
+    return kinematics::read_machine_solids(file, plan.workpiece->machine);
+}
+
 int render_project(const Options& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
@@ -66,7 +74,8 @@ int render_project(const Options& options) {
                                                           plan,
                                                           *viewport::view_kind(options.view),
                                                           *size_from(options.size),
-                                                          render::Theme::dark);
+                                                          render::Theme::dark,
+                                                          solids_of(opened, plan));
     render::write_png(picture, options.out);
     fmt::print("{}\n", options.out);
     return 0;

@@ -1,7 +1,9 @@
 #include "app/commands/send_command.h"
 
+#include "app/arm_choice.h"
 #include "app/controller.h"
 #include "app/interrupt.h"
+#include "app/origin_choice.h"
 #include "app/planned_machine.h"
 #include "app/series.h"
 #include "core/base/error.h"
@@ -34,6 +36,7 @@ struct Options {
     PlannedMachineChoice machine; ///< its controller also for grbl and linuxcnc
     std::string model;            ///< of a machine that is moved position by position
     std::vector<double> at;       ///< where it stands: X, Y, Z; empty: at the program's start
+    std::vector<double> origin;   ///< where the files' zero lies on it: X, Y and perhaps Z
     std::optional<double> clearance;
 };
 
@@ -49,6 +52,11 @@ void check_model(const Options& options) {
     }
     if (!moved && (!options.model.empty() || !options.at.empty())) {
         throw Error("a machine and where it stands are for the drivers virtual, cordic, stream and records");
+    }
+    if (!options.origin.empty() && (!moved || options.machine.driver == "cordic")) {
+        throw Error("an origin is for the drivers virtual, stream and records",
+                    {},
+                    "other controllers have work offsets of their own, as G54");
     }
 }
 
@@ -145,7 +153,10 @@ int send_motion(const Options& options) {
             throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
         }
         machine::Job job = ready(
-            machine::file_job(file, model, {.start = place_of(*model, options.at)}), options, from_line);
+            machine::file_job(
+                file, model, {.start = place_of(*model, options.at), .origin = origin_from(options.origin)}),
+            options,
+            from_line);
         if (const auto faults = machine::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }
@@ -191,11 +202,16 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false);
+    add_origin_option(command, options->origin);
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
-    command.add_option("--axes", options->machine.controller.axes, "Axes of the machine, for linuxcnc")
+    command
+        .add_option("--axes",
+                    options->machine.controller.axes,
+                    "Axes of the machine, for linuxcnc; XYZAB for a pmac with axis 5")
         ->type_name("LETTERS")
         ->capture_default_str();
+    add_arm_option(command, options->machine.controller.arm);
     add_clearance_option(command, options->clearance);
     command.callback([&chosen, &command, options] {
         options->series.options = options_to_go_on(command);

@@ -5,6 +5,7 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
+#include "app/spread_study.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -62,21 +63,23 @@ std::vector<StudyCase> cases_of(const Options& options) {
     return cases;
 }
 
-viewport::Chart chart_of(std::span<const StudyRow> rows, bool largest) {
-    const StudyCase& first = rows.front().of;
-    viewport::Chart chart{
-        fmt::format("{} on {}: {} error", first.surface, first.machine, largest ? "largest" : "mean"),
-        "points a track",
-        "error",
-        "mm",
-        true,
-        {}};
+double figure_of(const StudyRow& row, bool largest) {
+    return largest ? row.figures->error.max : row.figures->error.mean;
+}
+
+std::string title_of(const StudyCase& of, bool largest) {
+    return fmt::format("{} on {}: {} error", of.surface, of.machine, largest ? "largest" : "mean");
+}
+
+/// A curve a method over the numbers of points.
+viewport::Chart curves_of(std::span<const StudyRow> rows, bool largest) {
+    viewport::Chart chart{title_of(rows.front().of, largest), "points a track", "error", "mm", true, {}};
     for (const project::StudyMethod method : project::every_study_method) {
         viewport::ChartLine line{std::string(project::label(method)), {}, {}};
         for (const StudyRow& row : rows) {
             if (row.method == method && row.figures) {
                 line.x.push_back(row.of.points);
-                line.y.push_back(largest ? row.figures->error.max : row.figures->error.mean);
+                line.y.push_back(figure_of(row, largest));
             }
         }
         chart.lines.push_back(std::move(line));
@@ -84,9 +87,34 @@ viewport::Chart chart_of(std::span<const StudyRow> rows, bool largest) {
     return chart;
 }
 
-/// One picture a surface and machine, where there is a line to draw.
+/// A bar a method, for one number of points.
+viewport::Chart bars_of(std::span<const StudyRow> rows, bool largest) {
+    constexpr double half_width = 0.4;
+    viewport::Chart chart{fmt::format("{}, {} points on {} tracks, method by method",
+                                      title_of(rows.front().of, largest),
+                                      rows.front().of.points,
+                                      rows.front().of.tracks),
+                          "",
+                          "error",
+                          "mm",
+                          false,
+                          {}};
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        viewport::ChartLine bar{std::string(project::label(rows[n].method)), {}, {}, true};
+        if (rows[n].figures) {
+            const double x = static_cast<double>(n) + 1.0;
+            const double y = figure_of(rows[n], largest);
+            bar.x = {x - half_width, x + half_width};
+            bar.y = {y, y};
+        }
+        chart.lines.push_back(std::move(bar));
+    }
+    return chart;
+}
+
+/// One picture a surface and machine.
 std::vector<OutputFile> pictures_of(const std::vector<StudyRow>& rows) {
-    constexpr render::PixelSize size{900, 800};
+    constexpr render::PixelSize size{1100, 800};
     std::vector<OutputFile> files;
     for (std::size_t from = 0; from < rows.size();) {
         std::size_t to = from;
@@ -95,12 +123,10 @@ std::vector<OutputFile> pictures_of(const std::vector<StudyRow>& rows) {
             ++to;
         }
         const auto of = std::span(rows).subspan(from, to - from);
-        if (of.size() > project::every_study_method.size()) {
-            const render::Picture picture = viewport::chart_picture(
-                {chart_of(of, true), chart_of(of, false)}, size, render::Theme::light);
-            files.push_back(
-                {fmt::format("{}-{}.png", of.front().of.surface, of.front().of.machine), to_png(picture)});
-        }
+        const auto chart = of.size() > project::every_study_method.size() ? curves_of : bars_of;
+        files.push_back({fmt::format("{}-{}.png", of.front().of.surface, of.front().of.machine),
+                         to_png(viewport::chart_picture(
+                             {chart(of, true), chart(of, false)}, size, render::Theme::light))});
         from = to;
     }
     return files;
@@ -137,13 +163,7 @@ void write(const std::string& folder, const std::vector<StudyRow>& rows) {
     write_outputs(folder, files);
 }
 
-int kinematic_error(const Options& options) {
-    const Interrupt interrupt;
-    const std::vector<StudyCase> cases = cases_of(options);
-    make_folder(options.out);
-    const project::Folders folders{{}, project::assets_folder()};
-    ProgressPrinter printer;
-    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+void print_head() {
     fmt::print("{:<9} {:<20} {:>3} {:<15} {:>9} {:>9} {:>8} {:>8}\n",
                "surface",
                "machine",
@@ -153,28 +173,55 @@ int kinematic_error(const Options& options) {
                "mean mm",
                "axis deg",
                "gap mm");
-    std::vector<StudyRow> rows;
-    const auto count = static_cast<double>(cases.size());
-    try {
-        for (std::size_t n = 0; n < cases.size(); ++n) {
-            const double done = static_cast<double>(n);
-            const auto found =
-                project::studied(cases[n], folders, progress.part(done / count, (done + 1.0) / count));
-            printer.finish();
-            std::ranges::for_each(found, print);
-            rows.insert(rows.end(), found.begin(), found.end());
-        }
-    } catch (const Cancelled&) {
+}
+
+/// Rank 0 of one or several. What came is written, whatever is missing.
+int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
+    const std::vector<StudyCase> cases = cases_of(options);
+    make_folder(options.out);
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    print_head();
+    const auto show = [&](std::span<const StudyRow> found) {
         printer.finish();
-        write(options.out, rows);
-        fmt::print(stderr,
-                   "stopped after {} of {} cases, which are written\n",
-                   rows.size() / project::every_study_method.size(),
-                   cases.size());
-        throw;
+        std::ranges::for_each(found, print);
+    };
+    const SpreadStudy found = gather_study(ranks, cases, study, show, progress);
+    printer.finish();
+    std::vector<StudyRow> rows;
+    std::size_t done = 0;
+    for (const std::vector<StudyRow>& of_case : found.rows) {
+        rows.insert(rows.end(), of_case.begin(), of_case.end());
+        done += of_case.empty() ? 0 : 1;
     }
     write(options.out, rows);
+    if (ranks.size() > 1) {
+        for (const std::string& sentence : found.lost) {
+            fmt::print(stderr, "{}\n", sentence);
+        }
+    }
+    if (found.stopped) {
+        fmt::print(stderr, "stopped after {} of {} cases, which are written\n", done, cases.size());
+        throw Cancelled();
+    }
+    if (!found.lost.empty()) {
+        throw Error(fmt::format("{} of {} cases are written: {}", done, cases.size(), found.lost.front()));
+    }
     return 0;
+}
+
+int kinematic_error(const Options& options) {
+    const Interrupt interrupt;
+    const Ranks ranks;
+    const StudyOne study = [folders = project::Folders{{}, project::assets_folder()}](
+                               const StudyCase& of, const Progress& progress) {
+        return project::studied(of, folders, progress);
+    };
+    if (ranks.rank() > 0) {
+        help_with_study(ranks, cases_of(options), study, interrupt.token());
+        return 0;
+    }
+    return gathered(options, ranks, study, interrupt);
 }
 
 } // namespace

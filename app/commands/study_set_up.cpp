@@ -1,8 +1,11 @@
 #include "app/commands/study_set_up.h"
 
 #include "app/interrupt.h"
+#include "app/names.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
+#include "app/ranks.h"
+#include "app/spread_set_up.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -10,6 +13,7 @@
 #include "core/project/project_file.h"
 #include "core/project/set_up_study.h"
 #include "ui/viewport/map_picture.h"
+#include "ui/viewport/set_up_map.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -19,6 +23,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,38 +49,10 @@ const std::map<std::string, SetUpParameter> parameters{{"a", SetUpParameter::a},
                                                        {"c", SetUpParameter::c},
                                                        {"turn", SetUpParameter::turn}};
 
-widgets::MapPlace on_map(const toolpath::SetUpMap& map, const toolpath::SetUpPlace& place) {
-    const auto at = [&](SetUpParameter parameter) {
-        return project::for_people(parameter, place[static_cast<Eigen::Index>(parameter)]);
-    };
-    return {at(map.across), at(map.up)};
-}
-
-std::vector<double> for_people(SetUpParameter parameter, std::vector<double> values) {
-    for (double& value : values) {
-        value = project::for_people(parameter, value);
-    }
-    return values;
-}
-
 render::Picture picture_of(const SetUpStudy& study, SetUpGoal goal) {
-    const toolpath::SetUpMap& map = study.map;
-    const std::vector<double> x = for_people(map.across, map.x);
-    const std::vector<double> y = for_people(map.up, map.y);
-    widgets::HeatMapView view;
-    view.title = goal == SetUpGoal::error ? "mean error" : "way of the linear axes";
-    view.x_label = project::name(map.across);
-    view.x_unit = project::unit(map.across);
-    view.y_label = project::name(map.up);
-    view.y_unit = project::unit(map.up);
-    view.unit = "mm";
-    view.x = x;
-    view.y = y;
-    view.values = map.costs;
-    view.chosen = on_map(map, study.search.start.place);
-    view.best = on_map(map, study.search.best.place);
+    const viewport::SetUpMapView map(study.map, goal, study.search.best.place, study.search.start.place);
     constexpr render::PixelSize size{900, 800};
-    return viewport::map_picture(view, size, render::Theme::light);
+    return viewport::map_picture(map.view, size, render::Theme::light);
 }
 
 void print(std::string_view name, const toolpath::SetUp& at) {
@@ -88,6 +65,28 @@ void print(std::string_view name, const toolpath::SetUp& at) {
                std::isfinite(at.cost) ? fixed(at.cost, 5) : std::string("out of reach"));
 }
 
+/// At rank 0 of one or several.
+SetUpStudy found_on(const Ranks& ranks,
+                    const project::Workpiece& workpiece,
+                    const project::SetUpStudySettings& settings,
+                    const std::string& folder,
+                    const Interrupt& interrupt) {
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const toolpath::SetUpCost cost = project::set_up_cost(workpiece, settings);
+    SpreadCosts spread(ranks, cost, [&](const std::string& line) { printer.say(line); });
+    make_folder(folder);
+    toolpath::SetUpCosts measure;
+    if (ranks.size() > 1) {
+        measure = [&](std::span<const toolpath::SetUpPlace> places, const Progress& part) {
+            return spread.at(places, part);
+        };
+    }
+    SetUpStudy study = project::set_up_study(workpiece, settings, progress, measure);
+    printer.finish();
+    return study;
+}
+
 int set_up(const Options& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
@@ -96,12 +95,13 @@ int set_up(const Options& options) {
     }
     project::SetUpStudySettings settings = options.settings;
     settings.turn_reach = from_degrees(options.turn_reach_deg);
-    make_folder(options.out);
     const project::Workpiece workpiece = project::workpiece_of(opened.project, opened.folders);
-    ProgressPrinter printer;
-    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    const SetUpStudy study = project::set_up_study(workpiece, settings, progress);
-    printer.finish();
+    const Ranks ranks;
+    if (ranks.rank() > 0) {
+        help_with_costs(ranks, project::set_up_cost(workpiece, settings), interrupt.token());
+        return 0;
+    }
+    const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
     write_outputs(options.out,
                   {{"set-up.csv", project::set_up_csv(study.map)},
                    {"set-up.png", render::to_png(picture_of(study, settings.goal))}},
@@ -134,14 +134,14 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
         ->required()
         ->type_name("DIR");
     command.add_option("--goal", settings.goal, "What is made small: error or travel")
-        ->transform(CLI::CheckedTransformer(goals))
-        ->type_name("GOAL");
+        ->transform(one_of(goals))
+        ->type_name(listed(goals));
     command.add_option("--across", settings.across, "Of the map's columns: a, b, c or turn")
-        ->transform(CLI::CheckedTransformer(parameters))
-        ->type_name("PARAMETER");
+        ->transform(one_of(parameters))
+        ->type_name(listed(parameters));
     command.add_option("--up", settings.up, "Of the map's rows: a, b, c or turn")
-        ->transform(CLI::CheckedTransformer(parameters))
-        ->type_name("PARAMETER");
+        ->transform(one_of(parameters))
+        ->type_name(listed(parameters));
     command.add_option("--places", settings.places, "Of the map, each way")->check(CLI::Range(2, 500));
     command.add_option("--nodes", settings.nodes, "Of the grid that is measured, each way")
         ->check(CLI::Range(2, 200));

@@ -1,6 +1,7 @@
 #include "core/gcode/plot_program.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 
 #include <fmt/format.h>
 
@@ -215,6 +216,41 @@ void expect_on_table(const plot::CutPath& path, const kinematics::MachineModel& 
                    "put its origin at {0:.3f}, {1:.3f}, as --origin {0:.3f},{1:.3f}", better.x(), better.y())
              : fmt::format("it is {:.1f} x {:.1f} mm, too large for this machine", size.x(), size.y());
     throw Error(fault, {}, hint);
+}
+
+std::optional<Diagnostic> speeds_not_reached(const plot::CutPath& path,
+                                             const kinematics::MachineModel& machine) {
+    std::optional<Diagnostic> first;
+    std::size_t count = 0;
+    Vec3 from = path.empty() ? Vec3(Vec3::Zero()) : path.front().at;
+    for (const plot::CutPoint& point : path) {
+        const Vec3 way = point.at - from;
+        from = point.at;
+        const double length = way.norm();
+        for (const kinematics::MachineAxis& axis : machine.axes()) {
+            const std::size_t n = std::string_view("XYZ").find(axis.letter);
+            constexpr double rounding = 1.0 + 1e-6;
+            if (n == std::string_view::npos || !(length > 0.0) ||
+                !(point.speed * std::abs(way[static_cast<Eigen::Index>(n)]) >
+                  axis.max_velocity * length * rounding)) {
+                continue;
+            }
+            if (++count == 1) {
+                first = {{},
+                         fmt::format("{:.0f} mm/min is more than {} reaches: its axis {} does {:.0f} mm/min",
+                                     to_mm_per_min(point.speed),
+                                     machine.name(),
+                                     axis.letter,
+                                     to_mm_per_min(axis.max_velocity)),
+                         "it will be slower"};
+            }
+            break;
+        }
+    }
+    if (count > 1) {
+        first->message += fmt::format("; so it is with {} moves more", count - 1);
+    }
+    return first;
 }
 
 std::string plot_axes(const kinematics::MachineModel& machine) {

@@ -1,10 +1,12 @@
 // The program of a 3-axis machine that cuts a plot.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/gcode/program.h"
 #include "core/plot/cut_path.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,11 @@ struct PlotProgramSettings {
 void expect_on_table(const plot::CutPath& path,
                      const kinematics::MachineModel& machine,
                      const Vec2& origin = Vec2::Zero());
+
+/// What a person should know: the first speed for which an axis would have to be faster than it can, and how
+/// many moves are so. They are executed slower; nothing if there is none.
+[[nodiscard]] std::optional<Diagnostic> speeds_not_reached(const plot::CutPath& path,
+                                                           const kinematics::MachineModel& machine);
 
 /// The letters of a machine's axes, for PlotProgramSettings. Throws Error unless they are X, Y and Z.
 [[nodiscard]] std::string plot_axes(const kinematics::MachineModel& machine);

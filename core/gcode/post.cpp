@@ -98,9 +98,9 @@ public:
     }
 
     void tracks(const Progress& progress) {
-        const auto tracks = 1 + std::count_if(toolpath_.points.begin(),
-                                              toolpath_.points.end(),
-                                              [](const auto& p) { return p.reached_by == MoveKind::cross; });
+        const auto tracks = std::count_if(toolpath_.points.begin(),
+                                          toolpath_.points.end(),
+                                          [](const auto& p) { return p.reached_by != MoveKind::track; });
         int track = 1;
         comment(fmt::format("track {} of {}", track, tracks));
         for (int n = 1; n < std::ssize(toolpath_.points); ++n) {
@@ -208,7 +208,8 @@ private:
 
     void link(int n) {
         ++result_.notes.links;
-        if (settings_.link == LinkKind::on_surface) {
+        const bool lifts = toolpath_.points[static_cast<std::size_t>(n)].reached_by == MoveKind::over;
+        if (settings_.link == LinkKind::on_surface && !lifts) {
             feed(at(n), MoveRole::link, settings_.cutting_feed, n);
             return;
         }

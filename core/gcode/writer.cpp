@@ -266,8 +266,7 @@ private:
         for (int n = arc.first; n <= arc.last; ++n) {
             duration += program_.blocks[static_cast<std::size_t>(n)].duration;
         }
-        const double rise = axes.third < 0 ? 0.0 : to[axes.third] - from[axes.third];
-        append_feed(text, {std::hypot(arc.radius * arc.sweep, rise), false}, duration);
+        append_feed(text, {length_of_feeds(program_, wording_, arc), false}, duration);
         return joined(text);
     }
 

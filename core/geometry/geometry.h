@@ -8,4 +8,5 @@
 #include "core/geometry/presets.h"
 #include "core/geometry/surface.h"
 #include "core/geometry/tool_pose.h"
+#include "core/geometry/trim.h"
 #include "core/geometry/vectors.h"

@@ -26,6 +26,12 @@ constexpr double negligible_rad = 1e-8;
 constexpr double room_for_corners = 0.9; // of the start's smallest corner triangle, where that is small
 constexpr double usual_corner = 0.02;
 
+// What of the whole way is done, by where the time goes.
+constexpr double start_measured = 0.02;
+constexpr double tracks_chosen = 0.4;
+constexpr double descents_done = 0.97;
+constexpr double path_judged = 0.99;
+
 bool within(double value, double least, double most) {
     return value >= least && value <= most;
 }
@@ -132,10 +138,10 @@ ChainOptimiser::ChainOptimiser(const ErrorModel& model,
 bool ChainOptimiser::advance(const Progress& progress) {
     switch (stage_) {
     case Stage::start:
-        measure_start(progress);
+        measure_start(progress.part(0.0, start_measured));
         break;
     case Stage::tracks:
-        choose_tracks(progress);
+        choose_tracks(progress.part(start_measured, tracks_chosen));
         break;
     case Stage::descent:
         descend(progress);
@@ -154,6 +160,7 @@ void ChainOptimiser::measure_start(const Progress& progress) {
     state_.note = "Start measured";
     links_.push_back({"start", found, true});
     bests_.front().reached = found;
+    state_.done = start_measured;
     stage_ = Stage::tracks;
 }
 
@@ -234,7 +241,18 @@ void ChainOptimiser::choose_tracks(const Progress& progress) {
     ++state_.round;
     state_.note = links_.back().name;
     accepted_ = state_.best.array();
+    state_.done = tracks_chosen;
     begin_descent(progress);
+}
+
+/// Of all the iterations that are allowed, with so many done of the present level: a descent that settles
+/// early leaves the rest of its share out.
+double ChainOptimiser::share_of_descents(int of_level) const {
+    const double later = settings_.later_descents;
+    const double all = settings_.first_descent + later * static_cast<double>(settings_.exponents.size());
+    const double before =
+        level_ == 0 ? 0.0 : settings_.first_descent + later * static_cast<double>(level_ - 1);
+    return all > 0.0 ? (before + of_level) / all : 1.0;
 }
 
 void ChainOptimiser::begin_descent(const Progress& progress) {
@@ -269,24 +287,30 @@ void ChainOptimiser::finish(const Progress& progress) {
     state_.status = bests_.size() > 1 ? ImproverStatus::converged : ImproverStatus::no_gain;
     state_.current = state_.best.array();
     state_.now = state_.of_best;
+    state_.done = 1.0;
     stage_ = Stage::done;
 }
 
 void ChainOptimiser::descend(const Progress& progress) {
     const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
-    progress.report(0.0, "Moving all nodes at once");
+    const auto done_at = [&](int of_level) {
+        return tracks_chosen + (descents_done - tracks_chosen) * share_of_descents(of_level);
+    };
+    progress.report(done_at(iterations_of_level_), "Moving all nodes at once");
     PathDescent next = *descent_;
     bool going = true;
     int done = 0;
     while (going && done < iterations_a_step && iterations_of_level_ + done < allowed) {
         going = next.iterate(progress) && next.last_step() > still;
         ++done;
+        progress.report(done_at(iterations_of_level_ + done));
     }
     const bool kept = consider(next.nodes(), progress);
     descent_ = std::move(next);
     iterations_of_level_ += done;
     state_.iteration += done;
     state_.norm = descent_->last_step();
+    state_.done = done_at(iterations_of_level_);
     const double exponent = level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
     state_.note =
         fmt::format("All nodes at once, exponent {:g}, iteration {}", exponent, iterations_of_level_);
@@ -294,7 +318,8 @@ void ChainOptimiser::descend(const Progress& progress) {
         end_link(fmt::format("all nodes at once, exponent {:g}", exponent), kept);
         ++state_.round;
         ++level_;
-        begin_descent(progress);
+        state_.done = done_at(0);
+        begin_descent(progress.part(descents_done, path_judged));
     }
 }
 

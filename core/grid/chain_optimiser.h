@@ -65,6 +65,7 @@ private:
     bool consider(const NodeArray& nodes, const Progress& progress);
     void end_link(std::string name, bool accepted);
     void finish(const Progress& progress);
+    [[nodiscard]] double share_of_descents(int of_level) const;
 
     const ErrorModel& model_;
     TrackDirection direction_;

@@ -7,6 +7,7 @@
 #include "core/grid/harmonic_functional.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid_then_minimiser.h"
+#include "core/grid/region.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,9 @@ constexpr std::size_t most_candidates = 32; // each is a whole grid
 constexpr int most_falls = 3;
 constexpr double fall_of_adaptation = 0.1;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// What of the whole way is done, by where the time goes.
+constexpr double iterated = 0.5;
+constexpr double path_judged = 0.99;
 constexpr int shown_decimals = 4; // of a mean error in mm
 
 /// A cycle does what hundreds of plain iterations do.
@@ -103,15 +107,18 @@ void expects_sense(const EllipticAdaptationSettings& settings) {
             "the weight of the error is positive");
 }
 
-std::string warning_of(const Weight* weight, const Grid& start) {
+constexpr const char* start_name = "start grid";
+
+/// `name` says which grid `grid` is.
+std::string warning_of(const Weight* weight, const Grid& grid, const std::string& name) {
     if (weight == nullptr) {
         return {};
     }
-    const int count = count_not_positive(*weight, to_solver_coordinates(start.array()));
+    const int count = count_not_positive(*weight, to_solver_coordinates(grid.array()));
     return count == 0 ? std::string{}
                       : "The weight is not positive at " + std::to_string(count) + " of " +
-                            std::to_string(start.array().nodes.size()) +
-                            " nodes, so the functional may have no minimum. ";
+                            std::to_string(grid.array().nodes.size()) + " nodes of the " + name +
+                            ", so the functional may have no minimum.";
 }
 
 } // namespace
@@ -149,7 +156,6 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
                                        const EllipticAdaptationSettings& settings,
                                        WeightPtr weight)
     : model_(model), settings_(settings), weight_(std::move(weight)),
-      warning_(warning_of(weight_.get(), start)),
       start_(start), at_{.state = {.current = start.array(), .best = start},
                          .round_start = start,
                          .functional = settings.functional} {
@@ -163,7 +169,8 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
     at_.state.now = at_.state.start;
     at_.state.of_best = at_.state.start;
     at_.round_start_error = at_.state.start.mean;
-    at_.state.note = warning_ + "Start: " + mean_sentence(at_.state.start);
+    at_.state.warning = warning_of(weight_.get(), start_, start_name);
+    at_.state.note = "Start: " + mean_sentence(at_.state.start);
 }
 
 EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
@@ -181,7 +188,7 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     progress.check();
     Position next = at_;
     if (next.ending != ImproverStatus::running) {
-        confirm(next, progress);
+        confirm(next, progress.part(iterated, path_judged));
     } else if (weight_ == nullptr && next.state.start.max <= no_error) {
         next.state.status = ImproverStatus::no_gain;
         next.state.note = "There is no error to reduce";
@@ -189,10 +196,17 @@ bool EllipticAdaptation::advance(const Progress& progress) {
         step(next, progress);
     }
     at_ = std::move(next);
-    const double rounds = at_.state.round + static_cast<double>(at_.state.iteration - at_.iterations_before) /
-                                                settings_.max_iterations;
-    progress.report(rounds / settings_.max_rounds, at_.state.note);
-    return at_.state.status == ImproverStatus::running;
+    const bool more = at_.state.status == ImproverStatus::running;
+    at_.state.done = more ? std::max(at_.state.done, share_done(at_)) : 1.0;
+    progress.report(std::min(at_.state.done, path_judged), at_.state.note);
+    return more;
+}
+
+/// Of all the iterations that are allowed: a round that settles early leaves the rest of its share out.
+double EllipticAdaptation::share_done(const Position& at) const {
+    const double rounds = at.state.round + static_cast<double>(at.state.iteration - at.iterations_before) /
+                                               settings_.max_iterations;
+    return at.ending != ImproverStatus::running ? iterated : iterated * rounds / settings_.max_rounds;
 }
 
 /// Density of this round and, fading, of those before, as the weight of the next solver.
@@ -214,6 +228,16 @@ WeightPtr EllipticAdaptation::error_weight(Position& at) const {
         scaled_weight(std::move(density), at.round_start.nu(), at.round_start.nv(), settings_.error_weight));
 }
 
+/// In the region; outside as small as it is anywhere.
+WeightPtr EllipticAdaptation::weight_of_round(Position& at) const {
+    WeightPtr weight = weight_ != nullptr ? weight_ : error_weight(at);
+    if (settings_.region == nullptr) {
+        return weight;
+    }
+    const double least = std::ranges::min(weight_at_nodes(*weight, to_solver_coordinates(start_.array())));
+    return within(std::move(weight), settings_.region, least);
+}
+
 std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) const {
     const EllipticSettings solver{.functional = at.functional,
                                   .relaxation = settings_.relaxation,
@@ -221,7 +245,14 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
                                   .max_iterations = settings_.max_iterations,
                                   .boundary = settings_.boundary};
     if (at.round_weight == nullptr) {
-        at.round_weight = weight_ != nullptr ? weight_ : error_weight(at);
+        at.round_weight = weight_of_round(at);
+        if (at.state.warning.empty()) { // else it was counted on the start grid, which a person knows
+            at.state.warning =
+                warning_of(at.round_weight.get(),
+                           at.round_start,
+                           at.state.round == 0 ? std::string(start_name)
+                                               : "grid of round " + std::to_string(at.state.round + 1));
+        }
     }
     NodeArray nodes = to_solver_coordinates(at.round_start.array());
     if (settings_.method == EllipticMethod::reference) {
@@ -260,7 +291,7 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
     at.state.iteration = at.iterations_before + solver->iterations();
     at.state.norm = solver->norm();
     at.solver = solver->clone();
-    at.state.note = warning_ + "Round " + std::to_string(at.state.round + 1) + ", iteration " +
+    at.state.note = "Round " + std::to_string(at.state.round + 1) + ", iteration " +
                     std::to_string(solver->iterations()) + ": " + mean_sentence(at.state.now);
     if (!more) {
         end_round(at, solver->status());
@@ -305,12 +336,12 @@ void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
     at.solver = nullptr;
     if (at.falls == most_falls || at.functional.adaptation <= 0.0) {
         at.ending = as_improver_status(failure);
-        at.state.note = warning_ + "Given up: " + what;
+        at.state.note = "Given up: " + what;
         return;
     }
     ++at.falls;
     at.functional.adaptation *= fall_of_adaptation;
-    at.state.note = warning_ + "Started again with LV = " + shortest(at.functional.adaptation) + ": " + what;
+    at.state.note = "Started again with LV = " + shortest(at.functional.adaptation) + ": " + what;
 }
 
 void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
@@ -340,14 +371,18 @@ void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
     std::ranges::sort(at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; });
     double least = infinity;
     if (!at.candidates.empty()) {
-        const GridPromise promise(model_, start_, settings_.direction, progress);
+        const auto share = [&](int n) { // each judges a whole path
+            constexpr double paths = enough_kept + 1;
+            return progress.part(n / paths, (n + 1) / paths);
+        };
+        const GridPromise promise(model_, start_, settings_.direction, share(0));
         const double widest = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
         int kept = 0;
         for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
             if (model_.track_gap((*c)->grid, settings_.direction) > widest) {
                 continue;
             }
-            const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, progress);
+            const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
             kept += path.has_value() ? 1 : 0;
             if (path.has_value() && path->mean < least) {
                 least = path->mean;
@@ -361,8 +396,8 @@ void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
                         at.ending == ImproverStatus::singular;
     at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;
     if (!failed) {
-        at.state.note = warning_ + (better ? "Best grid: " + mean_sentence(at.state.of_best)
-                                           : "No grid was better than the start");
+        at.state.note =
+            (better ? "Best grid: " + mean_sentence(at.state.of_best) : "No grid was better than the start");
     }
 }
 

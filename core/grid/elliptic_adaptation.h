@@ -30,6 +30,7 @@ struct EllipticAdaptationSettings {
     ErrorWeightSettings error_weight{};
     double memory = 0.5; ///< share of the earlier rounds in the error density: damps the outer loop
     Sampling sampling = coarse;
+    WeightPtr region{}; ///< how much of the weight counts (region.h), in solver coordinates; null: all
     double gap_allowance = 1e9; ///< share by which the track gap of the grid that is taken may grow
 
     friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
@@ -100,7 +101,9 @@ private:
     };
 
     [[nodiscard]] WeightPtr error_weight(Position& at) const;
+    [[nodiscard]] WeightPtr weight_of_round(Position& at) const;
     [[nodiscard]] std::unique_ptr<EllipticSolver> new_solver(Position& at) const;
+    [[nodiscard]] double share_done(const Position& at) const;
     void step(Position& at, const Progress& progress) const;
     [[nodiscard]] NodeArray parameters_of(const NodeArray& nodes) const;
     void take(Position& at, const NodeArray& nodes, const Progress& progress) const;
@@ -112,7 +115,6 @@ private:
     EllipticAdaptationSettings settings_;
     WeightPtr weight_; ///< null: from the error
     WeightOfError weight_of_error_;
-    std::string warning_; ///< about the weight
     Grid start_;
     Position at_;
 };

@@ -26,10 +26,11 @@ struct Number {
     int column = 0;
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file, int line, int column, std::string message) {
+[[noreturn]] void fail(const std::filesystem::path& file, int line, int column, std::string message, std::string hint = {}) {
     Diagnostic found;
     found.place = {.file = file, .line = line, .column = column};
     found.message = std::move(message);
+    found.hint = std::move(hint);
     throw Error(std::move(found));
 }
 
@@ -113,7 +114,7 @@ bool is_folded(const NodeArray& nodes, int i, int j) {
     return !(min_corner_jacobian(cell) > 0.0);
 }
 
-void require_sound(const Placed& found, const std::filesystem::path& file) {
+void require_near(const Placed& found, const std::filesystem::path& file) {
     const NodeArray& nodes = found.nodes;
     for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
         if (nodes.nodes[k].cwiseAbs().maxCoeff() > farthest) {
@@ -123,6 +124,11 @@ void require_sound(const Placed& found, const std::filesystem::path& file) {
                  "A coordinate of this node is beyond 1e9");
         }
     }
+}
+
+/// `hint` tells what else the file may be.
+void require_unfolded(const Placed& found, const std::filesystem::path& file, const std::string& hint = {}) {
+    const NodeArray& nodes = found.nodes;
     for (int i = 0; i + 1 < nodes.rows; ++i) {
         for (int j = 0; j + 1 < nodes.columns; ++j) {
             if (is_folded(nodes, i, j)) {
@@ -130,7 +136,8 @@ void require_sound(const Placed& found, const std::filesystem::path& file) {
                 fail(file,
                      place.line,
                      place.column,
-                     "The cell from node (" + std::to_string(i) + ", " + std::to_string(j) + ") is folded");
+                     "The cell from node (" + std::to_string(i) + ", " + std::to_string(j) + ") is folded",
+                     hint);
             }
         }
     }
@@ -184,7 +191,8 @@ NodeArray parse_pairs(std::string_view text, const std::filesystem::path& file, 
         found.nodes.nodes[k] = Vec2(all[2 * k].value, all[2 * k + 1].value);
         found.places.push_back(all[2 * k]);
     }
-    require_sound(found, file);
+    require_near(found, file);
+    require_unfolded(found, file);
     return found.nodes;
 }
 
@@ -216,7 +224,9 @@ NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file,
         }
     }
     if (contents == FileContents::nodes) {
-        require_sound(found, file);
+        require_near(found, file);
+        require_unfolded(
+            found, file, columns == 2 ? "a file of two numbers a line may be pairs: give its rows and columns" : "");
     }
     return found.nodes;
 }

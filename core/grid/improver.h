@@ -33,6 +33,8 @@ struct ImproverState {
     ErrorSummary now{};     ///< of the last complete grid
     ErrorSummary of_best{}; ///< of `best`
     std::string note{};     ///< one sentence: what was just done, or why it ended
+    std::string warning{};  ///< a sentence about the weight; empty: nothing is wrong with it
+    double done = 0.0;      ///< of the whole way, 0 to 1, never falling; 1 at the end only
 };
 
 class GridImprover {
@@ -40,7 +42,8 @@ public:
     virtual ~GridImprover() = default;
 
     /// Does one watchable step (some inner iterations, one stage, one sweep) and returns true while there is
-    /// more to do. Throws Cancelled through `progress`, leaving the state as it was before the step.
+    /// more to do. `progress` is of the whole way: a step tells it from state().done on. Throws Cancelled
+    /// through it, leaving the state as it was before the step.
     virtual bool advance(const Progress& progress) = 0;
 
     [[nodiscard]] virtual const ImproverState& state() const = 0;

@@ -100,6 +100,7 @@ bool Redistribution::advance(const Progress& progress) {
     state_.best = Grid(array_of(tracks));
     state_.current = state_.best.array();
     state_.round = 1;
+    state_.done = 1.0;
     const bool gained = best.kept_from_start < static_cast<int>(std::ssize(start_));
     state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
     state_.note = best.kept_from_start == 0 ? "Equal shares of the monitor on every track"

@@ -17,7 +17,13 @@ constexpr double axis_margin = 0.98; // of the axis limit in the search, whose 1
 constexpr double aim_slack = 1.05; // above the least possible, so that the cost has something to choose from
 constexpr double small_tip_mm = 1e-3; // no aim is below what a machine could follow
 constexpr double small_axis = 1e-4;   // the same, rad: a micrometre at 10 mm
-constexpr double still = 1e-4;        // mean steps: a sweep that moves no node further has settled
+
+// What of the whole way is done, by where the time goes.
+constexpr double lattices_measured = 0.5;
+constexpr double paths_found = 0.6;
+constexpr double polished = 0.98;
+
+constexpr double still = 1e-4; // mean steps: a sweep that moves no node further has settled
 
 std::vector<PlacedTrack> placed(const std::vector<MeasuredTrack>& tracks) {
     std::vector<PlacedTrack> found;
@@ -59,10 +65,10 @@ TrackOptimiser::TrackOptimiser(const ErrorModel& model,
 bool TrackOptimiser::advance(const Progress& progress) {
     switch (stage_) {
     case Stage::lattices:
-        measure_lattices(progress);
+        measure_lattices(progress.part(0.0, lattices_measured));
         break;
     case Stage::paths:
-        find_paths(progress);
+        find_paths(progress.part(lattices_measured, paths_found));
         break;
     case Stage::polish:
         sweep(progress);
@@ -86,7 +92,7 @@ void TrackOptimiser::measure_lattices(const Progress& progress) {
     std::vector<MeasuredTrack> start = measured(model_, start_, fine, progress);
     const TrackPromise promise = promise_of(model_, start, settings_.gap_allowance, progress);
     std::vector<std::optional<MoveTable>> laid(start_.size());
-    each_track(std::ssize(start_), progress.part(0.1, 1.0), [&](std::size_t t) {
+    each_track(std::ssize(start_), progress.part(0.1, 0.99), [&](std::size_t t) {
         laid[t].emplace(moves_by(model_, start_[t], settings_, progress));
     });
     for (std::optional<MoveTable>& table : laid) {
@@ -99,6 +105,7 @@ void TrackOptimiser::measure_lattices(const Progress& progress) {
     state_.round = 1;
     state_.note =
         "Moves of the lattices measured, " + std::to_string(settings_.lattice) + " intervals a track";
+    state_.done = lattices_measured;
     stage_ = Stage::paths;
 }
 
@@ -134,7 +141,7 @@ void TrackOptimiser::find_paths(const Progress& progress) {
     progress.report(0.0, "Choosing the nodes of each track");
     const std::vector<MoveLimits> limits = aims(progress.part(0.0, 0.4));
     std::vector<PlacedTrack> found(start_.size());
-    each_track(std::ssize(start_), progress.part(0.4, 0.6), [&](std::size_t t) {
+    each_track(std::ssize(start_), progress.part(0.4, 0.9), [&](std::size_t t) {
         found[t] = path_of(t, limits[t]);
     });
     std::vector<MeasuredTrack> paths = measured(model_, found, fine, progress);
@@ -146,6 +153,7 @@ void TrackOptimiser::find_paths(const Progress& progress) {
     state_.current = array_of(found);
     state_.now = summary(moves_of(paths_));
     state_.round = 2;
+    state_.done = paths_found;
     state_.note = note_of("Best paths through the lattices found", best);
     if (settings_.polish_sweeps > 0 && moves() > 1) {
         begin_polish();
@@ -165,10 +173,14 @@ void TrackOptimiser::begin_polish() {
 }
 
 void TrackOptimiser::sweep(const Progress& progress) {
-    progress.report(0.0, "Polishing");
+    const auto done_after = [&](int sweeps) {
+        return paths_found + (polished - paths_found) * sweeps / settings_.polish_sweeps;
+    };
+    progress.report(done_after(state_.iteration), "Polishing");
     std::vector<TrackPolish> next = polishes_;
     std::vector<double> longest(next.size(), 0.0);
-    each_track(std::ssize(next), progress.part(0.0, 0.8), [&](std::size_t t) {
+    const Progress part = progress.part(done_after(state_.iteration), done_after(state_.iteration + 1));
+    each_track(std::ssize(next), part, [&](std::size_t t) {
         longest[t] = next[t].sweep(progress) / mean_step(start_[t]);
     });
     const double norm = *std::ranges::max_element(longest);
@@ -188,6 +200,7 @@ void TrackOptimiser::sweep(const Progress& progress) {
     }
     ++state_.round;
     ++state_.iteration;
+    state_.done = std::max(state_.done, done_after(state_.iteration));
     state_.norm = norm;
     polishes_ = std::move(next);
 }
@@ -216,6 +229,7 @@ void TrackOptimiser::finish(ImproverStatus status) {
     state_.status = gained ? status : ImproverStatus::no_gain;
     state_.current = state_.best.array();
     state_.now = state_.of_best;
+    state_.done = 1.0;
     stage_ = Stage::done;
 }
 

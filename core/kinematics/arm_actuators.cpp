@@ -82,11 +82,15 @@ JointPositions joints_of(const ArmActuators& actuators, const DrivePositions& dr
     return joints;
 }
 
-DrivePositions drives_of(const ArmActuators& actuators, const JointPositions& joints) {
+std::array<double, 2> triangle_angles(const ArmActuators& actuators, const JointPositions& joints) {
     expects(joints.size() == 5 && joints.allFinite(), "a position for every joint");
+    return {joints[1] - actuators.second.omega - frame_angle(actuators.second) + 1.5 * pi,
+            joints[1] + joints[2] - frame_angle(actuators.third) + 0.5 * pi};
+}
+
+DrivePositions drives_of(const ArmActuators& actuators, const JointPositions& joints) {
+    const auto [second, third] = triangle_angles(actuators, joints);
     const auto& k = actuators.scales;
-    const double second = joints[1] - actuators.second.omega - frame_angle(actuators.second) + 1.5 * pi;
-    const double third = joints[1] + joints[2] - frame_angle(actuators.third) + 0.5 * pi;
     DrivePositions drives;
     drives << counts(k[0], joints[0]), counts(k[1], length_at(actuators.second, second)),
         counts(k[2], length_at(actuators.third, third)),

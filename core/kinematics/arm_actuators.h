@@ -57,6 +57,11 @@ void expect_sound(const ArmActuators& actuators);
 /// The counts that bring the joints there, drive 5 in the turn that the formula gives.
 [[nodiscard]] DrivePositions drives_of(const ArmActuators& actuators, const JointPositions& joints);
 
+/// Of the triangles of the drives 2 and 3, opposite to their lengths; a triangle closes from 0 to half a
+/// turn.
+[[nodiscard]] std::array<double, 2> triangle_angles(const ArmActuators& actuators,
+                                                    const JointPositions& joints);
+
 /// Every choice of drive 5's turns that is inside the limits, the one nearest to `previous` first; none if
 /// the other drives are not inside theirs.
 [[nodiscard]] std::vector<DrivePositions>

@@ -3,9 +3,12 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
+#include "core/kinematics/arm_zone.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -74,7 +77,7 @@ Linkage linkage(const JsonValue& value) {
 }
 
 DriveLimits drive_limits(const JsonValue& value) {
-    value.expect_only({"third_minus_second", "roll_plus_fourth_above", "roll_below", "roll_turn"});
+    value.expect_only({"third_minus_second", "roll_plus_fourth_above", "roll_below", "roll_turn", "watched"});
     const auto lead = value.at("third_minus_second").items(2);
     return {.below_second = lead[0].number(-most_counts, most_counts),
             .above_second = lead[1].number(-most_counts, most_counts),
@@ -151,7 +154,12 @@ ArmModel arm(const JsonValue& root) {
     description.name = root.at("name").text();
     description.source = root.at("source").text();
     for (const JsonValue& item : root.at("joints").items()) {
-        description.joints.push_back(joint(item));
+        const ArmJoint next = joint(item);
+        const auto same = std::ranges::find(description.joints, next.name, &ArmJoint::name);
+        if (same != description.joints.end()) {
+            item.at("name").fail("another joint is called so");
+        }
+        description.joints.push_back(next);
     }
     const auto tip = root.at("tool_tip").items(3);
     description.tool_tip = {length(tip[0]), length(tip[1]), length(tip[2])};
@@ -162,11 +170,43 @@ ArmModel arm(const JsonValue& root) {
     }
 }
 
+/// Where the file says neither that its drives are watched nor where the tip may be, there is none.
+std::shared_ptr<const ArmZone> zone(const JsonValue& root, const std::optional<ArmActuators>& drives) {
+    ArmZone result;
+    const auto space = root.find("workspace");
+    if (space) {
+        space->expect_only({"x", "y", "z"});
+        for (int n = 0; n < 3; ++n) {
+            if (const auto range = space->find(std::string(1, "xyz"[n]))) {
+                const auto ends = range->items(2);
+                result.least[n] = length(ends[0]);
+                result.most[n] = length(ends[1]);
+                if (!(result.least[n] < result.most[n])) {
+                    range->fail("the lower limit is not below the upper one");
+                }
+            }
+        }
+    }
+    const auto limits = drives ? root.at("actuators").find("limits") : std::nullopt;
+    const auto watched = limits ? limits->find("watched") : std::nullopt;
+    if (limits && (!watched || watched->flag())) {
+        result.drives = drives;
+    }
+    return space || result.drives ? std::make_shared<const ArmZone>(std::move(result)) : nullptr;
+}
+
+ArmModel with_zone(const ArmModel& arm, std::shared_ptr<const ArmZone> zone) {
+    ArmDescription description = arm.description();
+    description.zone = std::move(zone);
+    return ArmModel(std::move(description));
+}
+
 } // namespace
 
 ArmFile read_arm(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
-    root.expect_only({"format", "version", "name", "source", "joints", "tool_tip", "actuators", "bodies"});
+    root.expect_only(
+        {"format", "version", "name", "source", "joints", "tool_tip", "workspace", "actuators", "bodies"});
     if (root.at("format").text() != "millwright-arm") {
         root.at("format").fail("not an arm file");
     }
@@ -178,6 +218,7 @@ ArmFile read_arm(const std::filesystem::path& file) {
         }
         result.actuators = actuators(*drives);
     }
+    result.arm = with_zone(result.arm, zone(root, result.actuators));
     if (const auto shown = root.find("bodies")) {
         result.bodies = bodies(*shown, result.arm, result.actuators.has_value(), file.parent_path());
     }

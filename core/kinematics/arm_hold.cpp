@@ -4,12 +4,14 @@
 #include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_zone.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace millwright::kinematics {
 
@@ -44,6 +46,19 @@ in_closed_form(const ArmModel& arm, const Frame& goal, ArmDemand demand, const J
                : arm_inverse(arm, PointedGoal{goal.translation(), goal.linear().col(2)}, previous);
 }
 
+/// Takes those away that leave the arm's zone; why the last of them does.
+std::string
+keep_zone(const ArmModel& arm, const JointPositions& previous, std::vector<JointPositions>& ways) {
+    std::string why;
+    std::erase_if(ways, [&](const JointPositions& q) {
+        std::string reason = leaves_zone(arm, previous, q);
+        const bool leaves = !reason.empty();
+        why = leaves ? std::move(reason) : why;
+        return leaves;
+    });
+    return why;
+}
+
 std::string tilt_sentence(const Frame& goal) {
     const Vec3 tip = goal.translation();
     const Vec3 across = Vec3(-tip.y(), tip.x(), 0.0).normalized();
@@ -58,9 +73,12 @@ by_branches(const ArmModel& arm, const Frame& goal, const ArmAim& aim, const Joi
     if (!turned) {
         return {previous, ArmTrouble::tool_axis, tilt_sentence(goal), 0.0};
     }
-    const InverseSolution found = in_closed_form(arm, turned->goal, aim.demand, previous);
+    InverseSolution found = in_closed_form(arm, turned->goal, aim.demand, previous);
     if (found.branches.empty()) {
         return {previous, trouble_of(found.reach), found.why, 0.0};
+    }
+    if (std::string why = keep_zone(arm, previous, found.branches); found.branches.empty()) {
+        return {previous, ArmTrouble::joint_limit, std::move(why), 0.0};
     }
     const auto away = [&](const JointPositions& q) { return joint_step(arm, q, previous); };
     return {*std::ranges::min_element(found.branches, {}, away), ArmTrouble::none, {}, turned->tilt};
@@ -69,6 +87,9 @@ by_branches(const ArmModel& arm, const Frame& goal, const ArmAim& aim, const Joi
 ArmHold by_search(const ArmModel& arm, const Frame& goal, const ArmAim& aim, const JointPositions& previous) {
     const ArmSolverResult found = solve_arm(arm, goal, aim.demand, previous);
     if (found.converged) {
+        if (std::string why = leaves_zone(arm, previous, found.positions); !why.empty()) {
+            return {previous, ArmTrouble::joint_limit, std::move(why), 0.0};
+        }
         return {found.positions, ArmTrouble::none, {}, 0.0};
     }
     return {previous,
@@ -99,13 +120,16 @@ ArmHold hold_tool(const ArmModel& arm, const Frame& goal, const ArmAim& aim, con
 std::vector<JointPositions>
 all_holds(const ArmModel& arm, const Frame& goal, const ArmAim& aim, const JointPositions& previous) {
     if (!arm.planar_elbow()) {
-        return solve_arm_from_many_starts(arm, goal, aim.demand, previous, starting_points);
+        auto found = solve_arm_from_many_starts(arm, goal, aim.demand, previous, starting_points);
+        (void)keep_zone(arm, previous, found);
+        return found;
     }
     const std::optional<Turned> turned = into_the_plane(goal, aim);
     if (!turned) {
         return {};
     }
     auto branches = in_closed_form(arm, turned->goal, aim.demand, previous).branches;
+    (void)keep_zone(arm, previous, branches);
     std::ranges::stable_sort(
         branches, {}, [&](const JointPositions& q) { return joint_step(arm, q, previous); });
     return branches;

@@ -14,7 +14,7 @@ namespace millwright::kinematics {
 enum class ArmTrouble : std::uint8_t {
     none,
     out_of_reach, ///< too far, too near, or not found
-    joint_limit,  ///< only with a joint beyond its limits
+    joint_limit,  ///< only with a joint beyond its limits, or outside of the arm's zone
     tool_axis,    ///< not with the tool in this direction
     jump          ///< only with other joints than a moment before
 };

@@ -7,6 +7,7 @@
 #include "core/kinematics/machine_model.h"
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,11 +32,15 @@ struct ArmJoint {
     double max_acceleration = 1.0; ///< rad/s^2 or mm/s^2
 };
 
+struct ArmZone; // arm_zone.h
+
 struct ArmDescription {
     std::string name;
     std::string source; ///< where the numbers come from
     std::vector<ArmJoint> joints;
     Vec3 tool_tip = Vec3::Zero(); ///< in the frame of the last joint, whose z is the tool axis
+    std::shared_ptr<const ArmZone>
+        zone{}; ///< to be kept beside the limits of the joints; none: all is allowed
 };
 
 /// The lengths of an arm whose inverse has a closed form: a turning base, three parallel joints, a roll; all
@@ -57,6 +62,8 @@ public:
     [[nodiscard]] const ArmJoint& joint(int index) const {
         return description_.joints[static_cast<std::size_t>(index)];
     }
+    /// Nothing if there is none.
+    [[nodiscard]] const ArmZone* zone() const { return description_.zone.get(); }
     /// The first joint that `positions` takes out of its limits; -1 if none. A limit belongs to the range.
     [[nodiscard]] int joint_outside(const JointPositions& positions) const;
 

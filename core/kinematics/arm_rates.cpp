@@ -3,11 +3,11 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_hold.h"
 #include "core/kinematics/arm_inverse.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace millwright::kinematics {
@@ -32,22 +32,29 @@ Frame carried_tool(const ArmModel& arm, const JointPositions& joints, const Vec3
     return goal;
 }
 
+ArmHold moved_tip(const ArmModel& arm, const JointPositions& joints, const Vec3& way) {
+    const double length = way.norm();
+    const Vec3 tip = base_T_tool(arm, joints).translation();
+    const ArmDemand demand = arm.joint_count() > 5 ? ArmDemand::frame : ArmDemand::tip_and_axis;
+    const ArmHold hold = hold_tool(arm, carried_tool(arm, joints, tip + way), {demand, 0.5 * pi}, joints);
+    const double turn = joint_step(arm, hold.joints, joints);
+    if (hold.trouble != ArmTrouble::none || turn < most_turn * std::max(1.0, length / ahead_mm)) {
+        return hold;
+    }
+    return {joints,
+            ArmTrouble::jump,
+            fmt::format("so near to a singular place a joint would turn {:.1f} deg in {:.3g} mm",
+                        to_degrees(turn),
+                        length),
+            0.0};
+}
+
 ArmRates tip_rates(const ArmModel& arm, const JointPositions& joints, const Vec3& velocity) {
     const double speed = velocity.norm();
     expects(std::isfinite(speed) && speed > 0.0, "a velocity has a direction");
-    const Vec3 tip = base_T_tool(arm, joints).translation();
-    const Frame goal = carried_tool(arm, joints, tip + ahead_mm / speed * velocity);
-    const ArmDemand demand = arm.joint_count() > 5 ? ArmDemand::frame : ArmDemand::tip_and_axis;
-    const ArmHold hold = hold_tool(arm, goal, {demand, 0.5 * pi}, joints);
+    const ArmHold hold = moved_tip(arm, joints, ahead_mm / speed * velocity);
     if (hold.trouble != ArmTrouble::none) {
         return {std::nullopt, hold.why};
-    }
-    const double step = joint_step(arm, hold.joints, joints);
-    if (!(step < most_turn)) {
-        return {std::nullopt,
-                fmt::format("so near to a singular place a joint would turn {:.1f} deg in {} mm",
-                            to_degrees(step),
-                            ahead_mm)};
     }
     return {JointPositions((hold.joints - joints) * (speed / ahead_mm)), {}};
 }

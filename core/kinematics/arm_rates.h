@@ -2,6 +2,7 @@
 // base or of the tool asks of the motors. Lengths mm, angles rad, times s.
 #pragma once
 
+#include "core/kinematics/arm_hold.h"
 #include "core/kinematics/arm_model.h"
 
 #include <optional>
@@ -19,6 +20,10 @@ struct ArmRates {
 /// where it has joints enough. By the inverse a moment ahead, so that limits, reach and places where the arm
 /// is singular are refused before they are come to. Throws Defect if `velocity` is 0 or not finite.
 [[nodiscard]] ArmRates tip_rates(const ArmModel& arm, const JointPositions& joints, const Vec3& velocity);
+
+/// Where the joints are when the tip has gone straight by `way` (base's frame, mm), the tool leaning as for
+/// tip_rates(), and by the same refusals. Without the drift of rates that are summed up.
+[[nodiscard]] ArmHold moved_tip(const ArmModel& arm, const JointPositions& joints, const Vec3& way);
 
 /// The tool at `tip`, leaning as at `joints`: carried around the base's axis by an arm of the kind
 /// PlanarElbow.

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/internal/reach.h"
 #include "core/machine/internal/shared_log.h"
 #include "core/machine/survey.h"
 
@@ -88,10 +89,11 @@ public:
           const Job& job,
           JobLog& log,
           std::shared_ptr<const motion::Trajectory> trajectory,
-          DriverStatus before)
+          DriverStatus before,
+          internal::Reach reach)
         : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
-          plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
-          last_(std::move(before)), doubt_before_(last_.position_doubt) {
+          reach_(std::move(reach)), plans_itself_(dispatcher.driver_.capabilities().plans),
+          start_(dispatcher.clock_.now()), last_(std::move(before)), doubt_before_(last_.position_doubt) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
         log_ = std::make_shared<internal::SharedLog>(
@@ -120,6 +122,7 @@ public:
             write_waiting();
             log_->rethrow_failure();
             tell(progress, listener);
+            watch_reach(status);
             if (ended(status.state)) {
                 return outcome(status);
             }
@@ -128,12 +131,12 @@ public:
     }
 
     /// The last line of a job that ends by our own failure, if it still can be written.
-    void log_failure() noexcept {
+    void log_failure(const std::string& why) noexcept {
         try {
             remember(dispatcher_.driver_.status());
             LogRecord end = record(LogEvent::end, elapsed(), last_);
             end.end = JobEnd::fault;
-            end.text = "The job was broken off by a failure of this program.";
+            end.text = "The job was broken off: " + why + ".";
             log_->write(end);
         } catch (const std::exception&) {
             // The failure itself is on its way to the user, and a log without an end promises nothing.
@@ -145,6 +148,8 @@ private:
     const Job& job_;
     std::filesystem::path file_; ///< of the log
     std::shared_ptr<const motion::Trajectory> trajectory_;
+    internal::Reach reach_;
+    std::string beyond_; ///< what was seen of a machine that left the reach; empty: nothing
     bool plans_itself_ = false;
     double start_ = 0.0;
     DriverStatus last_; ///< with the last known position where the link is gone, or the position is lost
@@ -189,9 +194,22 @@ private:
         line.position_doubt = status.position_doubt;
         const auto next = static_cast<std::size_t>(status.executed_blocks);
         const auto& lines = job_.listing->line_of_block;
-        line.line = next < lines.size() ? lines[next] : job_.listing->line_count();
+        // In the approach: the line that it leads to, since those above are not of the file.
+        line.line = std::max(next < lines.size() ? lines[next] : job_.listing->line_count(), job_.from_line);
         line.position = job_.program != nullptr ? status.position : status.work_position();
         return line;
+    }
+
+    /// A machine that is where no line sends it is stopped.
+    void watch_reach(const DriverStatus& status) {
+        if (!beyond_.empty()) {
+            return;
+        }
+        beyond_ = reach_.watch(status, dispatcher_.clock_.now());
+        if (!beyond_.empty()) {
+            dispatcher_.driver_.break_off(beyond_);
+            last_.message = beyond_;
+        }
     }
 
     void write_requests() {
@@ -239,6 +257,9 @@ private:
     }
 
     [[nodiscard]] JobEnd end_of(const DriverStatus& status) const {
+        if (!beyond_.empty()) {
+            return JobEnd::fault;
+        }
         if (status.state == DriverState::idle && status.executed_blocks == blocks()) {
             return JobEnd::done;
         }
@@ -250,6 +271,7 @@ private:
 
     JobOutcome outcome(const DriverStatus& status) {
         write_requests(); // one that came between the last look at them and the end
+        last_.message = beyond_.empty() ? last_.message : beyond_;
         JobOutcome result;
         result.end = end_of(status);
         result.executed_blocks = last_.executed_blocks;
@@ -293,9 +315,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
-    if (text_alone) {
-        check(job);
-    }
+    internal::Reach reach = check(job, able, before);
     std::shared_ptr<const motion::Trajectory> trajectory;
     if (!text_alone) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
@@ -316,7 +336,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .options = job.options,
                        .from_line = job.from_line});
     progress.check();
-    Watch watch(*this, job, log, trajectory, before);
+    Watch watch(*this, job, log, trajectory, before, std::move(reach));
     try {
         Work work{job.program, trajectory, job.listing, {}};
         if (able.piecewise) {
@@ -324,15 +344,27 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
         }
         driver_.start(std::move(work));
         return watch.to_the_end(progress.part(planning, 1.0), listener);
-    } catch (...) {
+    } catch (const std::exception& failure) {
         bring_to_rest();
-        watch.log_failure();
+        watch.log_failure(failure.what());
+        throw;
+    } catch (...) { // cancelled, which is no std::exception
+        bring_to_rest();
+        watch.log_failure("it was cancelled");
         throw;
     }
 }
 
 /// A line in the middle is gone to by what the controller takes for its position.
-void Dispatcher::check_position(const Job& job, const DriverStatus& status) {
+void Dispatcher::check_position(const Job& job, const DriverStatus& status) const {
+    if (job.from_line > 1 && !status.position_known && driver_.capabilities().told_place) {
+        throw Error(
+            fmt::format("nobody has said where the machine stands, and it does not tell: line {} could begin "
+                        "anywhere",
+                        job.from_line),
+            {},
+            "read it at the machine and enter it");
+    }
     if (job.from_line > 1 && !status.position_doubt.empty()) {
         throw Error(fmt::format("{} Line {} could begin anywhere",
                                 doubt_sentence(status.position_doubt),
@@ -386,17 +418,20 @@ void Dispatcher::set_optional_stop(bool on) {
     request(LogEvent::optional_stop, on ? "on" : "off", [&] { driver_.set_optional_stop(on); });
 }
 
-/// What a controller would have to find out by moving: read by its own rules, from where it stands.
-void Dispatcher::check(const Job& job) const {
-    const Capabilities able = driver_.capabilities();
-    if (!able.dialect) {
-        return;
+/// What a controller would have to find out by moving: read by its own rules, from where it stands. Throws
+/// what is wrong with it; returns where it can lead.
+internal::Reach
+Dispatcher::check(const Job& job, const Capabilities& able, const DriverStatus& before) const {
+    if (!able.plans || !able.dialect) {
+        return {};
     }
+    const std::vector<StoredOffset> offsets = driver_.stored_offsets();
     const Survey found =
-        survey(job.listing->text,
-               job.project,
-               {*able.dialect, able.axes, driver_.status().position, driver_.stored_offsets()});
-    throw_first(faults_of(found, driver_.limits(), job.project));
+        survey(job.listing->text, job.project, {*able.dialect, able.axes, before.position, offsets});
+    if (job.program == nullptr) { // else it was checked block by block
+        throw_first(faults_of(found, driver_.limits(), job.project));
+    }
+    return {found, able.axes, before, offsets};
 }
 
 void Dispatcher::request(LogEvent event, std::string text, const std::function<void()>& command) {

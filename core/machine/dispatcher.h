@@ -15,6 +15,10 @@
 
 namespace millwright::machine {
 
+namespace internal {
+class Reach;
+}
+
 /// How a running job stands.
 struct JobReport {
     DriverStatus driver;
@@ -57,8 +61,9 @@ private:
     class Turn;
 
     void request(LogEvent event, std::string text, const std::function<void()>& command);
-    void check(const Job& job) const;
-    static void check_position(const Job& job, const DriverStatus& status);
+    [[nodiscard]] internal::Reach
+    check(const Job& job, const Capabilities& able, const DriverStatus& before) const;
+    void check_position(const Job& job, const DriverStatus& status) const;
     [[nodiscard]] std::vector<Request> take_requests();
     void bring_to_rest();
 

@@ -26,7 +26,15 @@ void Driver::jog(const Jog&) {
 
 void Driver::stop_jog() {}
 
+void Driver::break_off(std::string) {
+    stop();
+}
+
 void Driver::trust_position() {}
+
+void Driver::stands_at(const kinematics::AxisPositions&) {
+    refuse(*this, "be told where it stands");
+}
 
 void Driver::enable() {
     refuse(*this, "switch the power of its motors");
@@ -59,7 +67,8 @@ void Driver::set_optional_stop(bool on) {
 }
 
 std::string doubt_sentence(std::string_view why) {
-    return fmt::format("The position may be lost ({}): home the machine, or set its zero.", why);
+    return fmt::format(
+        "The position may be lost ({}): home the machine, set its zero, or say where it stands.", why);
 }
 
 std::string_view to_text(Activity activity) {

@@ -36,6 +36,7 @@ struct Capabilities {
     bool home = false;
     std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
     bool tells_spindle = true;      ///< whether it turns
+    bool told_place = false;        ///< does not tell where it stands: a person does, stands_at()
     bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
     bool probe = false;             ///< G38.2 as a command
     bool settings = false;          ///< has a table of its own that can be changed
@@ -55,6 +56,7 @@ struct MachineLimits {
         std::optional<double> acceleration{};
         std::optional<double> jog_speed{}; ///< in force for jogs
         std::optional<double> output_V{};  ///< greatest, to its amplifier
+        std::optional<double> travel{};    ///< its length, where nobody knows from where it counts
     };
     std::vector<Axis> axes;
     std::optional<double> spindle_rpm; ///< greatest
@@ -121,12 +123,18 @@ public:
     virtual void resume() = 0;
     /// Brakes along the path and forgets the program.
     virtual void stop() = 0;
+    /// Something is wrong that the driver cannot know: as stop(), and then, where the driver can, in alarm
+    /// with `why` as message.
+    virtual void break_off(std::string why);
     /// At once, whatever that does to the path.
     virtual void emergency_stop() = 0;
     /// After an alarm: a person has looked at the machine, it is idle again. Nothing moves.
     virtual void reset() = 0;
     /// A person has looked: the machine stands where DriverStatus::position says.
     virtual void trust_position();
+    /// A person has read at the machine where it stands. Throws Error unless it is at rest, and where
+    /// capabilities() says that it tells itself.
+    virtual void stands_at(const kinematics::AxisPositions& position);
     /// Something speaks against DriverStatus::position that the driver cannot know; `why` as
     /// DriverStatus::position_doubt. Drivers whose position cannot be wrong unnoticed do nothing.
     virtual void doubt_position(std::string why);

@@ -80,8 +80,9 @@ struct DriverStatus {
     std::string position_doubt;
     kinematics::AxisPositions velocity;
     bool powered = true; ///< its motors, where that is told
-    /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed.
-    /// Where the controller does not tell it is true.
+    /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed;
+    /// or it was assumed, until the machine was told to go somewhere or Driver::stands_at(). Where the
+    /// controller does not tell it is true.
     bool position_known = true;
     std::vector<MotorReading> motors; ///< of each axis; empty where the controller does not tell
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.

@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
 #include "core/gcode/reader/machine_program.h"
+#include "core/machine/internal/planned_text.h"
 #include "core/plot/path_file.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ gcode::Program program_of_path(const std::string& text,
                                const kinematics::MachineModel& machine,
                                const FileJobSettings& settings) {
     std::vector<int> lines;
-    const plot::CutPath path = plot::read_path(text, file, &lines);
+    plot::CutPath path = plot::read_path(text, file, &lines);
+    for (plot::CutPoint& point : path) {
+        point.at += settings.origin;
+    }
     gcode::Program program = gcode::plot_program(
         path, {.machine = machine.name(), .axes = gcode::plot_axes(machine), .spindle_rpm = 0.0});
     for (gcode::Block& block : program.blocks) {
@@ -43,8 +47,10 @@ Job file_job(const std::filesystem::path& file,
         job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, program));
         job.program = std::make_shared<const gcode::Program>(std::move(program));
         job.machine = std::move(machine);
+        job.hash = internal::hash_of(*job.listing, settings.origin);
     } else {
-        job = planned_job(text, file, std::move(machine), settings.start);
+        job = internal::planned_text(
+            text, file, std::move(machine), {.start = settings.start, .origin = settings.origin});
     }
     if (std::ranges::none_of(job.program->blocks, &gcode::Block::moves)) {
         throw Error(Diagnostic{{file, 1, 1, -1}, "the program moves nothing", {}});

@@ -1,6 +1,7 @@
 // Files as jobs of a machine that is moved position by position: G-code, and path files.
 #pragma once
 
+#include "core/geometry/vectors.h"
 #include "core/machine/job.h"
 
 #include <filesystem>
@@ -12,6 +13,7 @@ namespace millwright::machine {
 struct FileJobSettings {
     /// Where the machine stands; not given: at zero, or at its nearest limits.
     std::optional<kinematics::AxisPositions> start = {};
+    Vec3 origin = Vec3::Zero(); ///< where the file's zero lies on the machine
 };
 
 /// The job of a G-code file, or of a path file (core/plot/path_file.h), whose first line says so. The blocks

@@ -2,11 +2,10 @@
 
 #include "core/base/units.h"
 #include "core/gcode/reader/axes.h"
-#include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/line_ends.h"
-#include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/word_column.h"
 #include "core/kinematics/travel.h"
+#include "core/machine/internal/planned_text.h"
 
 #include <fmt/format.h>
 
@@ -83,18 +82,6 @@ private:
     }
 };
 
-/// mm and degrees, by the letters of the axes.
-gcode::AxisValues for_the_reader(const MachineModel& machine, const kinematics::AxisPositions& positions) {
-    gcode::AxisValues values;
-    for (int n = 0; n < machine.axis_count(); ++n) {
-        const kinematics::MachineAxis& axis = machine.axis(n);
-        const auto letter = std::ranges::find(gcode::axis_letters, axis.letter);
-        values[static_cast<std::size_t>(letter - gcode::axis_letters.begin())] =
-            axis.kind == kinematics::AxisKind::rotary ? to_degrees(positions[n]) : positions[n];
-    }
-    return values;
-}
-
 } // namespace
 
 std::string_view to_text(JobEnd end) {
@@ -148,31 +135,7 @@ Job planned_job(std::string_view text,
                 const std::filesystem::path& file,
                 std::shared_ptr<const MachineModel> machine,
                 std::optional<kinematics::AxisPositions> start) {
-    gcode::ReaderSettings settings;
-    settings.any_tool = true;
-    settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
-    if (start) { // what no word names stays where it is
-        settings.start = for_the_reader(*machine, *start);
-    }
-    gcode::MachineProgramBuilder builder(*machine, file, {.start = std::move(start)});
-    gcode::Interpreter reader(text, file, std::move(settings), builder);
-    reader.run();
-    gcode::MachineProgram made = builder.take();
-    for (const auto* faults : {&reader.errors(), &std::as_const(made.faults), &std::as_const(made.lost)}) {
-        if (!faults->empty()) {
-            throw Error(faults->front());
-        }
-    }
-    if (made.program.blocks.empty()) {
-        throw Error(Diagnostic{{file, 1, 1, -1}, "nothing in the program is to be executed", {}});
-    }
-    Job job;
-    job.name = file.stem().string();
-    job.project = file.string();
-    job.machine = std::move(machine);
-    job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, made.program));
-    job.program = std::make_shared<const gcode::Program>(std::move(made.program));
-    return job;
+    return internal::planned_text(text, file, std::move(machine), {.start = std::move(start)});
 }
 
 std::vector<Diagnostic> preflight(const Job& job) {

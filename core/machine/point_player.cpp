@@ -101,6 +101,22 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
     return found;
 }
 
+namespace {
+
+/// An axis that no record tells would stay where it is.
+void expect_all_told(const std::vector<Vec3>& points, const std::string& pattern) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        const char letter = "XYZ"[k];
+        const auto changes = [&](const Vec3& point) { return std::abs(point[k] - points.front()[k]) > 0.0; };
+        if (pattern.find({'{', letter, '}'}) == std::string::npos && std::ranges::any_of(points, changes)) {
+            throw Error(
+                fmt::format("the record '{}' does not tell {}, which the points change", pattern, letter));
+        }
+    }
+}
+
+} // namespace
+
 PointPlayer::PointPlayer(std::unique_ptr<Link> link,
                          Clock& clock,
                          std::shared_ptr<const std::vector<Vec3>> points,
@@ -113,6 +129,7 @@ PointPlayer::PointPlayer(std::unique_ptr<Link> link,
     if (points_->empty()) {
         throw Error("there is no point to play");
     }
+    expect_all_told(*points_, options.format.pattern);
     status_.position = points_->front();
 }
 
@@ -137,6 +154,10 @@ void PointPlayer::end(PlayState state, std::string sentence) {
     }
 }
 
+void PointPlayer::stop() {
+    end(PlayState::stopped, "stopped");
+}
+
 void PointPlayer::emergency_stop() {
     end(PlayState::emergency_stop, "emergency stop");
 }
@@ -151,11 +172,54 @@ std::string PointPlayer::complaint() {
     }
     inbox_.add(link_->read());
     while (const auto line = inbox_.next()) {
-        if (*line != options_.format.answer) {
-            return fmt::format("the table said '{}'", *line);
+        if (std::string why = heard(*line); !why.empty()) {
+            return why;
         }
     }
     return {};
+}
+
+std::string PointPlayer::heard(const std::string& line) {
+    if (line != options_.format.answer) {
+        return fmt::format("the table said '{}'", line);
+    }
+    if (!std::exchange(awaits_answer_, false)) {
+        return "the table answered a point that it was not sent";
+    }
+    take_answer();
+    return {};
+}
+
+/// The table has the point that was sent last.
+void PointPlayer::take_answer() {
+    const std::scoped_lock lock(mutex_);
+    status_.points = status_.sent;
+    status_.position = (*points_)[static_cast<std::size_t>(status_.sent) - 1];
+    status_.time = static_cast<double>(status_.sent - 1) * options_.period;
+}
+
+/// To the last point, if there is to be one.
+void PointPlayer::wait_for_answer(const std::stop_token& stop) {
+    const double end_of_patience = sent_at_ + options_.format.patience;
+    while (awaits_answer_ && status().state == PlayState::playing) {
+        if (const std::string why = complaint(); !why.empty()) {
+            return end(PlayState::emergency_stop, why);
+        }
+        if (stop.stop_requested()) {
+            return emergency_stop();
+        }
+        const double left = end_of_patience - clock_.now();
+        if (awaits_answer_ && !(left > 0.0)) {
+            return end(PlayState::emergency_stop,
+                       fmt::format("the table did not answer point {} within {} s",
+                                   status().sent,
+                                   options_.format.patience));
+        }
+        if (awaits_answer_) {
+            constexpr double glance = 0.02;
+            link_->wait(std::min(left, glance));
+        }
+    }
 }
 
 /// In glances, so that a stop is soon seen.
@@ -186,9 +250,14 @@ bool PointPlayer::send(std::size_t n, double due) {
     if (link_) {
         link_->write(text);
     }
-    status_.points = static_cast<std::int64_t>(n) + 1;
-    status_.position = point;
-    status_.time = static_cast<double>(n) * options_.period;
+    sent_at_ = clock_.now();
+    status_.sent = static_cast<std::int64_t>(n) + 1;
+    awaits_answer_ = link_ != nullptr && !options_.format.answer.empty();
+    if (!awaits_answer_) {
+        status_.points = status_.sent;
+        status_.position = point;
+        status_.time = static_cast<double>(n) * options_.period;
+    }
     return true;
 }
 
@@ -211,6 +280,7 @@ PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listen
     for (std::size_t n = 0; n < points_->size(); ++n) {
         const double due = begin + static_cast<double>(n) * interval;
         wait_until(due, stop);
+        wait_for_answer(stop);
         if (const std::string why = complaint(); !why.empty()) {
             end(PlayState::emergency_stop, why);
         }
@@ -236,6 +306,7 @@ void PointPlayer::hear_out(double due, const std::stop_token& stop) {
     if (!link_) {
         return;
     }
+    wait_for_answer(stop);
     constexpr double patience = 0.05; // s: longer than a wire takes
     wait_until(std::max(due, clock_.now() + patience), stop);
     if (const std::string why = complaint(); !why.empty()) {

@@ -34,14 +34,16 @@ enum class PlayState {
     ready,
     playing,
     done,          ///< every point was sent
+    stopped,       ///< by a person
     emergency_stop ///< or the link was lost, or the table complained; the sentence says which
 };
 
 struct PlayStatus {
     PlayState state = PlayState::ready;
-    std::int64_t points = 0;      ///< that were sent
-    Vec3 position = Vec3::Zero(); ///< the last of them; before that the first that will be
-    double time = 0.0;            ///< of the stream: points sent, times the period
+    std::int64_t sent = 0;        ///< points
+    std::int64_t points = 0;      ///< of these, that the table has: those that it answered, where it answers
+    Vec3 position = Vec3::Zero(); ///< the last of them; before that the first that will be sent
+    double time = 0.0;            ///< of the stream: points that the table has, times the period
     Jitter jitter;
     std::string sentence; ///< why it ended early
 };
@@ -59,7 +61,8 @@ struct PlayStatus {
                                                    const std::filesystem::path& file);
 
 /// Times are counted from the first point, so that delays do not add up. A late point is sent at once, and
-/// the next one in its own time.
+/// the next one in its own time. Where the format names an answer no point is sent before the table has
+/// answered the one before; it stops where that takes longer than the format's patience.
 class PointPlayer {
 public:
     /// Without a link it plays for the eyes alone. `clock` must outlive it. Throws Error for options out of
@@ -79,12 +82,16 @@ public:
     /// here, now and then. Throws Error if there is nothing at the other end, or if it was played before.
     PlayStatus play(const std::stop_token& stop, const Listener& listener = {});
     /// From any thread: no point is sent any more when this returns.
-    void emergency_stop();
+    void stop();
+    void emergency_stop(); ///< the same, and says so
     [[nodiscard]] PlayStatus status() const;
 
 private:
     void wait_until(double time, const std::stop_token& stop);
     void hear_out(double due, const std::stop_token& stop);
+    void wait_for_answer(const std::stop_token& stop);
+    void take_answer();
+    [[nodiscard]] std::string heard(const std::string& line);
     [[nodiscard]] bool send(std::size_t n, double due);
     void end(PlayState state, std::string sentence);
     [[nodiscard]] std::string complaint();
@@ -98,7 +105,9 @@ private:
     std::array<std::size_t, 3> index_{}; ///< of X, Y, Z among the machine's axes
     std::vector<double> axes_;           ///< of the machine, at the last point
     AnswerLines inbox_;
-    mutable std::mutex mutex_; ///< guards what follows, and each sending
+    bool awaits_answer_ = false; ///< to the last point
+    double sent_at_ = 0.0;       ///< of the clock, the last point
+    mutable std::mutex mutex_;   ///< guards what follows, and each sending
     bool begun_ = false;
     PlayStatus status_;
     JitterMeter meter_;

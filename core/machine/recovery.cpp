@@ -69,6 +69,9 @@ JobStory job_story(const fs::path& log_file) {
     story.executed_blocks = log.executed_blocks();
     story.allowed_blocks = log.allowed_blocks();
     story.next_line = log.next_line();
+    if (story.next_line > 0) { // what stands above is an approach, which is not of the file
+        story.next_line = std::max(story.next_line, log.start.from_line);
+    }
     if (!log.records.empty()) {
         story.time = log.records.back().time;
         story.position = log.records.back().position;

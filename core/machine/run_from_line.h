@@ -12,8 +12,9 @@
 
 namespace millwright::machine {
 
-/// Lines that the approach to a block of a planned program may take: it begins in its middle below them.
-constexpr int approach_lines = 11;
+/// Lines that the approach to a block of a planned program may take (off, across, spindle, its time, coolant,
+/// down, down along the tool): it begins in its middle below them.
+constexpr int approach_lines = 7;
 /// The same of a text: as many as its state needs, and so many at least (modes, up, across, down, motion).
 constexpr int fewest_approach_lines = 5;
 

@@ -23,6 +23,7 @@ using gcode::Move;
 using gcode::MoveKind;
 
 constexpr double seconds_per_minute = 60.0;
+constexpr double rounding = 1e-6; // mm or rad: of positions that went through texts and units
 
 class Surveyor final : public gcode::CanonSink {
 public:
@@ -33,6 +34,7 @@ public:
         if (move.kind != MoveKind::traverse && move.kind != MoveKind::probe) {
             cut(move.source.line);
         }
+        found_.probes = found_.probes || move.kind == MoveKind::probe;
         if (move.kind == MoveKind::arc) {
             take_arc(begin, move);
         }
@@ -156,6 +158,42 @@ AxisValues values_of(const kinematics::AxisPositions& axes, const std::vector<gc
     return values;
 }
 
+void take_start(Survey& found, const SurveySettings& settings) {
+    for (Eigen::Index n = 0; n < settings.start.size() && n < std::ssize(settings.axes); ++n) {
+        found.start[index_of(settings.axes[static_cast<std::size_t>(n)].letter)] = settings.start[n];
+    }
+}
+
+/// From the lowest place of an axis to its highest, as long as it is known where the axis stands before.
+void check_length(const MachineLimits::Axis& axis,
+                  Survey::Range range,
+                  std::optional<double> start,
+                  const std::filesystem::path& file,
+                  std::vector<Diagnostic>& faults) {
+    if (start && *start < range.min) {
+        range.min = *start;
+        range.min_line = 0;
+    }
+    if (start && *start > range.max) {
+        range.max = *start;
+        range.max_line = 0;
+    }
+    const double way = range.max - range.min;
+    if (way <= *axis.travel + rounding) {
+        return;
+    }
+    const bool up = range.max_line >= range.min_line; // the later end is the one that is too far
+    faults.push_back({{file, up ? range.max_line : range.min_line, 0, -1},
+                      fmt::format("axis {} would go from {} to {} in machine coordinates, {}, and its whole "
+                                  "travel is {}",
+                                  axis.letter,
+                                  in_people_units(axis.letter, up ? range.min : range.max),
+                                  in_people_units(axis.letter, up ? range.max : range.min),
+                                  in_people_units(axis.letter, way),
+                                  in_people_units(axis.letter, *axis.travel)),
+                      "check unit and program, and the travel that the controller was told"});
+}
+
 /// LinuxCNC's number of the first of the nine parameters of a stored offset; 0 for others.
 int first_parameter(std::string_view name) {
     constexpr int first_system = 5221;
@@ -172,6 +210,7 @@ int first_parameter(std::string_view name) {
 
 Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
     Survey found;
+    take_start(found, settings);
     gcode::ReaderSettings reading;
     reading.dialect = settings.dialect;
     reading.any_tool = true;
@@ -201,9 +240,9 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
 std::vector<Diagnostic>
 faults_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file) {
     std::vector<Diagnostic> faults = survey.errors;
-    constexpr double rounding = 1e-6;
     for (const MachineLimits::Axis& axis : limits.axes) {
-        const Survey::Range& range = survey.ranges[index_of(axis.letter)];
+        const std::size_t index = index_of(axis.letter);
+        const Survey::Range& range = survey.ranges[index];
         const auto outside = [&](double value, int line) {
             faults.push_back({{file, line, 0, -1},
                               fmt::format("axis {} would go to {} in machine coordinates, outside {} ... {}",
@@ -218,6 +257,9 @@ faults_of(const Survey& survey, const MachineLimits& limits, const std::filesyst
         }
         if (!range.empty() && axis.max && range.max > *axis.max + rounding) {
             outside(range.max, range.max_line);
+        }
+        if (!range.empty() && axis.travel && !axis.min && !axis.max) {
+            check_length(axis, range, survey.start[index], file, faults);
         }
     }
     return faults;

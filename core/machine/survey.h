@@ -26,7 +26,10 @@ struct Survey {
     };
 
     std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
-    double greatest_feed = 0.0;                  ///< mm/s, per minute feeds alone
+    /// Where the machine stands before, mm and rad; only for axes whose place SurveySettings::start tells.
+    std::array<std::optional<double>, gcode::axis_count> start;
+    bool probes = false;        ///< so that nobody knows beforehand where some of its moves end
+    double greatest_feed = 0.0; ///< mm/s, per minute feeds alone
     int greatest_feed_line = 0;
     double greatest_spindle_rpm = 0.0;
     std::vector<int> tools;         ///< numbers that are called, in their order, each once
@@ -48,7 +51,8 @@ struct SurveySettings {
 [[nodiscard]] Survey
 survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings);
 
-/// What stands against running it: errors and ways beyond the travel.
+/// What stands against running it: errors, ways beyond the travel, and ways longer than a travel of which
+/// only the length is known.
 [[nodiscard]] std::vector<Diagnostic>
 faults_of(const Survey& survey, const MachineLimits& limits, const std::filesystem::path& file);
 /// What a person should know before: tools, feeds and speeds that the machine cannot reach, a cut without

@@ -21,6 +21,7 @@ struct TaughtPoint {
 struct PathPlace {
     Vec3 at_mm = Vec3(800.0, 0.0, 0.0);
     Vec3 turned_deg = Vec3::Zero();
+    double most_lean_deg = 90.0; ///< of the tool from what is programmed, where too few joints hold it
 
     friend bool operator==(const PathPlace&, const PathPlace&) = default;
 };

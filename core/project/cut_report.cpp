@@ -4,6 +4,7 @@
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
@@ -49,14 +50,15 @@ Json local_gouges(const CutStudy& study) {
 std::string cut_report_text(const Project& project, const Plan& plan) {
     expects(plan.cut && plan.trajectory, "a plan has its study before it is reported");
     const CutStudy& study = *plan.cut;
-    const Evaluation& evaluation = *plan.evaluation(project.grid.method);
+    const Evaluation& evaluation = *plan.program_path(project);
     Json json;
     json["format"] = "millwright-cut";
     json["version"] = 1;
     json["made_by"] = "Millwright " + std::string(version());
     json["project"] = project.name;
     json["tool"] = tool_text(project.tool);
-    json["grid"] = row_of(grid_methods(), project.grid.method).id;
+    json["strategy"] = row_of(strategies(), project.toolpath.strategy).id;
+    json["grid"] = row_of(grid_methods(), program_grid(project)).id;
     json["error_mm"]["max"] = rounded(evaluation.closest.max);
     json["error_mm"]["mean"] = rounded(evaluation.closest.mean);
     json["error_mm"]["p95"] = rounded(evaluation.closest.p95);

@@ -144,19 +144,29 @@ sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double h
     return settings;
 }
 
-ScallopFigures figures_of(const toolpath::SweptCut& swept, double by_formula) {
+/// Of the points inside `trim`.
+ScallopFigures figures_of(const toolpath::SweptCut& swept, const geometry::Trim& trim, double by_formula) {
     ScallopFigures figures;
     figures.by_formula = by_formula;
     std::vector<double> left;
-    for (const double height : swept.heights) {
-        if (std::isfinite(height)) {
-            left.push_back(std::max(height, 0.0));
+    int inside = 0;
+    for (int i = 0; i < swept.nu; ++i) {
+        for (int j = 0; j < swept.nv; ++j) {
+            if (!trim.contains(
+                    {static_cast<double>(i) / (swept.nu - 1), static_cast<double>(j) / (swept.nv - 1)})) {
+                continue;
+            }
+            ++inside;
+            if (const double height = swept.height(i, j); std::isfinite(height)) {
+                left.push_back(std::max(height, 0.0));
+            }
         }
     }
-    figures.not_cut = 1.0 - static_cast<double>(left.size()) / static_cast<double>(swept.heights.size());
     if (left.empty()) {
+        figures.not_cut = inside > 0 ? 1.0 : 0.0;
         return figures;
     }
+    figures.not_cut = 1.0 - static_cast<double>(left.size()) / inside;
     std::sort(left.begin(), left.end());
     double sum = 0.0;
     for (const double height : left) {
@@ -169,10 +179,11 @@ ScallopFigures figures_of(const toolpath::SweptCut& swept, double by_formula) {
     return figures;
 }
 
-void add_bites(CutStudy& study, const gcode::Listing& listing, const std::vector<int>& blocks, double limit) {
+/// Without a listing the lines are 0.
+void add_bites(CutStudy& study, const gcode::Listing* listing, const std::vector<int>& blocks, double limit) {
     for (std::size_t n = 0; n < blocks.size(); ++n) {
         const toolpath::MoveBites& bites = study.swept.moves[n];
-        const int line = listing.line_of_block[static_cast<std::size_t>(blocks[n])];
+        const int line = listing != nullptr ? listing->line_of_block[static_cast<std::size_t>(blocks[n])] : 0;
         study.deepest = std::max(study.deepest, bites.cutter.depth);
         if (bites.cutter.depth > limit) {
             study.bites.push_back({blocks[n], line, false, bites.cutter});
@@ -183,37 +194,78 @@ void add_bites(CutStudy& study, const gcode::Listing& listing, const std::vector
     }
 }
 
-} // namespace
-
-CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress) {
-    const auto& chosen = plan.evaluation(project.grid.method);
-    expects(plan.workpiece && chosen && plan.program && plan.listing, "a plan has the program that is cut");
-    const Workpiece& workpiece = *plan.workpiece;
+CutStudy study(const Workpiece& workpiece,
+               const ToolInput& input,
+               const Evaluation& path,
+               const gcode::Program& program,
+               const gcode::Listing* listing,
+               const Progress& progress) {
     const toolpath::Tool& tool = workpiece.tool;
     if (!tool.cutter) {
         throw Error("the tool is a point, which leaves nothing and fits everywhere");
     }
     CutStudy study;
-    study.local_gouges = local_gouges(workpiece, *tool.cutter, chosen->toolpath);
-    const Ridges ridges = ridges_of(workpiece, *tool.cutter, chosen->toolpath, project.tool.scallop_mm);
+    study.local_gouges = local_gouges(workpiece, *tool.cutter, path.toolpath);
+    const Ridges ridges = ridges_of(workpiece, *tool.cutter, path.toolpath, input.scallop_mm);
     study.step_over = ridges.step_over;
     progress.report(0.0, "Sweeping the tool over the surface");
-    const ProgramMoves moves = moves_of(*plan.program);
+    const ProgramMoves moves = moves_of(program);
     study.swept = toolpath::swept_cut(workpiece.patch,
                                       workpiece.flipped,
                                       workpiece.machine,
                                       tool,
                                       moves.moves,
-                                      sweep_settings(chosen->outcome.grid, *tool.cutter, ridges.highest),
+                                      sweep_settings(path.outcome.grid, *tool.cutter, ridges.highest),
                                       progress);
-    study.scallops = figures_of(study.swept, ridges.highest);
-    add_bites(study, *plan.listing, moves.blocks, project.tool.gouge_limit_mm);
+    study.scallops = figures_of(study.swept, workpiece.trim, ridges.highest);
+    add_bites(study, listing, moves.blocks, input.gouge_limit_mm);
     return study;
+}
+
+} // namespace
+
+CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress) {
+    const auto& chosen = plan.program_path(project);
+    expects(plan.workpiece && chosen && plan.program && plan.listing, "a plan has the program that is cut");
+    return study(*plan.workpiece, project.tool, *chosen, *plan.program, plan.listing.get(), progress);
+}
+
+CutStudy study_cut_of(GridMethod method, const Plan& plan, const Project& project, const Progress& progress) {
+    const auto& path = plan.evaluation(method);
+    expects(plan.workpiece && path, "there is the grid whose cut is studied");
+    const gcode::PostResult posted = gcode::post(plan.workpiece->machine,
+                                                 path->toolpath,
+                                                 path->axes,
+                                                 program_settings(project.program),
+                                                 {},
+                                                 progress.part(0.0, 0.0));
+    return study(*plan.workpiece, project.tool, *path, posted.program, nullptr, progress);
 }
 
 void add_cut_study(Plan& plan, const Project& project, const Progress& progress) {
     if (plan.workpiece->tool.cutter) {
         plan.cut = std::make_shared<const CutStudy>(study_cut(plan, project, progress));
+    }
+}
+
+void add_compared_cuts(Plan& plan, const Project& project, const Progress& progress) {
+    if (!plan.workpiece->tool.cutter) {
+        return;
+    }
+    const double share = 1.0 / static_cast<double>(every_grid_method.size());
+    double from = 0.0;
+    for (const GridMethod method : every_grid_method) {
+        const auto& path = plan.evaluation(method);
+        auto& cut = plan.compared_cuts[static_cast<std::size_t>(method)];
+        if (path && path != plan.program_path(project) && !cut) {
+            try {
+                cut = std::make_shared<const CutStudy>(
+                    study_cut_of(method, plan, project, progress.part(from, from + share)));
+            } catch (const Error&) { // such a program is beyond the machine's limits: it has no time either
+                cut = nullptr;
+            }
+        }
+        from += share;
     }
 }
 

@@ -46,8 +46,17 @@ struct CutStudy {
 /// `plan` has the program. Throws Error if the project's tool is a point, and Cancelled.
 [[nodiscard]] CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress);
 
+/// The same of another grid of `plan`, on the program it would have; its bites are in no line (0). Throws
+/// Error too where the machine can run none.
+[[nodiscard]] CutStudy
+study_cut_of(GridMethod method, const Plan& plan, const Project& project, const Progress& progress);
+
 /// The study into `plan`, where the tool has a body. Throws Cancelled, then `plan` is as it was.
 void add_cut_study(Plan& plan, const Project& project, const Progress& progress);
+
+/// Those of the grids beside the program's into `plan`, where the tool has a body and the machine can run
+/// them. Throws Cancelled.
+void add_compared_cuts(Plan& plan, const Project& project, const Progress& progress);
 
 /// cut.json: docs/reference/cutter.md. `plan` has its study.
 [[nodiscard]] std::string cut_report_text(const Project& project, const Plan& plan);

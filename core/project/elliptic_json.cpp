@@ -47,6 +47,33 @@ Json json_of(const grid::Field& field) {
     return rows;
 }
 
+grid::Region region_of(const JsonValue& value) {
+    expect_fields<grid::Region>(value, region_numbers(), {"outline"});
+    grid::Region region;
+    read_numbers<grid::Region>(value, region_numbers(), region);
+    const JsonValue outline = value.at("outline");
+    for (const JsonValue& corner : outline.items()) {
+        const std::vector<JsonValue> uv = corner.items(2);
+        region.outline.emplace_back(uv[0].number(0.0, 1.0), uv[1].number(0.0, 1.0));
+    }
+    const auto count = std::ssize(region.outline);
+    if ((count > 0 && count < grid::fewest_corners) || count > grid::most_corners) {
+        outline.fail(fmt::format(
+            "an outline has {} to {} corners, [u, v] each", grid::fewest_corners, grid::most_corners));
+    }
+    return region;
+}
+
+Json json_of(const grid::Region& region) {
+    Json json;
+    json["outline"] = Json::array();
+    for (const Vec2& corner : region.outline) {
+        json["outline"].push_back(Json::array({corner.x(), corner.y()}));
+    }
+    add_numbers<grid::Region>(json, region_numbers(), region);
+    return json;
+}
+
 Json json_of(const grid::MixSettings& mix) {
     Json json;
     add_numbers<grid::MixSettings>(json, mix_numbers(), mix);
@@ -58,11 +85,15 @@ Json json_of(const grid::MixSettings& mix) {
 
 EllipticInput elliptic_of(const JsonValue& value) {
     expect_fields<EllipticInput>(
-        value, elliptic_numbers(), {"weight", "expression", "sliding_boundary", "mix", "painted", "solver"});
+        value,
+        elliptic_numbers(),
+        {"weight", "expression", "sliding_boundary", "any_memory", "mix", "painted", "region", "solver"});
     EllipticInput result;
     read_numbers<EllipticInput>(value, elliptic_numbers(), result);
     read_choice(value, "weight", weight_sources(), result.weight);
-    read_choice(value, "solver", elliptic_solvers(), result.solver);
+    if (!names_harmonic_solver(value)) {
+        read_choice(value, "solver", elliptic_solvers(), result.solver);
+    }
     if (const auto expression = value.find("expression")) {
         result.expression = expression->text();
     }
@@ -72,8 +103,17 @@ EllipticInput elliptic_of(const JsonValue& value) {
     if (const auto painted = value.find("painted")) {
         result.painted = field_of(*painted);
     }
+    if (const auto region = value.find("region")) {
+        result.region = region_of(*region);
+    }
     read_flag(value, "sliding_boundary", result.sliding_boundary);
+    read_flag(value, "any_memory", result.any_memory);
     return result;
+}
+
+bool names_harmonic_solver(const JsonValue& elliptic) {
+    const auto solver = elliptic.find("solver");
+    return solver && solver->text() == "harmonic";
 }
 
 Json json_of(const EllipticInput& input) {
@@ -86,11 +126,17 @@ Json json_of(const EllipticInput& input) {
     if (input.painted) {
         json["painted"] = json_of(*input.painted);
     }
+    if (!(input.region == grid::Region{})) {
+        json["region"] = json_of(input.region);
+    }
     if (input.solver != EllipticInput{}.solver) {
         json["solver"] = row_of(elliptic_solvers(), input.solver).id;
     }
     add_numbers<EllipticInput>(json, elliptic_numbers(), input);
     json["sliding_boundary"] = input.sliding_boundary;
+    if (input.any_memory) { // said where it was allowed only
+        json["any_memory"] = true;
+    }
     return json;
 }
 

@@ -1,8 +1,9 @@
 #include "core/project/evaluation.h"
 
 #include "core/toolpath/tool_poses.h"
-#include "core/toolpath/zigzag.h"
+#include "core/toolpath/trimmed_path.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::project {
@@ -12,27 +13,67 @@ using toolpath::MoveKind;
 
 namespace {
 
-toolpath::SequencedPath
-path_of(const Workpiece& workpiece, const grid::Grid& grid, const Progress& progress) {
+toolpath::SequencedPath path_of(const Workpiece& workpiece,
+                                const grid::Grid& grid,
+                                const toolpath::StrategySettings& strategy,
+                                const Progress& progress) {
+    constexpr double covering = 0.5; // share of the work
+    const toolpath::Covering all{
+        workpiece.patch, workpiece.machine, workpiece.tool, grid, workpiece.direction, workpiece.flipped};
+    toolpath::Toolpath contacts =
+        toolpath::trimmed(workpiece.patch,
+                          workpiece.trim,
+                          toolpath::make_strategy(strategy)->contacts(all, progress.part(0.0, covering)),
+                          workpiece.flipped);
     toolpath::Toolpath path =
-        toolpath::with_tool(workpiece.patch,
-                            workpiece.machine,
-                            workpiece.tool,
-                            toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped));
+        toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));
     if (workpiece.angle_mode == kinematics::AngleMode::consistent) {
-        return toolpath::sequenced(
-            workpiece.patch, workpiece.machine, std::move(path), workpiece.sequencing, progress);
+        return toolpath::sequenced(workpiece.patch,
+                                   workpiece.machine,
+                                   std::move(path),
+                                   workpiece.sequencing,
+                                   progress.part(covering, 1.0));
     }
     toolpath::AxisPath axes = toolpath::sequence_by_formulas(workpiece.machine, path, workpiece.angle_mode);
     return {std::move(path), std::move(axes)};
 }
 
+grid::TrackDirection across(grid::TrackDirection direction) {
+    return direction == grid::TrackDirection::along_v ? grid::TrackDirection::along_u
+                                                      : grid::TrackDirection::along_v;
+}
+
+std::optional<double>
+track_gap(const Workpiece& workpiece, const grid::Grid& grid, toolpath::StrategyKind strategy) {
+    const toolpath::KinematicError model = workpiece.error_model();
+    switch (strategy) {
+    case toolpath::StrategyKind::zigzag:
+        return model.track_gap(grid, workpiece.direction);
+    case toolpath::StrategyKind::spiral: // two sides of each round go across
+        return std::max(model.track_gap(grid, workpiece.direction),
+                        model.track_gap(grid, across(workpiece.direction)));
+    case toolpath::StrategyKind::fewest_points:
+        return model.track_gap(grid::Grid::uniform(grid.nu(), grid.nv()), workpiece.direction);
+    case toolpath::StrategyKind::constant_scallop:
+        break;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
+    return evaluate(workpiece, std::move(outcome), {}, samples, progress);
+}
+
+Evaluation evaluate(const Workpiece& workpiece,
+                    GridOutcome outcome,
+                    const toolpath::StrategySettings& strategy,
+                    int samples,
+                    const Progress& progress) {
     progress.check();
     constexpr double sequencing = 0.3; // share of the work
-    toolpath::SequencedPath path = path_of(workpiece, outcome.grid, progress.part(0.0, sequencing));
+    toolpath::SequencedPath path = path_of(workpiece, outcome.grid, strategy, progress.part(0.0, sequencing));
     toolpath::ErrorField field = toolpath::error_field(workpiece.patch,
                                                        workpiece.machine,
                                                        path.toolpath,
@@ -42,7 +83,7 @@ Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples
     const grid::ErrorSummary closest = toolpath::summary(field, Distance::closest, MoveKind::track);
     const grid::ErrorSummary param = toolpath::summary(field, Distance::param, MoveKind::track);
     const grid::ErrorSummary cross = toolpath::summary(field, Distance::closest, MoveKind::cross);
-    const double gap = workpiece.error_model().track_gap(outcome.grid, workpiece.direction);
+    const std::optional<double> gap = track_gap(workpiece, outcome.grid, strategy.kind);
     const double length = toolpath::length(path.toolpath);
     return {std::move(outcome),
             std::move(path.toolpath),

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/geometry/trim.h"
 #include "core/grid/improver.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/kinematic_error.h"
 #include "core/toolpath/sequenced_path.h"
+#include "core/toolpath/strategy.h"
 
 #include <optional>
 #include <string>
@@ -22,7 +24,8 @@ struct GridOutcome {
     /// Of the moves inside tracks: distance to the surface curve between the nodes, as the improver measured
     /// it at its start and for `grid`. Nothing for the uniform grid.
     std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
-    std::string note = {}; ///< one sentence; empty for the uniform grid
+    std::string note = {};    ///< one sentence; empty for the uniform grid
+    std::string warning = {}; ///< about the weight that it was to be made by; empty: nothing is wrong
 };
 
 struct Evaluation {
@@ -34,7 +37,8 @@ struct Evaluation {
     grid::ErrorSummary closest, param;
     /// Over the moves from track to track.
     grid::ErrorSummary cross_closest;
-    double track_gap = 0.0;   ///< mm
+    /// Largest distance of neighbouring tracks, mm; nothing where the strategy sets its tracks itself.
+    std::optional<double> track_gap;
     double path_length = 0.0; ///< mm
 };
 
@@ -47,13 +51,22 @@ struct Workpiece {
     kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
     toolpath::Tool tool = {};
     toolpath::SequencingSettings sequencing = {}; ///< of consistent angles
+    geometry::Trim trim = {};                     ///< what of the patch is cut
 
     [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped, tool}; }
 };
 
-/// `samples` times inside each move, as in toolpath::error_field. Throws Error where a pose cannot be reached
-/// or a normal is degenerate.
+/// The zigzag over the grid, looked at `samples` times inside each move, as in toolpath::error_field. Throws
+/// Error where a pose cannot be reached or a normal is degenerate.
 [[nodiscard]] Evaluation
 evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress);
+
+/// The same of another strategy's path over the grid. Throws Error too where the surface cannot be covered
+/// like this.
+[[nodiscard]] Evaluation evaluate(const Workpiece& workpiece,
+                                  GridOutcome outcome,
+                                  const toolpath::StrategySettings& strategy,
+                                  int samples,
+                                  const Progress& progress);
 
 } // namespace millwright::project

@@ -1,10 +1,13 @@
 #include "core/project/grids.h"
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/grid/chain_optimiser.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/grid/expression_weight.h"
+#include "core/grid/redistribution.h"
 #include "core/grid/track_optimiser.h"
+#include "core/project/internal/sentences.h"
 
 #include <fmt/format.h>
 
@@ -81,14 +84,18 @@ grid::WeightPtr mixed_weight_of(const GridInput& input, const PatchPtr& patch, c
     return grid::mixed_weight(reasons, mix, input.nu, input.nv);
 }
 
-grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
-    grid::EllipticAdaptationSettings settings = input.elliptic.solver == grid::EllipticMethod::harmonic
-                                                    ? grid::harmonic_settings()
-                                                    : grid::EllipticAdaptationSettings{};
-    settings.method = input.elliptic.solver;
+/// Of the elliptic grid, or of the harmonic map.
+grid::EllipticAdaptationSettings
+adaptation_settings(GridMethod method, const GridInput& input, const geometry::BezierPatch& patch) {
+    grid::EllipticAdaptationSettings settings =
+        method == GridMethod::harmonic ? grid::harmonic_settings() : grid::EllipticAdaptationSettings{};
+    if (method == GridMethod::elliptic) {
+        settings.method = input.elliptic.solver;
+        settings.functional = {.adaptation = input.elliptic.adaptation,
+                               .orthogonality = input.elliptic.orthogonality};
+    }
     settings.direction = input.direction;
-    settings.functional = {.adaptation = input.elliptic.adaptation,
-                           .orthogonality = input.elliptic.orthogonality};
+    settings.region = region_weight(input, patch);
     settings.boundary = input.elliptic.sliding_boundary ? grid::Boundary::sliding : grid::Boundary::fixed;
     settings.tolerance = input.elliptic.tolerance;
     settings.max_iterations = input.elliptic.max_iterations;
@@ -97,8 +104,9 @@ grid::EllipticAdaptationSettings elliptic_settings(const GridInput& input) {
 }
 
 std::unique_ptr<grid::GridImprover>
-make_adaptation(const GridInput& input, const grid::Grid& start, const toolpath::KinematicError& error) {
-    const grid::EllipticAdaptationSettings settings = elliptic_settings(input);
+make_adaptation(GridMethod method, const GridInput& input, const toolpath::KinematicError& error) {
+    const grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
+    const grid::EllipticAdaptationSettings settings = adaptation_settings(method, input, error.patch());
     if (input.elliptic.weight == WeightSource::error) {
         return std::make_unique<grid::EllipticAdaptation>(error, start, settings);
     }
@@ -110,6 +118,33 @@ make_adaptation(const GridInput& input, const grid::Grid& start, const toolpath:
         error, start, settings, [input, patch = error.patch()](const grid::WeightPtr& density) {
             return chosen_weight(input, patch, density);
         });
+}
+
+/// Bytes, at most; nothing where nobody knows.
+std::optional<std::size_t> memory_of(GridMethod method, const GridInput& input) {
+    if (method != GridMethod::elliptic && method != GridMethod::harmonic) {
+        return std::nullopt;
+    }
+    return grid::memory_bytes(method == GridMethod::harmonic ? grid::EllipticMethod::harmonic
+                                                             : input.elliptic.solver,
+                              input.nu,
+                              input.nv);
+}
+
+double megabytes(std::size_t bytes) {
+    constexpr double bytes_a_megabyte = 1e6;
+    return std::ceil(static_cast<double>(bytes) / bytes_a_megabyte);
+}
+
+/// Where the sequencing has put points between the nodes: no improver knows of them.
+std::string added_points_sentence(const Evaluation& found) {
+    const grid::Grid& grid = found.outcome.grid;
+    const auto added = std::ssize(found.toolpath.points) - static_cast<std::ptrdiff_t>(grid.nu()) * grid.nv();
+    return added <= 0 ? std::string()
+                      : fmt::format("Its nodes were placed for moves without the {} {} that the "
+                                    "sequencing added between them.",
+                                    added,
+                                    added == 1 ? "point" : "points");
 }
 
 } // namespace
@@ -157,6 +192,12 @@ chosen_weight(const GridInput& input, const geometry::BezierPatch& patch, const 
     return nullptr;
 }
 
+grid::WeightPtr region_weight(const GridInput& input, const geometry::BezierPatch& patch) {
+    return input.elliptic.region.everywhere()
+               ? nullptr
+               : grid::field_weight(grid::share_of(input.elliptic.region, patch), input.nu, input.nv);
+}
+
 bool paint_weight(EllipticInput& input,
                   const geometry::BezierPatch& patch,
                   const Vec2& from,
@@ -165,20 +206,44 @@ bool paint_weight(EllipticInput& input,
     if (!input.painted) {
         input.painted = grid::Field::constant(fresh_painted, fresh_painted, 0.0);
     }
-    const bool begun = grid::dab(*input.painted, patch, from, brush);
-    return grid::stroke(*input.painted, patch, from, to, brush) || begun;
+    return from == to ? grid::dab(*input.painted, patch, from, brush)
+                      : grid::stroke(*input.painted, patch, from, to, brush);
+}
+
+void let_paint_count(EllipticInput& input) {
+    if (input.weight == WeightSource::expression) {
+        input.mix.error = 0.0;
+        input.mix.expression = std::max(input.mix.expression, 1.0);
+    }
+    input.weight = WeightSource::mixed;
+    if (!(input.mix.painted > 0.0)) {
+        input.mix.painted = 1.0;
+    }
 }
 
 std::string memory_sentence(GridMethod method, const GridInput& input) {
-    if (method != GridMethod::elliptic) {
-        return {};
+    const std::optional<std::size_t> bytes = memory_of(method, input);
+    return !bytes ? std::string()
+                  : fmt::format("The {} of {} x {} nodes takes at most {:.0f} MB",
+                                method == GridMethod::harmonic ? "harmonic map" : "elliptic grid",
+                                input.nu,
+                                input.nv,
+                                megabytes(*bytes));
+}
+
+std::optional<Diagnostic>
+memory_fault(GridMethod method, const GridInput& input, const std::optional<std::size_t>& free) {
+    const std::optional<std::size_t> bytes = memory_of(method, input);
+    if (!bytes || !free || *bytes <= *free / 2) {
+        return std::nullopt;
     }
-    constexpr double bytes_a_megabyte = 1e6;
-    const auto bytes = grid::memory_bytes(input.elliptic.solver, input.nu, input.nv);
-    return fmt::format("The elliptic grid of {} x {} nodes takes at most {:.0f} MB",
-                       input.nu,
-                       input.nv,
-                       std::ceil(static_cast<double>(bytes) / bytes_a_megabyte));
+    return Diagnostic{
+        {},
+        fmt::format("{}, more than half of the {:.0f} MB that are free",
+                    memory_sentence(method, input),
+                    megabytes(*free)),
+        "take fewer nodes or another solver, or allow it: grid/elliptic/any_memory, --any-memory, "
+        "\"Take the memory\" in the Grid workspace"};
 }
 
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
@@ -186,9 +251,17 @@ std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const toolpath::KinematicError& error,
                                                   Effort effort) {
     expects(method != GridMethod::uniform, "the uniform grid is not improved");
+    if (auto fault = memory_fault(method, input, free_memory()); fault && !input.elliptic.any_memory) {
+        throw Error(*std::move(fault));
+    }
+    if (method == GridMethod::elliptic || method == GridMethod::harmonic) {
+        return make_adaptation(method, input, error);
+    }
     grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
-    if (method == GridMethod::elliptic) {
-        return make_adaptation(input, start, error);
+    if (method == GridMethod::redistribution) {
+        const grid::RedistributionSettings settings{.floor = input.redistribution.floor,
+                                                    .smoothings = input.redistribution.smoothing_passes};
+        return std::make_unique<grid::Redistribution>(error, start, input.direction, settings);
     }
     if (method == GridMethod::chain) {
         return std::make_unique<grid::ChainOptimiser>(
@@ -203,15 +276,7 @@ GridOutcome uniform_outcome(const GridInput& input) {
 }
 
 GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progress) {
-    constexpr double share = 0.15; // of what is left: nobody knows the number of steps beforehand
-    double done = 0.0;
-    for (bool more = true; more;) {
-        progress.check();
-        const double next = done + share * (1.0 - done);
-        more = improver.advance(progress.part(done, next));
-        done = next;
-    }
-    const grid::ImproverState& state = improver.state();
+    const grid::ImproverState state = grid::run(improver, progress);
     progress.report(1.0);
     return {state.best,
             state.status,
@@ -220,15 +285,20 @@ GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progr
             state.norm,
             state.start,
             state.of_best,
-            state.note};
+            state.note,
+            state.warning};
 }
 
 std::string_view title_of_making(GridMethod method) {
     switch (method) {
     case GridMethod::uniform:
         return "Measuring the uniform grid";
+    case GridMethod::redistribution:
+        return "Sharing out the nodes of each track";
     case GridMethod::elliptic:
         return "Adapting the elliptic grid";
+    case GridMethod::harmonic:
+        return "Making the harmonic map";
     case GridMethod::tracks:
         return "Optimising the tracks";
     case GridMethod::chain:
@@ -245,19 +315,16 @@ Evaluation improved_evaluation(GridMethod method,
                                const Progress& progress) {
     const toolpath::KinematicError error = workpiece.error_model();
     const auto improver = make_improver(method, input, error, effort);
-    return evaluation_by(*improver, workpiece, uniform, effort, progress);
-}
-
-Evaluation evaluation_by(grid::GridImprover& improver,
-                         const Workpiece& workpiece,
-                         const Evaluation& uniform,
-                         Effort effort,
-                         const Progress& progress) {
     constexpr double measuring = 0.9; // share of the improvement
-    GridOutcome outcome = improved_outcome(improver, progress.part(0.0, measuring));
+    GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
     const int samples = effort == Effort::live ? live_samples : report_samples;
     Evaluation found = evaluate(workpiece, std::move(outcome), samples, progress.part(measuring, 1.0));
     if (!is_worse(found, uniform, workpiece.machine)) {
+        if (found.outcome.status != grid::ImproverStatus::no_gain) {
+            const std::string added = added_points_sentence(found);
+            found.outcome.note =
+                added.empty() ? found.outcome.note : with_sentence(found.outcome.note, added);
+        }
         return found;
     }
     Evaluation kept = uniform;
@@ -268,7 +335,8 @@ Evaluation evaluation_by(grid::GridImprover& improver,
                     found.outcome.norm,
                     found.outcome.start_by_curve,
                     found.outcome.start_by_curve,
-                    "Nothing better than the uniform grid was found on the whole path; it is kept."};
+                    "Nothing better than the uniform grid was found on the whole path; it is kept.",
+                    found.outcome.warning};
     return kept;
 }
 

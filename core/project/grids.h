@@ -1,11 +1,14 @@
 // The grids of a project: uniform, or made better by a method, at two levels of effort.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/grid/weight.h"
 #include "core/project/evaluation.h"
 #include "core/project/project.h"
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,23 +27,35 @@ inline constexpr int report_samples = 40;
 [[nodiscard]] grid::WeightPtr
 chosen_weight(const GridInput& input, const geometry::BezierPatch& patch, const grid::WeightPtr& error);
 
+/// How much of the weight counts where, in solver coordinates; null where all of it counts everywhere.
+[[nodiscard]] grid::WeightPtr region_weight(const GridInput& input, const geometry::BezierPatch& patch);
+
 /// Whether the chosen weight comes from the measured error, if only in part.
 [[nodiscard]] bool needs_error(const EllipticInput& input);
 
-/// Paints on the weight from `from` to `to` on `patch`, on a fresh table if nothing was painted so far. True
-/// if something has changed. What is painted counts where the weight is mixed and its share is not 0.
+/// Paints on the weight from `from` to `to` on `patch` (a dab where both are one), on a fresh table if
+/// nothing was painted so far. True if something has changed. What is painted counts where the weight is
+/// mixed and its share is not 0.
 bool paint_weight(EllipticInput& input,
                   const geometry::BezierPatch& patch,
                   const Vec2& from,
                   const Vec2& to,
                   const grid::Brush& brush);
 
+/// Makes what is painted count: mixes the weight, with what it was made of so far, where it is not mixed.
+void let_paint_count(EllipticInput& input);
+
 /// What making the grid by `method` takes at most, as a sentence with a figure in MB; empty where nobody
 /// knows.
 [[nodiscard]] std::string memory_sentence(GridMethod method, const GridInput& input);
 
+/// Why that is not begun where so many bytes are `free`: it may take more than half of them. Nothing where it
+/// does not, or nobody knows.
+[[nodiscard]] std::optional<Diagnostic>
+memory_fault(GridMethod method, const GridInput& input, const std::optional<std::size_t>& free);
+
 /// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
-/// an expression of the settings has no sense.
+/// an expression of the settings has no sense, and for a memory_fault() that the settings do not allow.
 [[nodiscard]] std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                                 const GridInput& input,
                                                                 const toolpath::KinematicError& error,
@@ -62,13 +77,6 @@ bool paint_weight(EllipticInput& input,
                                              const Evaluation& uniform,
                                              Effort effort,
                                              const Progress& progress);
-
-/// The same by an improver that has not begun.
-[[nodiscard]] Evaluation evaluation_by(grid::GridImprover& improver,
-                                       const Workpiece& workpiece,
-                                       const Evaluation& uniform,
-                                       Effort effort,
-                                       const Progress& progress);
 
 /// Whether `found` is worse than `start` in the mean or largest distance to the surface, or in the largest
 /// angle between tool axis and normal; that one counts on machines that can turn the tool only.

@@ -1,10 +1,13 @@
 #include "core/project/kinematic_study.h"
 
 #include "core/base/error.h"
-#include "core/grid/elliptic_adaptation.h"
-#include "core/grid/redistribution.h"
+#include "core/project/internal/sentences.h"
 #include "core/project/set_up_study.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
 #include <utility>
 
 namespace millwright::project {
@@ -34,7 +37,7 @@ Project project_of(const StudyCase& of) {
 
 StudyFigures figures_of(const Evaluation& evaluation, const Workpiece& workpiece, const Progress& progress) {
     return {evaluation.closest,
-            evaluation.track_gap,
+            evaluation.track_gap.value(), // of a zigzag
             evaluation.path_length,
             estimated_time(evaluation, workpiece.machine, ProgramInput{}, progress),
             workpiece.machine.description().workpiece_offset};
@@ -72,18 +75,6 @@ public:
             GridMethod::chain, input_, workpiece_, uniform_, Effort::full, progress.part(0.0, making));
         return {row_of(chain, found, progress), sequenced_row(sequenced, found, progress.part(making, 1.0))};
     }
-    [[nodiscard]] StudyRow redistribution_row(const Progress& progress) const {
-        const toolpath::KinematicError error = workpiece_.error_model();
-        grid::Redistribution improver(error, uniform_.outcome.grid, input_.direction);
-        return row_by(StudyMethod::redistribution, improver, progress);
-    }
-    [[nodiscard]] StudyRow harmonic_row(const Progress& progress) const {
-        const toolpath::KinematicError error = workpiece_.error_model();
-        grid::EllipticAdaptationSettings settings = grid::harmonic_settings();
-        settings.direction = input_.direction;
-        grid::EllipticAdaptation improver(error, uniform_.outcome.grid, settings);
-        return row_by(StudyMethod::harmonic, improver, progress);
-    }
 
 private:
     [[nodiscard]] StudyRow
@@ -102,17 +93,34 @@ private:
     row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
         return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
     }
-    [[nodiscard]] StudyRow
-    row_by(StudyMethod method, grid::GridImprover& improver, const Progress& progress) const {
-        return row_of(
-            method, evaluation_by(improver, workpiece_, uniform_, Effort::full, progress), progress);
-    }
 
     StudyCase of_;
     Workpiece workpiece_;
     GridInput input_;
     Evaluation uniform_;
 };
+
+/// The search for a set-up looks at a mean error of another grid: what that costs elsewhere is said.
+void tell_losses(StudyRow& row, const StudyRow& without) {
+    constexpr double rounding = 1e-3;
+    const auto loss = [&](double grid::ErrorSummary::*figure, const char* name) {
+        const double before = without.figures->error.*figure;
+        const double ratio = before > 0.0 ? row.figures->error.*figure / before : 1.0;
+        return ratio > 1.0 + rounding
+                   ? fmt::format(" the {} error is {:.1f} % larger", name, 100.0 * (ratio - 1.0))
+                   : std::string();
+    };
+    const std::string largest = loss(&grid::ErrorSummary::max, "largest");
+    const std::string mean = loss(&grid::ErrorSummary::mean, "mean");
+    if (!largest.empty() || !mean.empty()) {
+        row.note = with_sentence(std::move(row.note),
+                                 fmt::format("Without the set-up better: beside {}{}{}{}.",
+                                             label(without.method),
+                                             largest,
+                                             !largest.empty() && !mean.empty() ? "," : "",
+                                             mean));
+    }
+}
 
 std::vector<StudyRow> out_of_reach_rows(const StudyCase& of, const std::string& why) {
     std::vector<StudyRow> rows;
@@ -167,10 +175,12 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         std::vector<StudyRow> rows;
         const Bench there(of, workpiece, project.grid, progress);
         rows.push_back(there.uniform_row(StudyMethod::uniform, progress));
-        rows.push_back(there.redistribution_row(progress.part(0.01, 0.02)));
+        rows.push_back(there.improved_row(
+            StudyMethod::redistribution, GridMethod::redistribution, progress.part(0.01, 0.02)));
         rows.push_back(
             there.improved_row(StudyMethod::elliptic, GridMethod::elliptic, progress.part(0.02, 0.06)));
-        rows.push_back(there.harmonic_row(progress.part(0.06, 0.1)));
+        rows.push_back(
+            there.improved_row(StudyMethod::harmonic, GridMethod::harmonic, progress.part(0.06, 0.1)));
         rows.push_back(there.improved_row(StudyMethod::tracks, GridMethod::tracks, progress.part(0.1, 0.15)));
         const auto by_chain =
             there.chain_rows(StudyMethod::chain, StudyMethod::sequencing, progress.part(0.15, 0.5));
@@ -180,6 +190,12 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         const auto there_too =
             best.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress.part(0.6, 1.0));
         rows.insert(rows.end(), there_too.begin(), there_too.end());
+        const auto row = [&](StudyMethod method) -> StudyRow& {
+            return *std::ranges::find(rows, method, &StudyRow::method);
+        };
+        tell_losses(row(StudyMethod::set_up), row(StudyMethod::uniform));
+        tell_losses(row(StudyMethod::set_up_chain), row(StudyMethod::chain));
+        tell_losses(row(StudyMethod::everything), row(StudyMethod::sequencing));
         return rows;
     } catch (const Error& error) {
         return out_of_reach_rows(of, error.diagnostic().message);

@@ -46,7 +46,7 @@ constexpr std::array<NumberSetting<Level>, 9> of_level{{
     {"tab_width_mm",
      "Tab width",
      "mm",
-     "Along the path of the tool's middle",
+     "What stands, beside the width of the tool",
      0.1,
      100.0,
      1,

@@ -9,11 +9,13 @@
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
 #include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::project {
@@ -23,20 +25,31 @@ namespace {
 /// What produced the program, written on its top.
 std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& plan, const Evaluation& chosen) {
     const grid::Grid& grid = chosen.outcome.grid;
-    const std::string_view method = row_of(grid_methods(), project.grid.method).label;
-    return {{"made by", fmt::format("Millwright {}", version())},
-            {"project", project.name},
-            {"machine", plan.workpiece->machine.name()},
-            {"tool", tool_text(project.tool)},
-            {"grid", fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method)},
-            {"distance from the surface",
-             fmt::format("at most {} mm, {} mm on average inside the tracks",
-                         fixed(chosen.closest.max, 4),
-                         fixed(chosen.closest.mean, 4))},
-            {plan.workpiece->tool.lean.upright() ? "tool axis from the normal"
-                                                 : "tool axis from where it should be",
-             fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
+    const std::string_view method = row_of(grid_methods(), program_grid(project)).label;
+    const bool has_nodes = follows_nodes(project.toolpath.strategy);
+    std::vector<gcode::HeaderLine> lines{
+        {"made by", fmt::format("Millwright {}", version())},
+        {"project", project.name},
+        {"machine", plan.workpiece->machine.name()},
+        {"tool", tool_text(project.tool)},
+        {has_nodes ? "grid" : "path",
+         has_nodes ? fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method) : strategy_text(project)},
+        {"distance from the surface",
+         fmt::format("at most {} mm, {} mm on average inside the tracks",
+                     fixed(chosen.closest.max, 4),
+                     fixed(chosen.closest.mean, 4))},
+        {plan.workpiece->tool.lean.upright() ? "tool axis from the normal"
+                                             : "tool axis from where it should be",
+         fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
+    if (has_nodes && has_own_path(project)) {
+        lines.insert(lines.begin() + 5, {"path", strategy_text(project)});
+    }
+    return lines;
 }
+
+/// By GridMethod.
+constexpr std::array evaluations{
+    &Plan::uniform, &Plan::redistributed, &Plan::elliptic, &Plan::harmonic, &Plan::optimised, &Plan::chain};
 
 void refuse_faults(const Project& project) {
     const std::vector<std::string> faults = faults_of(project);
@@ -48,13 +61,31 @@ void refuse_faults(const Project& project) {
 } // namespace
 
 const std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) const {
-    constexpr std::array of{&Plan::uniform, &Plan::elliptic, &Plan::optimised, &Plan::chain};
-    return this->*of.at(static_cast<std::size_t>(method));
+    return this->*evaluations.at(static_cast<std::size_t>(method));
 }
 
 std::shared_ptr<const Evaluation>& Plan::evaluation(GridMethod method) {
-    constexpr std::array of{&Plan::uniform, &Plan::elliptic, &Plan::optimised, &Plan::chain};
-    return this->*of.at(static_cast<std::size_t>(method));
+    return this->*evaluations.at(static_cast<std::size_t>(method));
+}
+
+const std::shared_ptr<const Evaluation>& Plan::program_path(const Project& project) const {
+    return has_own_path(project) ? path : evaluation(program_grid(project));
+}
+
+std::optional<double>& Plan::program_time(const Project& project) {
+    return has_own_path(project) ? path_time : estimated_time(program_grid(project));
+}
+
+std::shared_ptr<const CutStudy> Plan::cut_of(const Project& project, const Evaluation* evaluation) const {
+    if (evaluation == nullptr || evaluation == program_path(project).get()) {
+        return evaluation == nullptr ? nullptr : cut;
+    }
+    for (const GridMethod method : every_grid_method) {
+        if (this->evaluation(method).get() == evaluation) {
+            return compared_cuts[static_cast<std::size_t>(method)];
+        }
+    }
+    return nullptr;
 }
 
 geometry::Surface surface_of(const SurfaceInput& input) {
@@ -78,7 +109,8 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
             project.surface.flipped,
             project.machine.angle_mode,
             tool_of(project.tool),
-            sequencing_settings(project)};
+            sequencing_settings(project),
+            project.surface.trim(project.surface.machined_patch)};
 }
 
 toolpath::SequencingSettings sequencing_settings(const Project& project) {
@@ -106,7 +138,7 @@ gcode::ProgramSettings program_settings(const ProgramInput& input) {
 }
 
 void add_program(Plan& plan, const Project& project, const Progress& progress) {
-    const Evaluation& chosen = *plan.evaluation(project.grid.method);
+    const Evaluation& chosen = *plan.program_path(project);
     const gcode::ProgramSettings settings = program_settings(project.program);
     const kinematics::MachineModel& machine = plan.workpiece->machine;
     progress.report(0.0, "Writing the program");
@@ -127,7 +159,7 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     plan.program_notes = posted.notes;
     plan.listing = std::make_shared<const gcode::Listing>(std::move(released.listing));
     plan.trajectory = std::move(trajectory);
-    plan.estimated_time(project.grid.method) = plan.trajectory->duration();
+    plan.program_time(project) = plan.trajectory->duration();
     progress.report(1.0);
 }
 
@@ -146,12 +178,15 @@ std::optional<double> estimated_time(const Evaluation& evaluation,
 }
 
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress) {
+    double from = 0.0;
     for (const GridMethod method : every_grid_method) {
+        const double to = from + 1.0 / static_cast<double>(every_grid_method.size());
         const auto& evaluation = plan.evaluation(method);
         if (evaluation && !plan.estimated_time(method)) {
-            plan.estimated_time(method) =
-                estimated_time(*evaluation, plan.workpiece->machine, project.program, progress);
+            plan.estimated_time(method) = estimated_time(
+                *evaluation, plan.workpiece->machine, project.program, progress.part(from, to));
         }
+        from = to;
     }
 }
 
@@ -159,6 +194,7 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     refuse_faults(project);
     Plan plan;
     plan.surface = std::make_shared<const geometry::Surface>(surface_of(project.surface));
+    plan.trims = std::make_shared<const std::vector<geometry::Trim>>(project.surface.trims);
     plan.workpiece = std::make_shared<const Workpiece>(workpiece_of(project, folders));
     const Workpiece& workpiece = *plan.workpiece;
     plan.singular_points = toolpath::singular_points(workpiece.patch, workpiece.machine);
@@ -166,20 +202,40 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     progress.report(0.0, title_of_making(GridMethod::uniform));
     plan.uniform = std::make_shared<const Evaluation>(
         evaluate(workpiece, uniform_outcome(project.grid), report_samples, progress.part(0.0, 0.1)));
-    if (scope == Scope::everything) {
-        plan.weight = std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, progress));
-    }
+    const auto make = [&](GridMethod method, const Progress& part) {
+        part.report(0.0, title_of_making(method));
+        if (method == GridMethod::elliptic && scope == Scope::everything) {
+            plan.weight =
+                std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, part.part(0.0, 0.0)));
+        }
+        plan.evaluation(method) = std::make_shared<const Evaluation>(
+            improved_evaluation(method, project.grid, workpiece, *plan.uniform, Effort::full, part));
+    };
     const auto improve = [&](GridMethod method, const Progress& part) {
-        const bool wanted = scope == Scope::everything && method != GridMethod::chain;
-        if (wanted || method == project.grid.method) {
-            part.report(0.0, title_of_making(method));
-            plan.evaluation(method) = std::make_shared<const Evaluation>(
-                improved_evaluation(method, project.grid, workpiece, *plan.uniform, Effort::full, part));
+        if (method == program_grid(project)) {
+            make(method, part);
+        } else if (scope == Scope::everything && std::ranges::count(compared_methods, method) > 0) {
+            try {
+                make(method, part);
+            } catch (const Error& fault) { // its own: the program needs it not
+                plan.failure(method) = fault.diagnostic();
+            }
         }
     };
-    improve(GridMethod::elliptic, progress.part(0.1, 0.3));
-    improve(GridMethod::tracks, progress.part(0.3, 0.5));
-    improve(GridMethod::chain, progress.part(0.5, 0.9));
+    improve(GridMethod::redistribution, progress.part(0.1, 0.12));
+    improve(GridMethod::elliptic, progress.part(0.12, 0.25));
+    improve(GridMethod::harmonic, progress.part(0.25, 0.4));
+    improve(GridMethod::tracks, progress.part(0.4, 0.5));
+    improve(GridMethod::chain, progress.part(0.5, 0.85));
+    if (has_own_path(project)) {
+        progress.part(0.85, 0.9).report(0.0, title_of_path);
+        plan.path =
+            std::make_shared<const Evaluation>(path_evaluation(project,
+                                                               workpiece,
+                                                               *plan.evaluation(program_grid(project)),
+                                                               report_samples,
+                                                               progress.part(0.85, 0.9)));
+    }
     add_program(plan, project, progress.part(0.9, 0.92));
     add_estimated_times(plan, project, progress.part(0.92, 0.95));
     if (scope == Scope::everything) {

@@ -3,6 +3,7 @@
 // the parts.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/gcode/post.h"
 #include "core/gcode/writer.h"
 #include "core/motion/trajectory.h"
@@ -25,29 +26,50 @@ struct CutStudy; // cut_study.h
 /// Everything derived from one project. Parts that a caller did not ask for are null.
 struct Plan {
     std::shared_ptr<const geometry::Surface> surface;
+    std::shared_ptr<const std::vector<geometry::Trim>> trims; ///< of the surface, one a patch; null: whole
     std::shared_ptr<const Workpiece> workpiece;
     std::vector<toolpath::SingularPoint> singular_points;
     std::shared_ptr<const Evaluation> uniform;
     std::shared_ptr<const Evaluation> elliptic;  ///< the adapted grid
     std::shared_ptr<const Evaluation> optimised; ///< the track optimiser's grid
-    std::shared_ptr<const Evaluation> chain; ///< the whole chain's grid, which is made where it was chosen
+    /// Those that are made where the program uses them only.
+    std::shared_ptr<const Evaluation> redistributed, harmonic, chain;
+    std::shared_ptr<const Evaluation> path;  ///< of a project that has_own_path(); null else
     std::shared_ptr<const WeightMap> weight; ///< of the elliptic functional
     std::shared_ptr<const gcode::Program> program;
     gcode::PostNotes program_notes;
     std::shared_ptr<const gcode::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
     std::shared_ptr<const CutStudy> cut; ///< what the cutter does on the program's way; null for a point
+    /// The same of the grids beside it, by GridMethod; null where there is none.
+    std::array<std::shared_ptr<const CutStudy>, every_grid_method.size()> compared_cuts;
     /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
     std::array<std::optional<double>, every_grid_method.size()> estimated_times;
+    std::optional<double> path_time; ///< the same of `path`
+    /// Why there is none of a grid that is only compared with the program's, by GridMethod.
+    std::array<std::optional<Diagnostic>, every_grid_method.size()> failed;
 
     /// The evaluation that `method` stands for; null if not there.
     [[nodiscard]] const std::shared_ptr<const Evaluation>& evaluation(GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const Evaluation>& evaluation(GridMethod method);
+    /// What the program of `project` follows; null if not there.
+    [[nodiscard]] const std::shared_ptr<const Evaluation>& program_path(const Project& project) const;
+    /// What that takes on the machine.
+    [[nodiscard]] std::optional<double>& program_time(const Project& project);
+    /// What the cutter does on the way of that evaluation of this plan; null where nobody knows.
+    [[nodiscard]] std::shared_ptr<const CutStudy> cut_of(const Project& project,
+                                                         const Evaluation* evaluation) const;
     [[nodiscard]] const std::optional<double>& estimated_time(GridMethod method) const {
         return estimated_times[static_cast<std::size_t>(method)];
     }
     [[nodiscard]] std::optional<double>& estimated_time(GridMethod method) {
         return estimated_times[static_cast<std::size_t>(method)];
+    }
+    [[nodiscard]] const std::optional<Diagnostic>& failure(GridMethod method) const {
+        return failed[static_cast<std::size_t>(method)];
+    }
+    [[nodiscard]] std::optional<Diagnostic>& failure(GridMethod method) {
+        return failed[static_cast<std::size_t>(method)];
     }
 };
 
@@ -70,7 +92,7 @@ struct Folders {
 
 [[nodiscard]] gcode::ProgramSettings program_settings(const ProgramInput& input);
 
-/// Program, listing, trajectory and time of the project's chosen grid, into `plan`. Throws Error or
+/// Program, listing, trajectory and time of the path that the program follows, into `plan`. Throws Error or
 /// Cancelled, then `plan` is as it was.
 void add_program(Plan& plan, const Project& project, const Progress& progress);
 
@@ -87,8 +109,8 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
 
 /// How much of a plan is wanted.
 enum class Scope {
-    everything, ///< but the whole chain only where it was chosen
-    program     ///< the program and what it needs: of the improved grids only the chosen one
+    everything, ///< with the grids of compared_methods
+    program     ///< the program and what it needs: of the improved grids only the one it uses, if any
 };
 
 /// Throws Error, first with faults_of(project) if there are any, or Cancelled.

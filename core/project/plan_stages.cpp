@@ -3,6 +3,8 @@
 #include "core/base/error.h"
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
+#include "core/project/internal/failure.h"
+#include "core/project/strategy_path.h"
 
 #include <algorithm>
 #include <system_error>
@@ -13,9 +15,6 @@ namespace millwright::project {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Made whether they were chosen or not.
-constexpr std::array compared_methods{GridMethod::elliptic, GridMethod::tracks};
 
 /// Whether both tools make the same path; by what the cut is judged may differ.
 bool same_cut(ToolInput a, const ToolInput& b) {
@@ -33,12 +32,24 @@ bool same_nodes(const GridInput& a, const GridInput& b) {
     return a.nu == b.nu && a.nv == b.nv;
 }
 
+/// For the harmonic map, which has no LV, no LO and its own solver.
+bool same_metric(EllipticInput a, const EllipticInput& b) {
+    a.solver = b.solver;
+    a.adaptation = b.adaptation;
+    a.orthogonality = b.orthogonality;
+    return a == b;
+}
+
 bool same_settings(GridMethod method, const GridInput& a, const GridInput& b) {
     switch (method) {
     case GridMethod::uniform:
         return true;
+    case GridMethod::redistribution:
+        return a.redistribution == b.redistribution;
     case GridMethod::elliptic:
         return a.elliptic == b.elliptic;
+    case GridMethod::harmonic:
+        return same_metric(a.elliptic, b.elliptic);
     case GridMethod::tracks:
         return a.tracks == b.tracks;
     case GridMethod::chain:
@@ -69,14 +80,27 @@ bool quick_enough(const GridInput& input) {
 void PlanStages::hold(GridMethod method, Held found) {
     now_.plan.evaluation(method) = found.evaluation;
     now_.plan.estimated_time(method).reset();
-    if (method == input().method) { // a program of another grid must not be taken for this one's
-        now_.program_of = nullptr;
-        now_.plan.program = nullptr;
-        now_.plan.listing = nullptr;
-        now_.plan.trajectory = nullptr;
-        now_.plan.cut = nullptr;
+    now_.plan.compared_cuts[static_cast<std::size_t>(method)] = nullptr;
+    if (method == program_grid(project())) {
+        drop_program();
     }
     now_.held[static_cast<std::size_t>(method)] = std::move(found);
+}
+
+void PlanStages::hold(HeldPath found) {
+    now_.plan.path = found.evaluation;
+    now_.plan.path_time.reset();
+    drop_program();
+    now_.path = std::move(found);
+}
+
+/// One of another path must not be taken for this one's.
+void PlanStages::drop_program() {
+    now_.program_of = nullptr;
+    now_.plan.program = nullptr;
+    now_.plan.listing = nullptr;
+    now_.plan.trajectory = nullptr;
+    now_.plan.cut = nullptr;
 }
 
 /// Throws what is wrong with the project; the surface is there then if it can be.
@@ -91,6 +115,10 @@ void PlanStages::begin(const Project& project, const Folders& folders) {
         last.source && last.plan.surface && last.source->project.surface.patches == project.surface.patches;
     now_.plan.surface = same_surface ? last.plan.surface
                                      : std::make_shared<const geometry::Surface>(surface_of(project.surface));
+    const bool same_trims =
+        last.source && last.plan.trims && last.source->project.surface.trims == project.surface.trims;
+    now_.plan.trims = same_trims ? last.plan.trims
+                                 : std::make_shared<const std::vector<geometry::Trim>>(project.surface.trims);
     if (const auto faults = faults_of(project); !faults.empty()) {
         throw Error(faults.front());
     }
@@ -101,6 +129,7 @@ void PlanStages::begin(const Project& project, const Folders& folders) {
     if (same_workpiece) {
         now_.plan.workpiece = last.plan.workpiece;
         keep_grids(last);
+        keep_path(last);
         keep_weight(last);
         keep_program(last);
     } else {
@@ -114,7 +143,23 @@ void PlanStages::keep_grids(const State& last) {
         const Held& old = last.held[static_cast<std::size_t>(method)];
         if (old.exact && same_nodes(then, input()) && same_settings(method, then, input())) {
             hold(method, old);
+            if (last.source->project.tool == project().tool &&
+                last.source->project.program == project().program) {
+                const auto n = static_cast<std::size_t>(method);
+                now_.plan.compared_cuts[n] = last.plan.compared_cuts[n];
+            }
         }
+    }
+}
+
+void PlanStages::keep_path(const State& last) {
+    const Project& then = last.source->project;
+    const bool same = has_own_path(project()) && strategy_settings(then) == strategy_settings(project());
+    const bool same_over = follows_nodes(project().toolpath.strategy)
+                               ? last.path.over == held(program_grid(project())).evaluation
+                               : same_nodes(then.grid, input());
+    if (same && same_over && last.path.exact) {
+        hold(last.path);
     }
 }
 
@@ -123,7 +168,7 @@ void PlanStages::keep_weight(const State& last) {
     const EllipticInput& before = then.elliptic;
     const EllipticInput& now = input().elliptic;
     const bool same = before.weight == now.weight && before.expression == now.expression &&
-                      before.mix == now.mix && before.painted == now.painted;
+                      before.mix == now.mix && before.painted == now.painted && before.region == now.region;
     if (same && same_nodes(then, input())) {
         now_.plan.weight = last.plan.weight;
     }
@@ -132,14 +177,14 @@ void PlanStages::keep_weight(const State& last) {
 void PlanStages::keep_program(const State& last) {
     const Project& then = last.source->project;
     const bool same = then.program == project().program && then.name == project().name &&
-                      then.grid.method == input().method;
-    if (same && last.program_of && last.program_of == held(input().method).evaluation) {
+                      then.toolpath == project().toolpath && program_grid(then) == program_grid(project());
+    if (same && last.program_of && last.program_of == now_.plan.program_path(project())) {
         now_.program_of = last.program_of;
         now_.plan.program = last.plan.program;
         now_.plan.program_notes = last.plan.program_notes;
         now_.plan.listing = last.plan.listing;
         now_.plan.trajectory = last.plan.trajectory;
-        now_.plan.estimated_time(input().method) = last.plan.estimated_time(input().method);
+        now_.plan.program_time(project()) = last.plan.trajectory->duration();
         now_.plan.cut = then.tool == project().tool ? last.plan.cut : nullptr;
     }
 }
@@ -167,6 +212,7 @@ void PlanStages::carry_over(GridMethod method, const Progress& progress) {
     }
     GridOutcome outcome = old->outcome;
     outcome.status = grid::ImproverStatus::running;
+    outcome.warning.clear();
     outcome.note = "The grid from before the last change, until the new one is there.";
     Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_samples(input()), progress);
     hold(method, {std::make_shared<const Evaluation>(std::move(found)), false});
@@ -199,8 +245,25 @@ void PlanStages::add_weight(const Progress& progress) {
     }
 }
 
+/// A strategy that makes its own points waits for the exact stage: it takes longer than a person who drags.
+void PlanStages::add_path(int samples, const Progress& progress) {
+    if (!has_own_path(project())) {
+        return;
+    }
+    const bool exact = samples >= report_samples;
+    const bool on_nodes = follows_nodes(project().toolpath.strategy);
+    const auto& over = held(program_grid(project())).evaluation;
+    const bool current = now_.path.evaluation && (!on_nodes || now_.path.over == over);
+    if (!over || (!exact && !on_nodes) || (current && (now_.path.exact || !exact))) {
+        return;
+    }
+    progress.report(0.0, title_of_path);
+    Evaluation found = path_evaluation(project(), workpiece(), *over, samples, progress);
+    hold({std::make_shared<const Evaluation>(std::move(found)), over, exact});
+}
+
 void PlanStages::add_program_of_chosen(const Progress& progress) {
-    const auto& chosen = held(input().method).evaluation;
+    const auto& chosen = now_.plan.program_path(project());
     if (chosen && now_.program_of != chosen) {
         add_program(now_.plan, project(), progress);
         now_.program_of = chosen;
@@ -208,7 +271,7 @@ void PlanStages::add_program_of_chosen(const Progress& progress) {
 }
 
 void PlanStages::coarse(const Publish& publish, const Progress& progress) {
-    const GridMethod chosen = input().method;
+    const GridMethod chosen = program_grid(project());
     if (chosen != GridMethod::uniform) {
         carry_over(chosen, progress.part(0.0, 0.1));
     }
@@ -218,9 +281,6 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
     publish(now_.plan, std::nullopt, false);
     measure_uniform(coarse_samples(input()), progress.part(0.2, 0.3));
     now_.plan.singular_points = toolpath::singular_points(workpiece().patch, workpiece().machine);
-    if (quick_enough(input())) {
-        add_weight(progress.part(0.3, 0.3));
-    }
     for (const GridMethod method : compared_methods) {
         carry_over(method, progress.part(0.3, 0.4));
     }
@@ -229,29 +289,60 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
         improve(chosen, Effort::live, progress.part(0.4, 0.9));
     }
     if (quick_enough(input())) {
+        add_path(coarse_samples(input()), progress.part(0.85, 0.9));
         add_program_of_chosen(progress.part(0.9, 1.0));
+        try {
+            add_weight(progress.part(1.0, 1.0));
+        } catch (
+            const Error&) { // the exact stage, which makes the program first, comes to it again and tells
+        }
     }
     publish(now_.plan, std::nullopt, false);
 }
 
-void PlanStages::exact(const Publish& publish, const Progress& progress) {
-    const GridMethod chosen = input().method;
-    measure_uniform(report_samples, progress.part(0.0, 0.08));
-    add_weight(progress.part(0.08, 0.1));
-    if (chosen != GridMethod::uniform) {
-        improve(chosen, Effort::full, progress.part(0.1, 0.5));
+/// The grids that stand beside the program's: what is wrong with one of them is its own, and told with it.
+void PlanStages::compare(const Progress& progress) {
+    static_assert(std::ranges::count(compared_methods, GridMethod::elliptic) == 1);
+    const double share = 1.0 / static_cast<double>(compared_methods.size());
+    double from = 0.0;
+    for (const GridMethod method : compared_methods) {
+        const Progress part = progress.part(from, from + share);
+        from += share;
+        now_.plan.failure(method) = failure_of([&] {
+            if (method == GridMethod::elliptic) {
+                add_weight(part.part(0.0, 0.0));
+            }
+            improve(method, Effort::full, part);
+        });
+        if (now_.plan.failure(method) && !held(method).exact) {
+            hold(method, {}); // one that was carried over must not be taken for this project's
+        }
     }
-    add_program_of_chosen(progress.part(0.5, 0.55));
+}
+
+void PlanStages::exact(const Publish& publish, const Progress& progress) {
+    const GridMethod chosen = program_grid(project());
+    measure_uniform(report_samples, progress.part(0.0, 0.1));
+    const double made = chosen == GridMethod::chain ? 0.75 : 0.45; // of the whole
+    const auto rest = [&](double from, double to) {
+        return progress.part(made + (1.0 - made) * from, made + (1.0 - made) * to);
+    };
+    if (chosen != GridMethod::uniform) {
+        improve(chosen, Effort::full, progress.part(0.1, made));
+    }
+    add_path(report_samples, rest(0.0, 0.1));
+    add_program_of_chosen(rest(0.1, 0.2));
     publish(now_.plan, std::nullopt, false);
     if (now_.plan.program && !now_.plan.cut) {
-        add_cut_study(now_.plan, project(), progress.part(0.55, 0.6));
+        add_cut_study(now_.plan, project(), rest(0.2, 0.3));
         publish(now_.plan, std::nullopt, false);
     }
-    for (const GridMethod method : compared_methods) {
-        improve(method, Effort::full, progress.part(method == GridMethod::elliptic ? 0.6 : 0.8, 1.0));
-    }
-    add_estimated_times(now_.plan, project(), progress);
-    publish(now_.plan, std::nullopt, true);
+    compare(rest(0.3, 0.9));
+    add_estimated_times(now_.plan, project(), rest(0.9, 0.92));
+    add_compared_cuts(now_.plan, project(), rest(0.92, 0.99));
+    const auto fault = std::ranges::find_if(now_.plan.failed, [](const auto& f) { return f.has_value(); });
+    const bool all_there = fault == now_.plan.failed.end();
+    publish(now_.plan, all_there ? std::nullopt : *fault, all_there);
 }
 
 } // namespace millwright::project

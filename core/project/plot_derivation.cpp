@@ -2,6 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/gcode/plot_program.h"
+#include "core/kinematics/machine_file.h"
+#include "core/motion/planner.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/left_alone.h"
 #include "core/plot/ordering.h"
@@ -10,9 +13,13 @@
 #include "core/plot/picture/finished_look.h"
 #include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/trace.h"
+#include "core/plot/standing_tabs.h"
+#include "core/project/assets.h"
+#include "core/project/internal/failure.h"
 #include "core/project/internal/plot_view.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -45,6 +52,19 @@ void PlotDerivation::make_path() {
     }
 }
 
+void PlotDerivation::check_speeds() {
+    const kinematics::MachineModel machine =
+        kinematics::read_machine(machine_path(settings_.machine, result_.input.file.parent_path(), assets_));
+    note(gcode::speeds_not_reached(*result_.path, machine));
+}
+
+void PlotDerivation::note(std::optional<Diagnostic> notice) {
+    if (notice) {
+        notice->place.file = result_.input.file;
+        result_.notices.push_back(std::move(*notice));
+    }
+}
+
 void PlotDerivation::make_look() {
     const bool strokes = !result_.picture || settings_.use == PictureUse::outlines;
     const plot::ToolTip tip =
@@ -71,12 +91,32 @@ void PlotDerivation::make_program(const fs::path& folder) {
     result_.program = file;
 }
 
+void PlotDerivation::time_as_drawn() {
+    if (as_drawn_.empty() || result_.cut_as_drawn) {
+        return;
+    }
+    auto failure = failure_of([&] {
+        const kinematics::MachineModel machine = kinematics::read_machine(
+            machine_path(settings_.machine, result_.input.file.parent_path(), assets_));
+        const gcode::Program program = gcode::plot_program(as_drawn_,
+                                                           {.machine = machine.name(),
+                                                            .axes = gcode::plot_axes(machine),
+                                                            .spindle_rpm = settings_.spindle_rpm});
+        result_.drawn_seconds = motion::plan(program, machine, {}, progress_.part(0.8, 1.0)).duration();
+    });
+    if (failure) {
+        failure->message = "there is no time of it as drawn: " + failure->message;
+    }
+    note(std::move(failure));
+}
+
 void PlotDerivation::cut_picture() {
     plot::ReadPicture read =
         plot::read_picture_file(result_.input.file, settings_.picture, progress_.part(0.0, 0.2));
     result_.notices = std::move(read.notices);
     const plot::Picture& picture = read.picture;
     const double pitch = plot::pixel_pitch(settings_.size, picture);
+    result_.picture_size = pitch * Vec2(picture.width, picture.height);
     switch (settings_.use) {
     case PictureUse::relief:
         return cut_relief(picture, pitch);
@@ -104,7 +144,8 @@ void PlotDerivation::cut_picture() {
 void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     plot::ReliefPlan plan;
     plan.relief.tip = settings_.tip;
-    plan.relief.step_over = settings_.step_over;
+    plan.relief.step_over = settings_.step_over.value_or(plot::usual_step_over(settings_.tip, pitch));
+    result_.step_over = *plan.relief.step_over;
     plan.relief.merge_tolerance = settings_.merge;
     if (settings_.depth_per_pass) {
         plan.relief.roughing =
@@ -116,6 +157,8 @@ void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     plan.plate = settings_.frame;
     plan.frame_margin = settings_.frame_margin;
     plan.tabs = settings_.frame_tabs;
+    plan.through = settings_.through;
+    note(plot::frame_notice(plan));
     use(plot::relief_path(
         plot::height_field(picture, pitch, settings_.depth), plan, progress_.part(0.2, 0.5)));
 }
@@ -164,33 +207,51 @@ void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     result_.as_drawn = plot::work_time(drawn, {}, Vec2::Zero(), end);
     result_.as_planned = plot::work_time(planned, {}, Vec2::Zero(), end);
     result_.levels = levels_of(planned);
+    const auto standing = [&](std::vector<plot::Level> levels) {
+        return plot::with_standing_tabs(std::move(levels), settings_.strokes.tool_diameter);
+    };
     std::vector<plot::Level> in_order = result_.levels;
     std::ranges::stable_sort(in_order, {}, &plot::Level::order);
     result_.cuts.clear();
     for (const plot::Level& level : in_order) {
         if (level.enabled) {
             result_.cuts.push_back(
-                {level.pen, cuts_of(plot::cut_path(planned, cut_of({level})), settings_.origin)});
+                {level.pen, cuts_of(plot::cut_path(planned, cut_of(standing({level}))), settings_.origin)});
             progress_.check();
         }
     }
-    use(plot::cut_path(planned, cut_of(result_.levels)));
-    plot::Strokes placed = planned;
-    for (plot::Stroke& stroke : placed) {
+    const plot::CutSettings cut = cut_of(standing(result_.levels));
+    as_drawn_ = placed(plot::cut_path(drawn, cut));
+    use(plot::cut_path(planned, cut));
+    result_.cut_as_drawn = as_drawn_ == *result_.path;
+    plot::Strokes on_machine = planned;
+    for (plot::Stroke& stroke : on_machine) {
         for (Vec2& point : stroke.points) {
             point += settings_.origin;
         }
     }
-    result_.strokes = std::make_shared<const plot::Strokes>(std::move(placed));
+    result_.strokes = std::make_shared<const plot::Strokes>(std::move(on_machine));
 }
 
-void PlotDerivation::use(plot::CutPath path) {
+/// Where it lies on the machine.
+plot::CutPath PlotDerivation::placed(plot::CutPath path) const {
     for (plot::CutPoint& point : path) {
         point.at += Vec3(settings_.origin.x(), settings_.origin.y(), 0.0);
     }
+    return path;
+}
+
+void PlotDerivation::use(plot::CutPath path) {
+    path = placed(std::move(path));
     result_.lengths = plot::lengths(path);
     if (result_.cuts.empty()) {
-        result_.cuts.push_back({1, cuts_of(path, Vec2::Zero())});
+        std::set<int> tools;
+        for (const plot::CutPoint& point : path) {
+            tools.insert(point.tool);
+        }
+        for (const int tool : tools) {
+            result_.cuts.push_back({tool, cuts_with(path, tool)});
+        }
     }
     result_.air = travel_of(path);
     result_.path = std::make_shared<const plot::CutPath>(std::move(path));

@@ -5,6 +5,11 @@ namespace millwright::project {
 namespace {
 
 using plot::CutMove;
+using plot::CutPoint;
+
+bool is_cut(const CutPoint& to) {
+    return to.move == CutMove::plunge || to.move == CutMove::cut;
+}
 
 /// The moves that are wanted, as pieces that are drawn, and nothing between them.
 template <class Wanted>
@@ -19,7 +24,7 @@ gcode::PreviewPath pieces(const plot::CutPath& path, const Vec2& shift, const Wa
     };
     bool down = false;
     for (std::size_t n = 1; n < path.size(); ++n) {
-        const bool drawn = wanted(path[n].move);
+        const bool drawn = wanted(path[n]);
         if (drawn && !down) {
             add(path[n - 1], gcode::PathKind::start);
         }
@@ -37,12 +42,17 @@ gcode::PreviewPath pieces(const plot::CutPath& path, const Vec2& shift, const Wa
 } // namespace
 
 gcode::PreviewPath cuts_of(const plot::CutPath& path, const Vec2& shift) {
-    return pieces(path, shift, [](CutMove move) { return move == CutMove::plunge || move == CutMove::cut; });
+    return pieces(path, shift, is_cut);
+}
+
+gcode::PreviewPath cuts_with(const plot::CutPath& path, int tool) {
+    return pieces(path, Vec2::Zero(), [tool](const CutPoint& to) { return is_cut(to) && to.tool == tool; });
 }
 
 gcode::PreviewPath travel_of(const plot::CutPath& path) {
-    return pieces(
-        path, Vec2::Zero(), [](CutMove move) { return move == CutMove::rapid || move == CutMove::retract; });
+    return pieces(path, Vec2::Zero(), [](const CutPoint& to) {
+        return to.move == CutMove::rapid || to.move == CutMove::retract;
+    });
 }
 
 } // namespace millwright::project

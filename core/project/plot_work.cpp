@@ -103,11 +103,13 @@ private:
             publish(now);
             progress.check();
             derivation.make_look();
+            derivation.check_speeds();
             publish(now);
             progress.check();
             if (derivation.wants_program()) {
                 make_folder();
                 derivation.make_program(folder_);
+                derivation.time_as_drawn();
             } else {
                 now.program.clear();
             }

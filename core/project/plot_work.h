@@ -26,7 +26,9 @@ namespace millwright::project {
 struct PlotResult {
     PlotInput input;
     bool picture = false;
-    std::vector<Diagnostic> notices; ///< of the reader
+    std::vector<Diagnostic> notices;  ///< of the reader, and of what is cut
+    Vec2 picture_size = Vec2::Zero(); ///< of a picture, mm
+    double step_over = 0.0;           ///< of a relief, mm
     std::optional<Diagnostic> failure;
     std::vector<plot::Level> levels; ///< in force, of plots and outlines
     std::size_t drawn_strokes = 0;
@@ -34,9 +36,9 @@ struct PlotResult {
     plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model; of plots and outlines
     std::shared_ptr<const plot::CutPath> path;
     plot::PathLengths lengths;
-    /// What is cut, a level each; a relief's one.
+    /// What is cut, a level each; a relief's one; of a path file one a tool.
     struct LevelPath {
-        int pen = 1;
+        int pen = 1; ///< or the tool
         gcode::PreviewPath path;
     };
     std::vector<LevelPath> cuts;
@@ -48,6 +50,10 @@ struct PlotResult {
     std::filesystem::path program; ///< file of its G-code, as long as the worker lives; empty: none
     bool finished = false;
     std::uint64_t revision = 0; ///< grows with every publication
+    bool cut_as_drawn = false;  ///< filling, order and links change nothing
+    /// By the planner, as drawn, s; nothing where it is cut as drawn, where that cannot be run, or where
+    /// there is no program by itself.
+    std::optional<double> drawn_seconds;
 };
 
 /// Longer paths get no program before a person asks for it.

@@ -47,6 +47,35 @@ void check_net(Faults& faults, const std::string& path, const geometry::ControlN
     }
 }
 
+bool can_be_trimmed(const geometry::Trim& trim) {
+    constexpr std::size_t fewest_corners = 3;
+    std::size_t corners = 0;
+    for (const geometry::Trim::Loop& loop : trim.loops) {
+        const auto within = [](const Vec2& uv) { return uv.minCoeff() >= 0.0 && uv.maxCoeff() <= 1.0; };
+        if (loop.size() < fewest_corners || !std::ranges::all_of(loop, within)) {
+            return false;
+        }
+        corners += loop.size();
+    }
+    return trim.loops.size() <= geometry::most_trim_loops && corners <= geometry::most_trim_corners;
+}
+
+void check_trims(Faults& faults, const SurfaceInput& surface) {
+    if (surface.trims.size() > surface.patches.size()) {
+        faults.emplace_back("surface/patches: more outlines than patches");
+    }
+    for (std::size_t n = 0; n < surface.trims.size(); ++n) {
+        if (!can_be_trimmed(surface.trims[n])) {
+            faults.push_back(
+                fmt::format("surface/patches[{}]/trim: at most {} outlines of 3 or more, together at most {} "
+                            "corners with u and v from 0 to 1",
+                            n,
+                            geometry::most_trim_loops,
+                            geometry::most_trim_corners));
+        }
+    }
+}
+
 void check_surface(Faults& faults, const SurfaceInput& surface) {
     const auto count = static_cast<int>(surface.patches.size());
     if (count == 0) {
@@ -56,6 +85,7 @@ void check_surface(Faults& faults, const SurfaceInput& surface) {
         check_net(
             faults, fmt::format("surface/patches[{}]", n), surface.patches[static_cast<std::size_t>(n)]);
     }
+    check_trims(faults, surface);
     if (surface.machined_patch < 0 || surface.machined_patch >= std::max(count, 1)) {
         faults.push_back(fmt::format("surface/machined_patch: there is no patch {} among {}, counted from 0",
                                      surface.machined_patch,
@@ -88,6 +118,10 @@ void check_arm(Faults& faults, const ArmInput& arm) {
                       arm.path.turned_deg.cwiseAbs().maxCoeff() <= most_deg;
     if (!near) {
         faults.emplace_back("arm/path: its place is within 100 m and 360 degrees");
+    }
+    constexpr double right_angle_deg = 90.0;
+    if (!(arm.path.most_lean_deg >= 0.0 && arm.path.most_lean_deg <= right_angle_deg)) {
+        faults.emplace_back("arm/path/most_lean_deg: the tool leans by 0 to 90 degrees");
     }
 }
 
@@ -125,6 +159,13 @@ bool can_be_painted(const grid::Field& field) {
            std::ranges::all_of(field.values, [](double value) { return value >= 0.0 && value <= 1.0; });
 }
 
+bool can_be_drawn(const grid::Region& region) {
+    const auto count = std::ssize(region.outline);
+    const auto within = [](const Vec2& uv) { return uv.minCoeff() >= 0.0 && uv.maxCoeff() <= 1.0; };
+    return region.everywhere() || (count >= grid::fewest_corners && count <= grid::most_corners &&
+                                   std::ranges::all_of(region.outline, within));
+}
+
 void check_weight(Faults& faults, const EllipticInput& input) {
     check<grid::MixSettings>(faults, "grid/elliptic/mix", input.mix, mix_numbers());
     if (input.mix.high < input.mix.low) {
@@ -133,6 +174,15 @@ void check_weight(Faults& faults, const EllipticInput& input) {
     if (input.painted && !can_be_painted(*input.painted)) {
         faults.push_back(fmt::format("grid/elliptic/painted: 2 to {} rows and columns of values from 0 to 1",
                                      most_painted));
+    }
+    check<grid::Region>(faults, "grid/elliptic/region", input.region, region_numbers());
+    if (!can_be_drawn(input.region)) {
+        faults.push_back(fmt::format("grid/elliptic/region: {} to {} corners with u and v from 0 to 1",
+                                     grid::fewest_corners,
+                                     grid::most_corners));
+    }
+    if (input.solver == grid::EllipticMethod::harmonic) {
+        faults.emplace_back("grid/elliptic/solver: the harmonic map is a method of its own");
     }
 }
 
@@ -172,10 +222,13 @@ std::vector<std::string> faults_of(const Project& project) {
     check_machine(faults, project.machine);
     check_tool(faults, project);
     check<GridInput>(faults, "grid", project.grid, grid_numbers());
+    check<RedistributionInput>(
+        faults, "grid/redistribution", project.grid.redistribution, redistribution_numbers());
     check<EllipticInput>(faults, "grid/elliptic", project.grid.elliptic, elliptic_numbers());
     check_weight(faults, project.grid.elliptic);
     check<TracksInput>(faults, "grid/tracks", project.grid.tracks, tracks_numbers());
     check<ChainInput>(faults, "grid/chain", project.grid.chain, chain_numbers());
+    check<ToolpathInput>(faults, "toolpath", project.toolpath, toolpath_numbers());
     check_sequencing(faults, project);
     check<ProgramInput>(faults, "program", project.program, program_numbers());
     check_plot(faults, project.plot.settings);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "core/geometry/surface.h"
+#include "core/geometry/trim.h"
 #include "core/grid/elliptic_solver.h"
 #include "core/grid/grid.h"
+#include "core/grid/region.h"
 #include "core/grid/weight_mix.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "core/project/arm_input.h"
@@ -24,9 +26,15 @@ namespace millwright::project {
 struct SurfaceInput {
     std::string preset;                        ///< id of the preset it started from; empty if none
     std::vector<geometry::ControlNet> patches; ///< at least one
+    std::vector<geometry::Trim> trims;         ///< one a patch; those that are missing: all of the patch
     int machined_patch = 0;                    ///< index of the patch that the tool path covers
     bool flipped = false;                      ///< cut on the side against S_u x S_v
 
+    /// What of that patch is cut.
+    [[nodiscard]] geometry::Trim trim(int patch) const {
+        const auto n = static_cast<std::size_t>(patch);
+        return n < trims.size() ? trims[n] : geometry::Trim{};
+    }
     friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };
 
@@ -38,10 +46,24 @@ struct MachineInput {
     friend bool operator==(const MachineInput&, const MachineInput&) = default;
 };
 
-/// The grid whose path becomes the program.
-enum class GridMethod { uniform, elliptic, tracks, chain };
-inline constexpr std::array every_grid_method{
-    GridMethod::uniform, GridMethod::elliptic, GridMethod::tracks, GridMethod::chain};
+/// How a grid is made.
+enum class GridMethod { uniform, redistribution, elliptic, harmonic, tracks, chain };
+inline constexpr std::array every_grid_method{GridMethod::uniform,
+                                              GridMethod::redistribution,
+                                              GridMethod::elliptic,
+                                              GridMethod::harmonic,
+                                              GridMethod::tracks,
+                                              GridMethod::chain};
+/// Made whether the program uses them or not, to be compared; the others only where it does.
+inline constexpr std::array compared_methods{GridMethod::elliptic, GridMethod::tracks};
+
+/// Of the one-dimensional redistribution.
+struct RedistributionInput {
+    double floor = 0.1;       ///< of the monitor, in its means
+    int smoothing_passes = 1; ///< over the monitor
+
+    friend bool operator==(const RedistributionInput&, const RedistributionInput&) = default;
+};
 
 /// Where the weight of the elliptic adaptation comes from.
 enum class WeightSource { error, expression, mixed, w1, w2, w3, w4 };
@@ -50,18 +72,21 @@ enum class WeightSource { error, expression, mixed, w1, w2, w3, w4 };
 inline constexpr int most_painted = 257;
 inline constexpr int fresh_painted = 65;
 
+/// Of the elliptic grid, and of the harmonic map but for its solver, LV and LO.
 struct EllipticInput {
     WeightSource weight = WeightSource::error;
     std::string expression = "1 + 10*exp(-50*((u-0.5)^2+(v-0.5)^2))"; ///< used if so chosen, or mixed
     grid::MixSettings mix{};            ///< how much each reason counts, where the weight is mixed
     std::optional<grid::Field> painted; ///< by hand, 0 to 1; nothing: nowhere
-    grid::EllipticMethod solver = grid::EllipticMethod::minimiser;
-    double adaptation = 100.0;  ///< LV
-    double orthogonality = 0.0; ///< LO
-    double tolerance = 1e-3;    ///< of the residual norm
-    int max_iterations = 250;   ///< inner, a round
-    int max_rounds = 10;        ///< outer
+    grid::Region region{};              ///< where the weight counts
+    grid::EllipticMethod solver = grid::EllipticMethod::minimiser; ///< not harmonic: that is a grid method
+    double adaptation = 100.0;                                     ///< LV
+    double orthogonality = 0.0;                                    ///< LO
+    double tolerance = 1e-3;                                       ///< of the residual norm
+    int max_iterations = 250;                                      ///< inner, a round
+    int max_rounds = 10;                                           ///< outer
     bool sliding_boundary = true;
+    bool any_memory = false; ///< it is made even where it takes more than half of what is free
 
     friend bool operator==(const EllipticInput&, const EllipticInput&) = default;
 };
@@ -88,12 +113,29 @@ struct GridInput {
     int nu = 20;
     int nv = 20;
     grid::TrackDirection direction = grid::TrackDirection::along_v;
-    GridMethod method = GridMethod::tracks;
+    GridMethod method = GridMethod::tracks; ///< whose nodes the program uses
+    RedistributionInput redistribution;
     EllipticInput elliptic;
     TracksInput tracks;
     ChainInput chain;
 
     friend bool operator==(const GridInput&, const GridInput&) = default;
+};
+
+/// Which points of the surface the program touches, and in which order.
+enum class StrategyInput {
+    zigzag,           ///< the nodes of the grid, track after track
+    iso_parametric,   ///< the same over equal steps of the parameters, whatever the grid method
+    spiral,           ///< the nodes of the grid, round after round inwards
+    constant_scallop, ///< its own points: tracks that leave the tool's scallop_mm between them
+    fewest_points     ///< its own points: as few as keep the tolerance on each track
+};
+
+struct ToolpathInput {
+    StrategyInput strategy = StrategyInput::zigzag;
+    double tolerance_mm = 0.1; ///< of fewest_points: how far the tip may be off the surface curve
+
+    friend bool operator==(const ToolpathInput&, const ToolpathInput&) = default;
 };
 
 /// How the tool goes from the end of a track to the start of the next.
@@ -124,6 +166,7 @@ struct Project {
     MachineInput machine;
     ToolInput tool;
     GridInput grid;
+    ToolpathInput toolpath;
     SequencingInput sequencing;
     ProgramInput program;
     PlotInput plot; ///< beside the surface

@@ -48,8 +48,31 @@ std::vector<std::vector<JsonValue>> table(const JsonValue& value) {
     return rows;
 }
 
+geometry::Trim trim(const JsonValue& value) {
+    constexpr std::size_t fewest_corners = 3;
+    geometry::Trim result;
+    std::size_t corners = 0;
+    for (const JsonValue& loop : value.items()) {
+        geometry::Trim::Loop& read = result.loops.emplace_back();
+        for (const JsonValue& corner : loop.items()) {
+            const auto uv = corner.items(2);
+            read.emplace_back(uv[0].number(0.0, 1.0), uv[1].number(0.0, 1.0));
+        }
+        corners += read.size();
+        if (read.size() < fewest_corners) {
+            loop.fail("an outline has three corners or more");
+        }
+    }
+    if (result.loops.size() > geometry::most_trim_loops || corners > geometry::most_trim_corners) {
+        value.fail(fmt::format("outlines have at most {} loops and {} corners",
+                               geometry::most_trim_loops,
+                               geometry::most_trim_corners));
+    }
+    return result;
+}
+
 geometry::ControlNet net(const JsonValue& value) {
-    value.expect_only({"points", "weights"});
+    value.expect_only({"points", "weights", "trim"});
     const auto points = table(value.at("points"));
     const int rows = static_cast<int>(points.size());
     const int columns = static_cast<int>(points.front().size());
@@ -93,6 +116,10 @@ SurfaceInput surface(const JsonValue& value) {
         result.patches.clear();
         for (const JsonValue& patch : patches->items()) {
             result.patches.push_back(net(patch));
+            if (const auto outline = patch.find("trim")) {
+                result.trims.resize(result.patches.size() - 1);
+                result.trims.push_back(trim(*outline));
+            }
         }
     }
     if (result.patches.empty()) {
@@ -133,14 +160,28 @@ ChainInput chain(const JsonValue& value) {
     return result;
 }
 
+RedistributionInput redistribution(const JsonValue& value) {
+    expect_fields<RedistributionInput>(value, redistribution_numbers(), {});
+    RedistributionInput result;
+    read_numbers<RedistributionInput>(value, redistribution_numbers(), result);
+    return result;
+}
+
 GridInput grid_input(const JsonValue& value) {
-    expect_fields<GridInput>(value, grid_numbers(), {"direction", "method", "elliptic", "tracks", "chain"});
+    expect_fields<GridInput>(
+        value, grid_numbers(), {"direction", "method", "redistribution", "elliptic", "tracks", "chain"});
     GridInput result;
     read_numbers<GridInput>(value, grid_numbers(), result);
     read_choice(value, "direction", track_directions(), result.direction);
     read_choice(value, "method", grid_methods(), result.method);
+    if (const auto settings = value.find("redistribution")) {
+        result.redistribution = redistribution(*settings);
+    }
     if (const auto settings = value.find("elliptic")) {
         result.elliptic = elliptic_of(*settings);
+        if (result.method == GridMethod::elliptic && names_harmonic_solver(*settings)) {
+            result.method = GridMethod::harmonic;
+        }
     }
     if (const auto settings = value.find("tracks")) {
         result.tracks = tracks(*settings);
@@ -148,6 +189,14 @@ GridInput grid_input(const JsonValue& value) {
     if (const auto settings = value.find("chain")) {
         result.chain = chain(*settings);
     }
+    return result;
+}
+
+ToolpathInput toolpath_input(const JsonValue& value) {
+    expect_fields<ToolpathInput>(value, toolpath_numbers(), {"strategy"});
+    ToolpathInput result;
+    read_numbers<ToolpathInput>(value, toolpath_numbers(), result);
+    read_choice(value, "strategy", strategies(), result.strategy);
     return result;
 }
 
@@ -186,6 +235,7 @@ Project project(const JsonValue& root, const fs::path& folder) {
                       "machine",
                       "tool",
                       "grid",
+                      "toolpath",
                       "sequencing",
                       "program",
                       "plot",
@@ -203,6 +253,9 @@ Project project(const JsonValue& root, const fs::path& folder) {
     }
     if (const auto value = root.find("grid")) {
         result.grid = grid_input(*value);
+    }
+    if (const auto value = root.find("toolpath")) {
+        result.toolpath = toolpath_input(*value);
     }
     if (const auto value = root.find("sequencing")) {
         result.sequencing = sequencing(*value);
@@ -246,6 +299,18 @@ Json json_of(const geometry::ControlNet& net) {
     return json;
 }
 
+Json json_of(const geometry::Trim& trim) {
+    Json loops = Json::array();
+    for (const geometry::Trim::Loop& loop : trim.loops) {
+        Json corners = Json::array();
+        for (const Vec2& corner : loop) {
+            corners.push_back(Json::array({corner.x(), corner.y()}));
+        }
+        loops.push_back(std::move(corners));
+    }
+    return loops;
+}
+
 Json json_of(const SurfaceInput& surface) {
     Json json;
     if (!surface.preset.empty()) {
@@ -254,6 +319,10 @@ Json json_of(const SurfaceInput& surface) {
     json["patches"] = Json::array();
     for (const geometry::ControlNet& net : surface.patches) {
         json["patches"].push_back(json_of(net));
+        const std::size_t n = json["patches"].size() - 1;
+        if (n < surface.trims.size() && !surface.trims[n].everything()) {
+            json["patches"].back()["trim"] = json_of(surface.trims[n]);
+        }
     }
     json["machined_patch"] = surface.machined_patch;
     json["flipped"] = surface.flipped;
@@ -275,9 +344,20 @@ Json json_of(const GridInput& grid) {
     add_numbers<GridInput>(json, grid_numbers(), grid);
     json["direction"] = row_of(track_directions(), grid.direction).id;
     json["method"] = row_of(grid_methods(), grid.method).id;
+    if (!(grid.redistribution == RedistributionInput{})) {
+        add_numbers<RedistributionInput>(
+            json["redistribution"], redistribution_numbers(), grid.redistribution);
+    }
     json["elliptic"] = json_of(grid.elliptic);
     add_numbers<TracksInput>(json["tracks"], tracks_numbers(), grid.tracks);
     add_numbers<ChainInput>(json["chain"], chain_numbers(), grid.chain);
+    return json;
+}
+
+Json json_of(const ToolpathInput& toolpath) {
+    Json json;
+    json["strategy"] = row_of(strategies(), toolpath.strategy).id;
+    add_numbers<ToolpathInput>(json, toolpath_numbers(), toolpath);
     return json;
 }
 
@@ -319,6 +399,9 @@ std::string project_text(const Project& project) {
         json["tool"] = json_of(project.tool);
     }
     json["grid"] = json_of(project.grid);
+    if (!(project.toolpath == ToolpathInput{})) {
+        json["toolpath"] = json_of(project.toolpath);
+    }
     if (!(project.sequencing == SequencingInput{})) {
         json["sequencing"] = json_of(project.sequencing);
     }

@@ -7,10 +7,13 @@
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/tool_json.h"
 #include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 #include "core/toolpath/shortest_sequence.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -56,18 +59,21 @@ Json distances(const grid::ErrorSummary& figures) {
     return json;
 }
 
-Json errors(const Plan& plan, GridMethod method) {
-    const Evaluation& evaluation = *plan.evaluation(method);
-    const std::optional<double>& time = plan.estimated_time(method);
-    const auto& by_curve =
-        method == GridMethod::uniform ? plan.optimised->outcome.start_by_curve : evaluation.outcome.by_curve;
+Json gap_of(const Evaluation& evaluation) {
+    return evaluation.track_gap ? Json(rounded(*evaluation.track_gap)) : Json();
+}
+
+Json errors(const Plan& plan,
+            const Evaluation& evaluation,
+            const std::optional<double>& time,
+            const std::optional<grid::ErrorSummary>& by_curve) {
     Json json;
     json["closest"] = distances(evaluation.closest);
     json["param"] = distances(evaluation.param);
     json["curve"] = by_curve ? distances(*by_curve) : Json();
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
-    json["track_gap_mm"] = rounded(evaluation.track_gap);
+    json["track_gap_mm"] = gap_of(evaluation);
     json["cross"]["max"] = rounded(evaluation.cross_closest.max);
     json["cross"]["mean"] = rounded(evaluation.cross_closest.mean);
     json["min_jacobian"] = rounded(evaluation.outcome.grid.min_jacobian());
@@ -82,6 +88,34 @@ Json errors(const Plan& plan, GridMethod method) {
     json["iterations"] = evaluation.outcome.iterations;
     json["norm"] = norm_of(evaluation.outcome);
     json["note"] = evaluation.outcome.note;
+    json["warning"] = evaluation.outcome.warning;
+    return json;
+}
+
+Json errors(const Plan& plan, GridMethod method) {
+    const Evaluation& evaluation = *plan.evaluation(method);
+    auto by_curve = evaluation.outcome.by_curve;
+    if (method == GridMethod::uniform && plan.optimised) {
+        by_curve = plan.optimised->outcome.start_by_curve;
+    }
+    return errors(plan, evaluation, plan.estimated_time(method), by_curve);
+}
+
+/// Of every grid that is there, and of the path where it is none of theirs.
+Json all_errors(const Project& project, const Plan& plan) {
+    constexpr std::array<std::string_view, every_grid_method.size()> names{
+        "uniform", "redistribution", "adapted", "harmonic", "optimised", "chain"};
+    Json json;
+    for (const GridMethod method : every_grid_method) {
+        if (plan.evaluation(method)) {
+            json[std::string(names[static_cast<std::size_t>(method)])] = errors(plan, method);
+        } else if (const auto& failure = plan.failure(method)) {
+            json[std::string(names[static_cast<std::size_t>(method)])] = {{"failed", to_text(*failure)}};
+        }
+    }
+    if (has_own_path(project)) {
+        json["path"] = errors(plan, *plan.path, plan.path_time, std::nullopt);
+    }
     return json;
 }
 
@@ -140,13 +174,15 @@ Json grid_json(const Project& project, const Evaluation& chosen) {
     json["nu"] = outcome.grid.nu();
     json["nv"] = outcome.grid.nv();
     json["direction"] = row_of(track_directions(), project.grid.direction).id;
-    json["method"] = row_of(grid_methods(), project.grid.method).id;
+    json["method"] = row_of(grid_methods(), program_grid(project)).id;
+    json["strategy"] = row_of(strategies(), project.toolpath.strategy).id;
     json["status"] = status_id(outcome.status);
     json["rounds"] = outcome.rounds;
     json["iterations"] = outcome.iterations;
     json["norm"] = norm_of(outcome);
     json["min_jacobian"] = rounded(outcome.grid.min_jacobian());
     json["note"] = outcome.note;
+    json["warning"] = outcome.warning;
     return json;
 }
 
@@ -179,10 +215,11 @@ Json program(const Plan& plan) {
 } // namespace
 
 std::string report_text(const Project& project, const Plan& plan) {
-    expects(plan.uniform && plan.elliptic && plan.optimised && plan.program && plan.listing &&
-                plan.trajectory,
+    const bool compared = std::ranges::all_of(
+        compared_methods, [&](GridMethod method) { return plan.evaluation(method) || plan.failure(method); });
+    expects(plan.uniform && compared && plan.program && plan.listing && plan.trajectory,
             "a plan is complete before it is reported");
-    const Evaluation& chosen = *plan.evaluation(project.grid.method);
+    const Evaluation& chosen = *plan.program_path(project);
     Json json;
     json["format"] = "millwright-report";
     json["version"] = 1;
@@ -192,16 +229,11 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["machine"] = machine(project, plan);
     json["tool"] = tool(project.tool);
     json["grid"] = grid_json(project, chosen);
-    json["error"]["uniform"] = errors(plan, GridMethod::uniform);
-    json["error"]["adapted"] = errors(plan, GridMethod::elliptic);
-    json["error"]["optimised"] = errors(plan, GridMethod::tracks);
-    if (plan.chain) {
-        json["error"]["chain"] = errors(plan, GridMethod::chain);
-    }
+    json["error"] = all_errors(project, plan);
     json["singular_points"] = singular_points(plan);
     json["points"] = std::ssize(chosen.toolpath.points);
     json["path_length_mm"] = rounded(chosen.path_length);
-    json["track_gap_mm"] = rounded(chosen.track_gap);
+    json["track_gap_mm"] = gap_of(chosen);
     json["estimated_time_s"] = rounded(plan.trajectory->duration());
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(chosen.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(chosen.closest.axis_mean));

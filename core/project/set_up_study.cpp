@@ -32,8 +32,10 @@ toolpath::SetUpCost set_up_cost(const Workpiece& workpiece, const SetUpStudySett
             settings.goal};
 }
 
-SetUpStudy
-set_up_study(const Workpiece& workpiece, const SetUpStudySettings& settings, const Progress& progress) {
+SetUpStudy set_up_study(const Workpiece& workpiece,
+                        const SetUpStudySettings& settings,
+                        const Progress& progress,
+                        const toolpath::SetUpCosts& measure) {
     expects(settings.reach > 0.0 && settings.height_reach > 0.0, "a part may be shifted by some way");
     expects(settings.turn_reach >= 0.0 && settings.turn_reach <= pi, "a part may be turned by 0 to pi");
     expects(settings.nodes >= 2 && settings.nodes <= 200, "the cost is measured on 2 to 200 nodes each way");
@@ -41,7 +43,7 @@ set_up_study(const Workpiece& workpiece, const SetUpStudySettings& settings, con
     const toolpath::SetUpCost cost = set_up_cost(workpiece, settings);
     toolpath::SetUpSearchSettings box = set_up_box(workpiece, settings);
     SetUpStudy study;
-    study.search = toolpath::search_set_up(cost, box, progress.part(0.0, searching));
+    study.search = toolpath::search_set_up(cost, box, progress.part(0.0, searching), measure);
     const bool maps_turn = settings.across == SetUpParameter::turn || settings.up == SetUpParameter::turn;
     if (maps_turn && !(settings.turn_reach > 0.0)) { // it was not searched, but is to be seen
         box.least[3] = -pi;
@@ -53,7 +55,8 @@ set_up_study(const Workpiece& workpiece, const SetUpStudySettings& settings, con
                                      settings.up,
                                      settings.places,
                                      box,
-                                     progress.part(searching, 1.0));
+                                     progress.part(searching, 1.0),
+                                     measure);
     return study;
 }
 

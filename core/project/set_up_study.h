@@ -36,9 +36,12 @@ struct SetUpStudy {
     toolpath::SetUpMap map; ///< through the best place
 };
 
-/// Parallel; the same bytes on any number of threads. Throws Cancelled.
-[[nodiscard]] SetUpStudy
-set_up_study(const Workpiece& workpiece, const SetUpStudySettings& settings, const Progress& progress);
+/// `measure`: who measures many places at once; empty for this process's threads. The same bytes by any
+/// number of them. Throws Cancelled, and what `measure` throws.
+[[nodiscard]] SetUpStudy set_up_study(const Workpiece& workpiece,
+                                      const SetUpStudySettings& settings,
+                                      const Progress& progress,
+                                      const toolpath::SetUpCosts& measure = {});
 
 /// The project with the part there: the offset is of the machine, a turn is one of all control points.
 [[nodiscard]] Project with_set_up(Project project, const toolpath::SetUpPlace& place);

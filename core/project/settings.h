@@ -51,10 +51,15 @@ template <class Owner> struct NumberSetting {
 };
 
 [[nodiscard]] std::span<const NumberSetting<GridInput>> grid_numbers();
+[[nodiscard]] std::span<const NumberSetting<RedistributionInput>> redistribution_numbers();
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();
+/// Whether the harmonic map uses the number of `id` too.
+[[nodiscard]] bool is_of_harmonic_map(std::string_view id);
+[[nodiscard]] std::span<const NumberSetting<grid::Region>> region_numbers();
 [[nodiscard]] std::span<const NumberSetting<grid::MixSettings>> mix_numbers();
 [[nodiscard]] std::span<const NumberSetting<TracksInput>> tracks_numbers();
 [[nodiscard]] std::span<const NumberSetting<ChainInput>> chain_numbers();
+[[nodiscard]] std::span<const NumberSetting<ToolpathInput>> toolpath_numbers();
 [[nodiscard]] std::span<const NumberSetting<SequencingInput>> sequencing_numbers();
 [[nodiscard]] std::span<const NumberSetting<ProgramInput>> program_numbers();
 
@@ -69,7 +74,9 @@ template <class Value> struct Choice {
 [[nodiscard]] std::span<const Choice<grid::TrackDirection>> track_directions();
 [[nodiscard]] std::span<const Choice<GridMethod>> grid_methods();
 [[nodiscard]] std::span<const Choice<WeightSource>> weight_sources();
+[[nodiscard]] std::span<const Choice<StrategyInput>> strategies();
 [[nodiscard]] std::span<const Choice<toolpath::SequencingGoal>> sequencing_goals();
+/// All but the harmonic map, which is a grid method.
 [[nodiscard]] std::span<const Choice<grid::EllipticMethod>> elliptic_solvers();
 [[nodiscard]] std::span<const Choice<grid::Combination>> combinations();
 [[nodiscard]] std::span<const Choice<LinkInput>> links();

@@ -73,8 +73,11 @@ ArmInput arm_of(const JsonValue& value) {
         arm.program = program->text();
     }
     if (const auto path = value.find("path")) {
-        path->expect_only({"at_mm", "turned_deg"});
+        path->expect_only({"at_mm", "turned_deg", "most_lean_deg"});
         arm.path = {vector_of(path->at("at_mm")), vector_of(path->at("turned_deg"))};
+        if (const auto lean = path->find("most_lean_deg")) {
+            arm.path.most_lean_deg = lean->number();
+        }
     }
     return arm;
 }
@@ -96,7 +99,9 @@ Json json_of(const ArmInput& arm) {
     Json json;
     json["points"] = json_of(arm.points);
     json["program"] = arm.program;
-    json["path"] = {{"at_mm", json_of(arm.path.at_mm)}, {"turned_deg", json_of(arm.path.turned_deg)}};
+    json["path"] = {{"at_mm", json_of(arm.path.at_mm)},
+                    {"turned_deg", json_of(arm.path.turned_deg)},
+                    {"most_lean_deg", arm.path.most_lean_deg}};
     return json;
 }
 
@@ -134,7 +139,9 @@ std::vector<std::string> faults_of(const std::vector<TaughtPoint>& points) {
     std::set<std::string> names;
     for (const TaughtPoint& point : points) {
         if (point.name.empty() || !names.insert(point.name).second) {
-            faults.push_back(fmt::format("arm/points: '{}' is no name of its own", point.name));
+            faults.push_back(point.name.empty()
+                                 ? std::string("arm/points: a point has no name")
+                                 : fmt::format("arm/points: there are two points '{}'", point.name));
         }
         const bool sound = std::ranges::all_of(point.joints_deg, [](double joint) {
             return std::isfinite(joint) && std::abs(joint) <= farthest;

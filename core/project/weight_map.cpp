@@ -13,7 +13,7 @@ namespace {
 
 constexpr int raster = 97; // points a side: finer than the eye asks of a smooth field
 
-/// As solvers begin with it.
+/// As solvers of the elliptic grid begin with it, but for the region.
 grid::WeightPtr
 weight_at_start(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
     if (!needs_error(input.elliptic)) {
@@ -29,6 +29,20 @@ weight_at_start(const GridInput& input, const Workpiece& workpiece, const Progre
     }
     return grid::weight_on(
         uniform, grid::scaled_weight(std::move(density), input.nu, input.nv, settings.error_weight));
+}
+
+/// The same where it counts.
+grid::WeightPtr
+weight_in_region(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+    grid::WeightPtr weight = weight_at_start(input, workpiece, progress);
+    const grid::WeightPtr share = region_weight(input, workpiece.patch);
+    if (share == nullptr) {
+        return weight;
+    }
+    const grid::NodeArray nodes =
+        grid::to_solver_coordinates(grid::Grid::uniform(input.nu, input.nv).array());
+    const double least = std::ranges::min(grid::weight_at_nodes(*weight, nodes));
+    return grid::within(std::move(weight), share, least);
 }
 
 /// `rows` x `columns` places spread evenly over the solver coordinates of the grid.
@@ -51,7 +65,7 @@ WeightMap sampled(const grid::Weight& weight, const GridInput& input, int rows, 
 } // namespace
 
 WeightMap weight_map(const GridInput& input, const Workpiece& workpiece, const Progress& progress) {
-    const grid::WeightPtr weight = weight_at_start(input, workpiece, progress);
+    const grid::WeightPtr weight = weight_in_region(input, workpiece, progress);
     try {
         return sampled(*weight, input, raster, raster);
     } catch (const Error&) { // such as 1 / abs(u - 1/3): the grid may have no node there

@@ -74,6 +74,15 @@ double linear_travel(const kinematics::MachineModel& machine, const AxisPath& ax
     return sum;
 }
 
+std::vector<double> measured(const SetUpCost& cost,
+                             std::span<const SetUpPlace> places,
+                             const SetUpCosts& measure,
+                             const Progress& progress) {
+    std::vector<double> costs = measure ? measure(places, progress) : costs_at(cost, places, progress);
+    expects(costs.size() == places.size(), "each place has a cost");
+    return costs;
+}
+
 /// Downhill from `best`, which it makes better; returns the number of evaluations.
 int descend(const SetUpCost& cost,
             const SetUpSearchSettings& settings,
@@ -87,7 +96,7 @@ int descend(const SetUpCost& cost,
     const nlopt::vfunc value = [](const std::vector<double>& at, std::vector<double>&, void* data) {
         return (*static_cast<const std::function<double(const std::vector<double>&)>*>(data))(at);
     };
-    std::function<double(const std::vector<double>&)> measured = [&](const std::vector<double>& at) {
+    std::function<double(const std::vector<double>&)> value_at = [&](const std::vector<double>& at) {
         if (progress.cancelled()) {
             throw nlopt::forced_stop(); // the only way out through the library; thrown again below
         }
@@ -104,7 +113,7 @@ int descend(const SetUpCost& cost,
     const auto numbers = [&](const SetUpPlace& place) {
         return std::vector<double>(place.data(), place.data() + dimensions);
     };
-    simplex.set_min_objective(value, &measured);
+    simplex.set_min_objective(value, &value_at);
     simplex.set_lower_bounds(numbers(settings.least));
     simplex.set_upper_bounds(numbers(settings.most));
     const Eigen::Array4d half_steps = 2.0 * counts_of(settings).cast<double>();
@@ -166,8 +175,22 @@ double SetUpCost::at(const SetUpPlace& place, const Progress& progress) const {
     return grid::summary(measure(error, grid_, direction_, grid::coarse, progress)).mean;
 }
 
-SetUpSearch
-search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const Progress& progress) {
+std::vector<double>
+costs_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress) {
+    std::vector<double> costs(places.size());
+    std::atomic<std::size_t> done = 0;
+    parallel_for(std::ssize(places), 1, [&](std::ptrdiff_t n) {
+        const auto at = static_cast<std::size_t>(n);
+        costs[at] = cost.at(places[at], progress.part(0.0, 0.0));
+        progress.report(static_cast<double>(++done) / static_cast<double>(places.size()));
+    });
+    return costs;
+}
+
+SetUpSearch search_set_up(const SetUpCost& cost,
+                          const SetUpSearchSettings& settings,
+                          const Progress& progress,
+                          const SetUpCosts& measure) {
     check(settings);
     SetUpSearch found;
     found.start = {cost.start(), cost.at(cost.start(), progress)};
@@ -176,14 +199,14 @@ search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const 
     const std::vector<SetUpPlace> places = lattice(settings);
     const double scan = static_cast<double>(places.size());
     const double share = scan / (scan + settings.descent);
-    for (const SetUpPlace& place : places) {
-        const double here = cost.at(place, progress);
-        if (here < found.best.cost) {
-            found.best = {place, here};
+    progress.report(0.0, "Searching the set-up");
+    const std::vector<double> costs = measured(cost, places, measure, progress.part(0.0, share));
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        if (costs[n] < found.best.cost) {
+            found.best = {places[n], costs[n]};
         }
-        progress.report(share * found.evaluations / scan, "Searching the set-up");
-        ++found.evaluations;
     }
+    found.evaluations += static_cast<int>(places.size());
     if (settings.descent > 0) {
         found.evaluations += descend(cost, settings, found.best, progress.part(share, 1.0));
     }
@@ -196,7 +219,8 @@ SetUpMap set_up_map(const SetUpCost& cost,
                     SetUpParameter up,
                     int places,
                     const SetUpSearchSettings& settings,
-                    const Progress& progress) {
+                    const Progress& progress,
+                    const SetUpCosts& measure) {
     check(settings);
     const bool of_turn = across == SetUpParameter::turn || up == SetUpParameter::turn;
     expects(across != up && (!of_turn || turns(settings)), "a map is over two parameters that have room");
@@ -209,15 +233,17 @@ SetUpMap set_up_map(const SetUpCost& cost,
         map.x.push_back(mix(settings.least[column], settings.most[column], t));
         map.y.push_back(mix(settings.least[row], settings.most[row], t));
     }
-    map.costs.resize(map.x.size() * map.y.size());
-    std::atomic<int> done = 0;
-    parallel_for(std::ssize(map.costs), 1, [&](std::ptrdiff_t n) {
-        SetUpPlace here = through;
-        here[column] = map.x[static_cast<std::size_t>(n) % map.x.size()];
-        here[row] = map.y[static_cast<std::size_t>(n) / map.x.size()];
-        map.costs[static_cast<std::size_t>(n)] = cost.at(here, progress.part(0.0, 0.0));
-        progress.report(static_cast<double>(++done) / (places * places), "Mapping the set-up");
-    });
+    std::vector<SetUpPlace> over;
+    over.reserve(map.x.size() * map.y.size());
+    for (const double y : map.y) {
+        for (const double x : map.x) {
+            SetUpPlace& here = over.emplace_back(through);
+            here[column] = x;
+            here[row] = y;
+        }
+    }
+    progress.report(0.0, "Mapping the set-up");
+    map.costs = measured(cost, over, measure, progress);
     return map;
 }
 

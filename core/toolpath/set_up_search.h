@@ -7,6 +7,8 @@
 #include "core/grid/grid.h"
 #include "core/kinematics/machine_model.h"
 
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace millwright::toolpath {
@@ -52,6 +54,14 @@ private:
     SetUpGoal goal_;
 };
 
+/// The costs of many places, in their order; whoever measures them. Throws Cancelled, and Error for those
+/// that did not come.
+using SetUpCosts = std::function<std::vector<double>(std::span<const SetUpPlace>, const Progress&)>;
+
+/// By the threads of this process; the same bytes on any number of them. Throws Cancelled.
+[[nodiscard]] std::vector<double>
+costs_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress);
+
 /// Values outside their range throw Defect.
 struct SetUpSearchSettings {
     SetUpPlace least{-100.0, -100.0, -100.0, 0.0};
@@ -73,9 +83,12 @@ struct SetUpSearch {
 };
 
 /// The best of a lattice of places, then downhill from there (Nelder and Mead 1965 inside the box, by NLopt).
-/// Deterministic. Throws Cancelled.
-[[nodiscard]] SetUpSearch
-search_set_up(const SetUpCost& cost, const SetUpSearchSettings& settings, const Progress& progress);
+/// `measure`: who measures the lattice; empty for costs_at(). Deterministic. Throws Cancelled, and what
+/// `measure` throws.
+[[nodiscard]] SetUpSearch search_set_up(const SetUpCost& cost,
+                                        const SetUpSearchSettings& settings,
+                                        const Progress& progress,
+                                        const SetUpCosts& measure = {});
 
 /// The cost over two of the parameters, the others as in a place.
 struct SetUpMap {
@@ -86,15 +99,16 @@ struct SetUpMap {
     std::vector<double> costs;                 ///< row by row, infinity where out of reach
 };
 
-/// `places` each way, 2 to 500, evenly from `settings.least` to `settings.most`. Parallel over places; the
-/// same bytes on any number of threads. Throws Cancelled; Defect if `across` is `up`, or is a turn that has
-/// no room.
+/// `places` each way, 2 to 500, evenly from `settings.least` to `settings.most`. `measure`: who measures
+/// them; empty for costs_at(). Throws Cancelled, and what `measure` throws; Defect if `across` is `up`, or is
+/// a turn that has no room.
 [[nodiscard]] SetUpMap set_up_map(const SetUpCost& cost,
                                   const SetUpPlace& through,
                                   SetUpParameter across,
                                   SetUpParameter up,
                                   int places,
                                   const SetUpSearchSettings& settings,
-                                  const Progress& progress);
+                                  const Progress& progress,
+                                  const SetUpCosts& measure = {});
 
 } // namespace millwright::toolpath

@@ -121,7 +121,7 @@ double step_cost(const MachineModel& machine,
 }
 
 double share_of(const PathPoint& point, double link_share) {
-    return point.reached_by == MoveKind::track ? 1.0 : link_share;
+    return point.reached_by == MoveKind::track ? 1.0 : point.reached_by == MoveKind::over ? 0.0 : link_share;
 }
 
 Table table_of(

@@ -88,7 +88,15 @@ ObliqueView::ObliqueView(const std::vector<Vec3>& points) {
     }
     mean /= static_cast<double>(points.size());
     const double c = std::cos(listing_pi / 6.0), s = std::sin(listing_pi / 6.0);
-    R_ = std::min(250.0 / (mean.x() + mean.y() * c), 200.0 / (mean.z() + mean.y() * s));
+    const double across = mean.x() + mean.y() * c;
+    const double up = mean.z() + mean.y() * s;
+    constexpr double least = 1e-3; // mm: below it points are beyond any picture
+    if (!(across > least && up > least)) {
+        throw Error("the thesis's view has no scale for this surface",
+                    {},
+                    "X + Y cos 30 and Z + Y sin 30 of its middle are above 0");
+    }
+    R_ = std::min(250.0 / across, 200.0 / up);
 }
 
 Eigen::Vector2i ObliqueView::pixel(const Vec3& p) const {

@@ -15,6 +15,7 @@ namespace millwright::toolpath {
 /// pi = 22/7. R fits the means of the points into 250 x 200 pixels.
 class ObliqueView {
 public:
+    /// Throws Error where that is no positive number: the means lie in the wrong half.
     explicit ObliqueView(const std::vector<Vec3>& points);
     [[nodiscard]] double scale() const { return R_; }
     /// Pixels, truncated toward zero as in the listing.
@@ -27,7 +28,8 @@ private:
 /// The listing's samples: u = i/n, v = j/n in single precision, so that u = 1 is never reached. [n x n]
 [[nodiscard]] std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, int n);
 
-/// Surface.dat: "x1 y1 x2 y2" a line; first the lines of constant i, then of constant j.
+/// Throws Error as the view. Surface.dat: "x1 y1 x2 y2" a line; first the lines of constant i, then of
+/// constant j.
 [[nodiscard]] std::string surface_dat(const geometry::BezierPatch& patch, int n);
 
 /// How faithful the listing's mid-points are computed.
@@ -42,7 +44,7 @@ enum class ListingFaults {
                                                    int n,
                                                    ListingFaults faults);
 
-/// Toolpath.dat: mid-point line "x y " and end-point line " x y" a move.
+/// Throws Error as the view. Toolpath.dat: mid-point line "x y " and end-point line " x y" a move.
 [[nodiscard]] std::string toolpath_dat(const geometry::BezierPatch& patch,
                                        const kinematics::RotaryTilt& machine,
                                        int n,

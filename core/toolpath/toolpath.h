@@ -18,6 +18,7 @@ enum class MoveKind {
     start, ///< the first point: reached by an approach
     track, ///< inside a track: cuts
     cross, ///< from the end of a track to the start of the next
+    over,  ///< over a part of the patch that does not belong to the design: always lifted
 };
 
 /// Where a path point comes from.
@@ -40,7 +41,7 @@ struct Toolpath {
     std::vector<PathPoint> points; ///< one more than moves
 };
 
-/// Length of the path with straight moves, mm.
+/// Length of the path with straight moves, without those that go over what is not cut, mm.
 [[nodiscard]] double length(const Toolpath& toolpath);
 
 } // namespace millwright::toolpath

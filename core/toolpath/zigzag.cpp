@@ -7,7 +7,9 @@ namespace millwright::toolpath {
 double length(const Toolpath& toolpath) {
     double sum = 0.0;
     for (std::size_t n = 1; n < toolpath.points.size(); ++n) {
-        sum += (toolpath.points[n].pose.tip - toolpath.points[n - 1].pose.tip).norm();
+        if (toolpath.points[n].reached_by != MoveKind::over) {
+            sum += (toolpath.points[n].pose.tip - toolpath.points[n - 1].pose.tip).norm();
+        }
     }
     return sum;
 }

@@ -118,8 +118,10 @@ TEST_F(BadInput, APartOutOfReach) {
 }
 
 TEST_F(BadInput, AFormulaWithoutSense) {
-    EXPECT_THAT(failure_with("\"weight\": \"error\",\n            \"expression\": \"1 +",
-                             "\"weight\": \"expression\",\n            \"expression\": \"1 + * "),
+    EXPECT_THAT(failure_with("\"method\": \"tracks\",\n        \"elliptic\": {\n            \"weight\": "
+                             "\"error\",\n            \"expression\": \"1 +",
+                             "\"method\": \"elliptic\",\n        \"elliptic\": {\n            \"weight\": "
+                             "\"expression\",\n            \"expression\": \"1 + * "),
                 StartsWith(place() + ": grid/elliptic/expression, character 5: "));
 }
 

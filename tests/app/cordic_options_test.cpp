@@ -118,7 +118,10 @@ TEST_F(CordicOptions, NameTheCauseOfASpeedThatIsBesideTheFeed) {
     const std::string file = written("x8.ngc", "F30\nG1 X3 Y4\nG1 X8\nM2\n");
     const Ended ended = run({"cordic", "run", file, "--matlab-zero", "--format", "f64"});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("(line 3): --matlab-zero turns nothing along an axis"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr(
+            "x8.ngc:3: the speed is up to 22 % beside the feed: --matlab-zero turns nothing along an axis"));
     EXPECT_THAT(ended.err, Not(HasSubstr("too few bits")));
     const Ended adrift = run({"cordic", "run", arc, "--iterations", "9", "--whole-arcs"});
     EXPECT_THAT(adrift.err, HasSubstr("its ends are up to 1.3 mm beside theirs"));
@@ -229,6 +232,9 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         const auto found = nlohmann::json::parse(ended.out).at("warnings");
         EXPECT_EQ(found.empty(), ended.err.find("warning: ") == std::string::npos) << ended.err;
+        for (const auto& warning : found) {
+            EXPECT_THAT(ended.err, HasSubstr(warning.at("message").get<std::string>()));
+        }
         return found.dump();
     };
     EXPECT_EQ(warnings({arc}), "[]");
@@ -238,7 +244,8 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
     EXPECT_EQ(warnings({image}), "[]");
     const std::string loop =
         written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  MOV Amax, 1\n  G01\n  G01\nHLT\n");
-    EXPECT_THAT(warnings({loop}), HasSubstr("where the axes are already, the first one at line 6, column 3"));
+    EXPECT_THAT(warnings({loop}),
+                AllOf(HasSubstr("where the axes are already"), HasSubstr(R"("column":3,"line":6)")));
     const std::string slow = written("slow.ngc", "G21 G90\nF1\nG1 X10 Y7\nM2\n");
     EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}),
                 HasSubstr("q10.6 has too few bits for it"));
@@ -246,6 +253,20 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
     EXPECT_THAT(warnings({line, "--iterations", "4"}),
                 AllOf(HasSubstr("4 iterations turn its direction by up to 14 degrees beside"),
                       Not(HasSubstr("too few bits"))));
+}
+
+// A way of 1e-6 mm back to the start is a full circle to the interpreter.
+TEST_F(CordicOptions, ListWhatTheCompilerWarnsOf) {
+    const std::string file =
+        written("hair.ngc", "G21 G90 G17\nF60\nG1 X10 Y0\n  G3 X10 Y0.000008 I-10 J0\nM2\n");
+    const Ended ended = run({"cordic", "run", file, "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto found = nlohmann::json::parse(ended.out).at("warnings");
+    ASSERT_EQ(found.size(), 1U) << found;
+    EXPECT_EQ(found[0].at("line"), 4);
+    EXPECT_THAT(found[0].at("message").get<std::string>(),
+                HasSubstr("behind its start and is a full circle"));
+    EXPECT_THAT(ended.err, HasSubstr("hair.ngc:4"));
 }
 
 TEST_F(CordicOptions, RefuseDirectionsThatSoFewIterationsDoNotReachBeforeAnythingRuns) {

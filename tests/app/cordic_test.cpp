@@ -355,6 +355,13 @@ TEST(Cordic, RunsBesideTheLogicOfAMachine) {
     EXPECT_EQ(logic.at("starved_s"), 0.0);
     EXPECT_GT(logic.at("outputs").size(), 3U);
     const ScratchFolder folder;
+    write_content(folder / "stop.plc", "LD I1\nST STOP\n");
+    write_content(folder / "stop.inputs", "5 I1 1\n");
+    const Ended stopped = run(
+        {"cordic", "run", arc, "--plc", folder / "stop.plc", "--inputs", folder / "stop.inputs", "--json"});
+    EXPECT_EQ(stopped.exit_code, 1);
+    EXPECT_THAT(stopped.err, HasSubstr("the logic stopped the machine before the end of the program"));
+    EXPECT_EQ(nlohmann::json::parse(stopped.out).at("stop"), "stopped by the logic");
     const auto wrong = folder.path() / "wrong.plc";
     write_content(wrong, "LD I0\nST I1\n");
     const Ended refused = run({"cordic", "run", arc, "--plc", wrong.string()});

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 namespace millwright::test {
 namespace {
 
@@ -31,6 +33,19 @@ TEST(CutterCommand, LeavesProgramReportAndMap) {
     const auto report = nlohmann::json::parse(content_of(scratch / "out/cut.json"));
     EXPECT_EQ(report.at("format"), "millwright-cut");
     EXPECT_GT(report.at("scallop_mm").at("max"), 0.0);
+}
+
+TEST(CutterCommand, ReportsAPathOfItsOwn) {
+    const ScratchFolder scratch;
+    auto project = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
+    project["toolpath"]["strategy"] = "iso-parametric";
+    std::ofstream(scratch / "iso.json") << project.dump();
+    const Ended ended =
+        run({"cutter", scratch / "iso.json", "--tool", "assets/tools/ball-6.json", "--out", scratch / "out"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/cut.json"));
+    EXPECT_EQ(report.at("strategy"), "iso-parametric");
+    EXPECT_GT(report.at("error_mm").at("max"), 0.0);
 }
 
 TEST(CutterCommand, RefusesWhatIsNoTool) {

@@ -14,6 +14,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// A BMP of gray pixels, rows from the top.
 std::string bmp(int width, int height, const std::vector<int>& gray) {
@@ -196,6 +197,55 @@ TEST(PictureCommand, TraceWritesCurvesOrAProgram) {
     EXPECT_GT(on_the_sun, 20);
 }
 
+TEST(PictureCommand, TheEndingOfItsNameSaysWhatATraceIsWrittenAs) {
+    const ScratchFolder folder;
+    const std::string boat = "assets/samples/pictures/boat.png";
+    const std::string capitals = folder / "B.SVG";
+    ASSERT_EQ(run({"picture", "trace", boat, "--out", capitals}).exit_code, 0);
+    EXPECT_THAT(content_of(capitals), HasSubstr("<svg"));
+    const std::string document = folder / "boat.pdf";
+    const Ended refused = run({"picture", "trace", boat, "--out", document});
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.err, HasSubstr("outlines are not written as .pdf"));
+    EXPECT_FALSE(std::filesystem::exists(document));
+}
+
+TEST(PictureCommand, TraceToSvgLeavesNothingOutWithoutAWord) {
+    const ScratchFolder folder;
+    const std::string boat = "assets/samples/pictures/boat.png";
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--hatch", "2"}, {"--chords", "0.1"}, {"--depth", "3"}}) {
+        std::vector<std::string> words{"picture", "trace", boat, "--out", folder / "boat.svg"};
+        words.insert(words.end(), option.begin(), option.end());
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr(option.front() + " is of a program"));
+        EXPECT_FALSE(std::filesystem::exists(folder / "boat.svg"));
+    }
+}
+
+TEST(PictureCommand, HalftoneSaysWhatTheToolIsTooNarrowFor) {
+    const ScratchFolder folder;
+    const auto engraved = [&](const std::string& tool) {
+        return run({"picture",
+                    "engrave",
+                    "assets/samples/pictures/snail.png",
+                    "--width",
+                    "40",
+                    "--pitch",
+                    "2",
+                    "--tool",
+                    tool,
+                    "--out",
+                    folder / "dots.ngc"});
+    };
+    // Holes of 1 mm in squares of 2 mm: pi / 16.
+    const Ended narrow = engraved("v:60:1");
+    EXPECT_EQ(narrow.exit_code, 0);
+    EXPECT_THAT(narrow.err, HasSubstr("what is darker than 20 % looks alike"));
+    EXPECT_EQ(engraved("v:60:6").err.find("looks alike"), std::string::npos);
+}
+
 TEST(PictureCommand, EngravesDotsAndShowsThem) {
     const ScratchFolder folder;
     const std::string snail = "assets/samples/pictures/snail.png";
@@ -306,6 +356,26 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     EXPECT_TRUE(std::filesystem::exists(out));
     EXPECT_THAT(run({"picture", "trace", (folder / "pixel.bmp").string(), "--out", out}).err,
                 HasSubstr("nothing in it is dark enough"));
+}
+
+TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.svg").string();
+    const auto traced = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"picture", "trace", (folder / "pixel.bmp").string(), "--out", out};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    write_content(folder / "pixel.bmp", bmp(1, 1, {0}));
+    const Ended speck = traced({});
+    EXPECT_EQ(speck.exit_code, 1);
+    EXPECT_THAT(speck.err, HasSubstr("nothing dark in it has more than 2 pixels"));
+    EXPECT_THAT(speck.err, HasSubstr("--speckle 0"));
+    EXPECT_THAT(speck.err, Not(HasSubstr("--threshold")));
+    EXPECT_THAT(traced({"--speckle", "1"}).err, HasSubstr("more than 1 pixel,"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_THAT(traced({"--speckle", "0"}).out, HasSubstr("1 outline of"));
+    EXPECT_THAT(traced({"--invert", "--speckle", "0"}).err, HasSubstr("nothing in it is dark enough"));
 }
 
 } // namespace

@@ -64,6 +64,25 @@ TEST(PlanCommand, CutsWithTheToolOfAFile) {
     EXPECT_GT(report.at("cut").at("scallop_mm").at("max"), 0.0);
 }
 
+TEST(PlanCommand, AComparedGridThatFailsIsAWarning) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    auto json = nlohmann::json::parse(content_of(project));
+    json["grid"]["elliptic"]["weight"] = "expression";
+    json["grid"]["elliptic"]["expression"] = "1/(u-u)";
+    write_content(scratch / "fails.json", json.dump());
+    const Ended ended = run({"plan", scratch / "fails.json", "--out", scratch / "out"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: no elliptic grid to compare with: "));
+    EXPECT_THAT(ended.out, HasSubstr("\nelliptic   failed\n"));
+    EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("G93"));
+    json["grid"]["elliptic"]["expression"] = "u - 0.5";
+    write_content(scratch / "warns.json", json.dump());
+    const Ended warned = run({"plan", scratch / "warns.json", "--out", scratch / "out"});
+    EXPECT_EQ(warned.exit_code, 0) << warned.err;
+    EXPECT_THAT(warned.err, HasSubstr("warning: elliptic grid: The weight is not positive at "));
+}
+
 TEST(PlanCommand, WritesOverNoProjectInItsFolder) {
     const ScratchFolder scratch;
     const fs::path project = scratch / "report.json";

@@ -63,6 +63,33 @@ TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
     EXPECT_THAT(ended.err, HasSubstr("1 arcs\n"));
 }
 
+/// An arc is longer than its chords by a hair; its feed is theirs.
+TEST_F(Posts, ConvertKeepsTheFeedOfArcs) {
+    write_content(part, "G21 G90\nG0 X10 Y0 Z1\nG3 X-10 Y0 I-10 F480\nM2\n");
+    const Ended ended = convert("router-xyz", "linuxcnc-xyz", {"--arcs", "0.01"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("F480.0000"));
+}
+
+/// The thesis's own program begins at X-7, and its table at X0.
+TEST_F(Posts, ConvertPutsTheZeroOfAProgramWhereItFits) {
+    const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
+    const std::vector<std::string> words{
+        "gcode", "convert", plate, "--machine", "forming-table", "--post", "linuxcnc-xyz"};
+    const Ended outside = run(words);
+    EXPECT_EQ(outside.exit_code, 1);
+    EXPECT_THAT(outside.err, HasSubstr("axis X would have to go to -7.000"));
+    auto moved = words;
+    moved.insert(moved.end(), {"--origin", "10,20"});
+    const Ended inside = run(moved);
+    EXPECT_EQ(inside.exit_code, 0) << inside.err;
+    EXPECT_THAT(inside.out, HasSubstr("X3.0000 Y33.0000"));
+    moved.back() = "10,20,5.5";
+    EXPECT_THAT(run(moved).out, HasSubstr("Z15.5000"));
+    moved.back() = "10";
+    EXPECT_NE(run(moved).exit_code, 0);
+}
+
 /// Somebody else's first move may be a feed, and the machine may have no table to turn.
 TEST_F(Posts, ConvertWritesTipsOfProgramsThatBeginWithAFeedForMachinesWithoutRotaryAxes) {
     write_content(part, "G21 F100\nM3 S100\nG1 X1\nM2\n");

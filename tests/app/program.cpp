@@ -45,7 +45,9 @@ void take(int& handle, std::string& to) {
 
 } // namespace
 
-Program::Program(const std::vector<std::string>& arguments, const std::string& input) {
+Program::Program(const std::vector<std::string>& arguments,
+                 const std::string& input,
+                 const std::vector<std::string>& launcher) {
     std::array<int, 2> in{};
     std::array<int, 2> out{};
     std::array<int, 2> err{};
@@ -63,15 +65,16 @@ Program::Program(const std::vector<std::string>& arguments, const std::string& i
     posix_spawn_file_actions_adddup2(&files, in[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err[1], STDERR_FILENO);
-    std::vector<std::string> words{MILLWRIGHT_PROGRAM};
+    std::vector<std::string> words = launcher;
+    words.emplace_back(MILLWRIGHT_PROGRAM);
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) {
         argv.push_back(word.data());
     }
     argv.push_back(nullptr);
-    const int failure = ::posix_spawn(
-        &child_, MILLWRIGHT_PROGRAM, &files, nullptr, argv.data(), environment_without_display().data());
+    const int failure = ::posix_spawnp(
+        &child_, argv.front(), &files, nullptr, argv.data(), environment_without_display().data());
     posix_spawn_file_actions_destroy(&files);
     ::close(in[0]);
     ::close(out[1]);
@@ -79,7 +82,7 @@ Program::Program(const std::vector<std::string>& arguments, const std::string& i
     out_ = out[0];
     err_ = err[0];
     if (failure != 0) {
-        throw std::runtime_error(std::string("cannot start ") + MILLWRIGHT_PROGRAM);
+        throw std::runtime_error("cannot start " + words.front());
     }
 }
 

@@ -16,10 +16,12 @@ struct Ended {
 };
 
 /// A started program. Without DISPLAY and WAYLAND_DISPLAY; `input` is what it finds on standard input, no
-/// more than a pipe holds (64 KiB).
+/// more than a pipe holds (64 KiB); `launcher` is the command that starts it, as mpirun.
 class Program {
 public:
-    explicit Program(const std::vector<std::string>& arguments, const std::string& input = {});
+    explicit Program(const std::vector<std::string>& arguments,
+                     const std::string& input = {},
+                     const std::vector<std::string>& launcher = {});
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     ~Program();
@@ -27,6 +29,7 @@ public:
     /// Blocks until `text` stood in standard error, or the program ended.
     void wait_for_error_text(const std::string& text);
     void send(int signal) const;
+    [[nodiscard]] pid_t pid() const { return child_; }
     /// More for its standard input.
     void type(const std::string& keys) const;
     /// Blocks until it ended; its standard input ends before.

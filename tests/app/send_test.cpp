@@ -18,7 +18,7 @@ using testing::HasSubstr;
 std::string zigzag(int lines) {
     std::string text = "G21 G90 G94\nG1 Z0 F3000\n";
     for (int n = 0; n < lines; ++n) {
-        text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
+        text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n % 200) + "\n";
     }
     return text + "M30\n";
 }
@@ -88,6 +88,32 @@ TEST_F(Send, RestsAfterTheFirstBlockWhereThatIsWanted) {
     sender.type("r");
     const Ended ended = sender.end();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+TEST_F(Send, NamesTheProgramThatHoldsTheSerialPort) {
+    write_content(file, zigzag(2000));
+    Emulator emulator(port, {"--speed", "1"});
+    Program first(words());
+    first.wait_for_error_text("Block ");
+    const Ended second = run(words());
+    EXPECT_EQ(second.exit_code, 1);
+    EXPECT_THAT(second.err,
+                HasSubstr("another program holds the serial port: millwright (process " +
+                          std::to_string(first.pid()) + ")"));
+    first.send(SIGINT);
+    EXPECT_EQ(first.end().exit_code, 1);
+    EXPECT_EQ(last_record(logs).at("end"), "cancelled"); // by us, and by nobody else before
+}
+
+TEST_F(Send, RefusesWhatIsLongerThanAMachineWithoutHoming) {
+    write_content(file, "G21\nG0 X99999\nM2\n");
+    Emulator emulator(port);
+    const Ended ended = run(words());
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("zigzag.ngc:2: axis X would go from 0.000 mm to 99999.000 mm in machine coordinates, "
+                  "99999.000 mm, and its whole travel is 200.000 mm"));
 }
 
 TEST_F(Send, IsStoppedByItsKey) {
@@ -171,6 +197,19 @@ TEST_F(Send, TellsWhichFaultEndedTheJob) {
     EXPECT_EQ(last_record(logs).at("end"), "fault");
 }
 
+TEST_F(Send, ProbesWhatTheEmulatorPutsThere) {
+    write_content(file, "G21 G90\nG38.2 Z-10 F600\nM2\n");
+    {
+        Emulator emulator(port, {"--surface", "-3"});
+        const Ended touched = run(words());
+        EXPECT_EQ(touched.exit_code, 0) << touched.err;
+    }
+    Emulator emulator(port);
+    const Ended missed = run(words());
+    EXPECT_EQ(missed.exit_code, 1);
+    EXPECT_THAT(missed.out + missed.err, HasSubstr("probe"));
+}
+
 TEST_F(Send, TellsWhatIsWrongBeforeAnythingIsSent) {
     write_content(file, "G0 X1\nG0 X2 ?\n");
     Ended ended = run(words());
@@ -224,7 +263,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
                     std::to_string(std::max(next, 2900)),
                     "--clearance",
                     "5"});
-        if (rest.err.find("is moving for somebody else") == std::string::npos) {
+        if (rest.err.find("the machine takes no job: it was moving") == std::string::npos) {
             break;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -233,6 +272,30 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     const auto after = nlohmann::json::parse(run({"jobs", logs, "--json"}).out);
     EXPECT_EQ(after.size(), 2U);
     EXPECT_EQ(after[0].at("end"), "done");
+}
+
+TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
+    write_content(file, zigzag(300));
+    Emulator emulator(port);
+    {
+        Program sender(words());
+        sender.wait_for_error_text("Block ");
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        sender.send(SIGKILL);
+        EXPECT_EQ(sender.end().exit_code, -SIGKILL);
+    }
+    const Ended refused = run(words());
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("it was moving when the link was made"));
+    EXPECT_THAT(refused.err, HasSubstr("millwright stop --driver grbl --port " + port));
+    const std::vector<std::string> stop{"stop", "--driver", "grbl", "--port", port, "--log", logs};
+    const Ended stopped = run(stop);
+    EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+    EXPECT_THAT(stopped.out, HasSubstr("The machine was stopped (idle"));
+    EXPECT_THAT(run(stop).out, HasSubstr("The machine stands"));
+    fs::remove_all(logs);
+    write_content(file, zigzag(3));
+    EXPECT_EQ(run(words()).exit_code, 0);
 }
 
 /// Each command is a program of its own: what one has seen the next has to be told by the disk.

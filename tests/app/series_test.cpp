@@ -26,7 +26,7 @@ struct Series : testing::Test {
     [[nodiscard]] std::string file(const std::string& name, int lines) const {
         std::string text = "G21 G90 G94 S1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F3000\n";
         for (int n = 0; n < lines; ++n) {
-            text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
+            text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n % 150) + "\n";
         }
         const fs::path path = scratch / (name + ".ngc");
         write_content(path, text + "M30\n");

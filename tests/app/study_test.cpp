@@ -22,6 +22,21 @@ TEST(StudyCommand, CountsTheFewestPoints) {
     EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
 }
 
+TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
+    const ScratchFolder scratch;
+    const Ended ended = run({"study",
+                             "kinematic-error",
+                             "--quick",
+                             "--surface",
+                             "dome",
+                             "--machine",
+                             "rotary-tilt-listing",
+                             "--out",
+                             scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(content_of(scratch / "out/dome-rotary-tilt-listing.png"), StartsWith("\x89PNG"));
+}
+
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");

@@ -111,6 +111,100 @@ TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
                 HasSubstr("10 records obeyed, 0 lines that were none, at X 20.0000 Y 0.0000"));
 }
 
+// A plot's program comes to its first cut in a few lines; a fault in that cut goes on from there.
+TEST(TableCommand, AFaultInTheFirstStrokeIsResumedToo) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    write_content(folder / "square.plt", "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU;");
+    const std::string program = (folder / "square.ngc").string();
+    const Ended made = run({"plot",
+                            "toolpath",
+                            (folder / "square.plt").string(),
+                            "--spindle",
+                            "0",
+                            "--origin",
+                            "10,10",
+                            "--out",
+                            program});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    Emulator first(port, {"--answer", "ok", "--refuse", "4"}, "table");
+    const Ended broken = run(send_words(program, port, folder));
+    EXPECT_EQ(broken.exit_code, 1);
+    EXPECT_THAT(broken.out + broken.err, HasSubstr("the machine answered 'error' to record 4"));
+    (void)first.stop();
+    const std::string told = run({"jobs", (folder / "jobs").string()}).out;
+    const auto found = told.find("    millwright send ");
+    ASSERT_NE(found, std::string::npos) << told;
+    const auto from = found + 15;
+    auto words = words_of(told.substr(from, told.find('\n', from) - from));
+    words.insert(words.end(), {"--log", (folder / "jobs").string()});
+    std::ranges::replace(words, "X,Y,Z", "10,10,-1");
+    Emulator second(port, {"--answer", "ok"}, "table");
+    const Ended resumed = run(words);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    // Up, back down to where the first cut begins, its four sides, up.
+    EXPECT_THAT(second.stop().out, HasSubstr("at X 10.0000 Y 10.0000"));
+}
+
+TEST(TableCommand, FilesLieWhereTheirOriginIs) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    Emulator table(port, {"--answer", "ok"}, "table");
+    auto words = send_words("assets/samples/gcode/thesis-plate.ngc", port, folder);
+    const Ended outside = run(words);
+    EXPECT_EQ(outside.exit_code, 1);
+    EXPECT_THAT(outside.err, HasSubstr("axis X would go to -7.000"));
+    words.insert(words.end(), {"--origin", "10,20", "--speed", "0"});
+    const Ended inside = run(words);
+    EXPECT_EQ(inside.exit_code, 0) << inside.err;
+    EXPECT_THAT(table.stop().out, HasSubstr("at X 75.6190 Y 70.0000"));
+    const Ended grbl = run({"send",
+                            "assets/samples/gcode/thesis-plate.ngc",
+                            "--driver",
+                            "grbl",
+                            "--port",
+                            port,
+                            "--origin",
+                            "10,20"});
+    EXPECT_EQ(grbl.exit_code, 1);
+    EXPECT_THAT(grbl.err, HasSubstr("other controllers have work offsets of their own"));
+}
+
+TEST(TableCommand, PointsWaitForTheirAnswers) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    std::string points;
+    for (int n = 0; n < 36; ++n) {
+        points += std::to_string(n * 10.0 / 35.0) + ",0.0,0.00\n";
+    }
+    write_content(folder / "line.txt", points);
+    const std::vector<std::string> words{"plot",
+                                         "play",
+                                         (folder / "line.txt").string(),
+                                         "--period",
+                                         "0.04",
+                                         "--port",
+                                         port,
+                                         "--record",
+                                         "{X},{Y},{Z}",
+                                         "--answer",
+                                         "ok",
+                                         "--patience",
+                                         "1",
+                                         "--json"};
+    Emulator refuses(port, {"--record", "{X},{Y},{Z}", "--answer", "ok", "--refuse", "8"}, "table");
+    const Ended refused = run(words);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.out, HasSubstr("\"points\": 7"));
+    EXPECT_THAT(refused.err, HasSubstr("nothing was sent after point 8"));
+    EXPECT_THAT(refuses.stop().out, HasSubstr("7 records obeyed, 0 lines that were none, at X 1.7143"));
+    Emulator silent(port, {"--record", "{X},{Y},{Z}"}, "table");
+    const Ended unheard = run(words);
+    EXPECT_EQ(unheard.exit_code, 1);
+    EXPECT_THAT(unheard.err, HasSubstr("the table did not answer point 1 within 1 s"));
+    EXPECT_THAT(silent.stop().out, HasSubstr("1 records obeyed"));
+}
+
 TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
     const ScratchFolder folder;
     const std::string port = (folder / "table").string();
@@ -139,7 +233,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
         points += at + "," + at + ",0.00\n";
     }
     write_content(folder / "diagonal.txt", points);
-    Emulator table(port, {"--record", "{X},{Y},{Z}"}, "table");
+    Emulator table(port, {}, "table"); // neither is told a record: both mean the same
     const Ended played = run(
         {"plot", "play", (folder / "diagonal.txt").string(), "--period", "0.04", "--port", port, "--json"});
     EXPECT_EQ(played.exit_code, 0) << played.err;
@@ -148,6 +242,22 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     EXPECT_THAT(played.out, HasSubstr("\"p99\""));
     EXPECT_THAT(table.stop().out,
                 HasSubstr("36 records obeyed, 0 lines that were none, at X 10.0000 Y 10.0000"));
+
+    EXPECT_THAT(played.err,
+                HasSubstr("nobody knows whether the table takes records as \"t {X} {Y} {Z} {a} {s}\""));
+
+    Emulator other((folder / "other").string(), {"--record", "{X};{Y};{Z}"}, "table");
+    const Ended unknown = run({"plot",
+                               "play",
+                               (folder / "diagonal.txt").string(),
+                               "--period",
+                               "0.04",
+                               "--port",
+                               (folder / "other").string()});
+    EXPECT_EQ(unknown.exit_code, 0) << unknown.err;
+    const std::string told = other.stop().out;
+    EXPECT_THAT(told, HasSubstr("0 records obeyed, 36 lines that were none"));
+    EXPECT_THAT(told, HasSubstr("a record of this table is \"{X};{Y};{Z}\""));
 
     const std::string diagonal = (folder / "diagonal.txt").string();
     EXPECT_EQ(run({"plot", "play", diagonal, "--period", "0.04", "--speed", "50"}).exit_code, 0);

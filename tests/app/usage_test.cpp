@@ -65,5 +65,28 @@ TEST(Usage, ASpeedIsInItsRange) {
     }
 }
 
+/// The file is not there, which is only found out if it was taken for the file.
+TEST(Usage, SeriesOfNumbersLeaveTheFileBehindThemAlone) {
+    const std::vector<std::vector<std::string>> commands{
+        {"send", "--origin", "1,2", "absent", "--driver", "virtual", "--machine", "router-xyz"},
+        {"send", "--origin", "1,2,3", "absent", "--driver", "virtual", "--machine", "router-xyz"},
+        {"send", "--at", "1,2,3", "absent", "--driver", "virtual", "--machine", "router-xyz"},
+        {"gcode", "convert", "--origin", "1,2", "absent", "--machine", "router-xyz", "--post", "grbl"},
+        {"plot", "toolpath", "--origin", "1,2", "absent", "--out", "/nowhere/out.ngc"},
+        {"picture", "trace", "--region", "1,2,3,4", "absent", "--out", "/nowhere/out.svg"},
+        {"arm", "reach", "--frame", "1,2,3,4,5,6", "absent", "--json"},
+        {"reshape", "--degree", "3,3", "absent", "--out", "/nowhere/out.json"},
+        {"thesis", "convert", "--size", "3,3", "absent", "--out", "/nowhere/out.dat"}};
+    for (const auto& command : commands) {
+        const Ended ended = run(command);
+        EXPECT_EQ(ended.exit_code, 1) << testing::PrintToString(command);
+        EXPECT_THAT(ended.err, HasSubstr("absent: ")) << testing::PrintToString(command);
+    }
+    expect_wrong_usage({"send", "absent", "--origin", "1,2,3,4"},
+                       "--origin: At Most 3 required but received 4");
+    expect_wrong_usage({"send", "absent", "--origin", "1"}, "--origin");
+    expect_wrong_usage({"send", "absent", "--origin", "nan,1"}, "no finite number");
+}
+
 } // namespace
 } // namespace millwright::test

@@ -46,6 +46,7 @@ constexpr std::array core_order = {
     Rank{"base", 0},
     Rank{"geometry", 1},
     Rank{"cordic", 1},
+    Rank{"exchange", 2},
     Rank{"kinematics", 2},
     Rank{"grid", 3},
     Rank{"toolpath", 4},
@@ -139,6 +140,8 @@ constexpr std::array<std::string_view, 2> glm_home = {"ui", "tests/ui"};
 constexpr std::array<std::string_view, 5> window = {"imgui", "backends/imgui", "misc/", "GLFW/", "imstb"};
 constexpr std::array<std::string_view, 6> opengl = {"GL/", "GLES", "KHR/", "EGL/", "epoxy/", "GLX"};
 constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "bench"};
+constexpr std::array<std::string_view, 1> xlib = {"X11/"};
+constexpr std::array<std::string_view, 2> xlib_home = {"ui/render", "tests/ui/render"};
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
 constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};
@@ -152,17 +155,24 @@ constexpr std::array<std::string_view, 1> potrace = {"potracelib.h"};
 constexpr std::array<std::string_view, 1> potrace_home = {"core/plot/picture"};
 constexpr std::array<std::string_view, 1> gltf = {"tiny_gltf.h"};
 constexpr std::array<std::string_view, 1> gltf_home = {"core/geometry"};
+constexpr std::array<std::string_view, 1> assimp = {"assimp/"};
+constexpr std::array<std::string_view, 10> cascade = {
+    "APIHeader", "BRep", "Geom", "GC", "IGES", "Message", "STEP", "Standard_", "TCol", "Top"};
+constexpr std::array<std::string_view, 2> exchange_home = {"core/exchange", "tests/core/exchange"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
     Home{"Dear ImGui or GLFW", window, screen_home},
     Home{"OpenGL", opengl, screen_home},
+    Home{"Xlib", xlib, xlib_home},
     Home{"nlohmann-json", json, json_home},
     Home{"Boost.Asio", asio, asio_home},
     Home{"Clipper", clipper, clipper_home},
     Home{"libpng or libjpeg", pictures, pictures_home},
     Home{"potrace", potrace, potrace_home},
     Home{"tinygltf", gltf, gltf_home},
+    Home{"assimp", assimp, exchange_home},
+    Home{"Open CASCADE", cascade, exchange_home},
 };
 
 std::string away_from_home(std::string_view path, const Include& include) {

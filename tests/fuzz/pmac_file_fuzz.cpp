@@ -15,8 +15,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         for (const machine::PmacFile::Line& line : file.lines) {
             expects(line.number > 0 && !line.text.empty(), "a line has a place and a text");
         }
-        for (const Diagnostic& warning : file.warnings) {
-            expects(warning.place.line > 0, "a warning has a place");
+        for (const auto& found : {file.warnings, file.omissions}) {
+            for (const Diagnostic& warning : found) {
+                expects(warning.place.line > 0, "a warning has a place");
+            }
         }
     } catch (const Error&) { // said what is wrong
         return 0;

@@ -6,9 +6,12 @@
 #include "core/kinematics/arm_hold.h"
 #include "core/kinematics/arm_rates.h"
 #include "core/kinematics/arm_simulation.h"
+#include "core/kinematics/arm_zone.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +90,12 @@ void ArmBench::set_joints(const JointPositions& joints) {
     if (const int outside = arm().joint_outside(joints); outside >= 0) {
         refusal_ = "Joint " + arm().joint(outside).name + " stands at its limit.";
     }
-    place(inside(arm(), joints));
+    const JointPositions wanted = inside(arm(), joints);
+    if (std::string why = kinematics::leaves_zone(arm(), joints_, wanted); !why.empty()) {
+        refusal_ = std::move(why);
+    } else {
+        place(wanted);
+    }
 }
 
 void ArmBench::go_home() {
@@ -99,6 +107,15 @@ void ArmBench::move_tip(const Vec3& tip) {
     const Frame goal = kinematics::carried_tool(arm(), joints_, tip);
     const kinematics::ArmHold hold =
         kinematics::hold_tool(arm(), goal, motion::aim_of(arm(), 0.5 * pi), joints_);
+    refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
+    if (refusal_.empty()) {
+        place(hold.joints);
+    }
+}
+
+void ArmBench::move_tip_by(const Vec3& way) {
+    stop();
+    const kinematics::ArmHold hold = kinematics::moved_tip(arm(), joints_, way);
     refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
     if (refusal_.empty()) {
         place(hold.joints);
@@ -172,17 +189,19 @@ void ArmBench::go(ArmMove how) {
     }
     const motion::ArmStop goal{
         "The goal", solutions_[static_cast<std::size_t>(chosen_)].joints, how == ArmMove::straight, 1.0};
-    play(play_of(motion::plan(motion::tour(arm(), joints_, {goal}), arm(), {}, {})));
+    play(play_of(planned({goal})));
 }
 
 void ArmBench::stop() {
     motion_.reset();
     held_.reset();
+    held_line_.reset();
 }
 
 void ArmBench::play(ArmPlay motion) {
     motion_ = std::move(motion);
     held_.reset();
+    held_line_.reset();
     time_ = 0.0;
     refusal_.clear();
 }
@@ -198,12 +217,29 @@ motion::Trajectory ArmBench::tour(const std::vector<project::TaughtPoint>& point
         }
         stops.push_back({point.name, std::move(joints), point.straight, point.speed_percent / whole_percent});
     }
-    return motion::plan(motion::tour(arm(), joints_, stops), arm(), {}, {});
+    return planned(stops);
+}
+
+/// Throws Error where it would leave the arm's zone.
+motion::Trajectory ArmBench::planned(const std::vector<motion::ArmStop>& stops) const {
+    motion::Trajectory tour = motion::plan(motion::tour(arm(), joints_, stops), arm(), {}, {});
+    constexpr double glance = 0.02; // s
+    JointPositions before = joints_;
+    for (double time = 0.0; arm().zone() != nullptr && time < tour.duration() + glance; time += glance) {
+        JointPositions at = tour.at(std::min(time, tour.duration())).position;
+        if (const std::string why = kinematics::leaves_zone(arm(), before, at); !why.empty()) {
+            throw Error(fmt::format("on the way, after {:.1f} s, {}", time, why));
+        }
+        before = std::move(at);
+    }
+    return tour;
 }
 
 project::TaughtPoint ArmBench::taught(std::string name) const {
     project::TaughtPoint point;
+    constexpr double careful_percent = 25.0; // of a first run
     point.name = std::move(name);
+    point.speed_percent = careful_percent;
     for (int n = 0; n < joints_.size(); ++n) {
         constexpr double steps = 1e4; // of a degree or mm
         const double told = turns(arm(), n) ? to_degrees(joints_[n]) : joints_[n];
@@ -222,7 +258,8 @@ void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
     }
     const bool same = path_wish_ && path_wish_->program == wish->program &&
                       path_wish_->machine == wish->machine && path_wish_->arm == wish->arm &&
-                      path_wish_->base_T_part.matrix() == wish->base_T_part.matrix();
+                      path_wish_->base_T_part.matrix() == wish->base_T_part.matrix() &&
+                      !(std::abs(path_wish_->most_lean - wish->most_lean) > 0.0);
     if (!same) {
         path_wish_ = std::move(wish);
         path_wish_->joints = joints_;
@@ -251,7 +288,8 @@ std::shared_ptr<const ArmPathAnswer> ArmBench::take_path_motion() {
 }
 
 std::shared_ptr<const ArmPathAnswer> ArmBench::path() const {
-    return path_wish_ ? path_.answer() : nullptr;
+    auto answer = path_wish_ ? path_.answer() : nullptr;
+    return answer && answer->wish.arm == path_wish_->arm ? answer : nullptr; // not that of another arm
 }
 
 void ArmBench::wait_idle() const {
@@ -260,14 +298,23 @@ void ArmBench::wait_idle() const {
 }
 
 void ArmBench::hold_jog(const JointPositions& rates) {
-    motion_.reset();
+    stop();
     held_ = rates;
+}
+
+void ArmBench::hold_line(const Vec3& velocity) {
+    stop();
+    held_line_ = velocity;
 }
 
 bool ArmBench::advance(double seconds) {
     if (held_) {
         const JointPositions rates = *std::exchange(held_, std::nullopt);
         set_joints(joints_ + seconds * rates);
+        return true;
+    }
+    if (held_line_) {
+        move_tip_by(seconds * *std::exchange(held_line_, std::nullopt));
         return true;
     }
     if (!motion_) {
@@ -292,6 +339,7 @@ void ArmBench::follow(const JointPositions& told) {
     }
     if ((joints - joints_).cwiseAbs().maxCoeff() > 0.0) {
         stop();
+        refusal_.clear(); // of what was drawn before
         place(joints);
     }
 }

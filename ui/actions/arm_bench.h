@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/kinematics/arm_inverse.h"
+#include "core/motion/arm_tour.h"
 #include "core/motion/trajectory.h"
 #include "core/project/arm_input.h"
 #include "ui/actions/arm_path_work.h"
@@ -66,6 +67,8 @@ public:
     void go_home();
     /// The tip there and the tool leaning as it does; where the arm cannot it stays, and refusal() says why.
     void move_tip(const Vec3& tip);
+    /// The same by `way` in a straight line, base's frame, mm.
+    void move_tip_by(const Vec3& way);
     /// Why the last of these was not done, or only in part; empty if it was.
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
@@ -96,7 +99,9 @@ public:
     /// Until the next advance() the joints move at these rates, as far as their limits: to be wanted in every
     /// frame, rad/s or mm/s.
     void hold_jog(const kinematics::JointPositions& rates);
-    [[nodiscard]] bool moving() const { return motion_.has_value() || held_.has_value(); }
+    /// The same for the tip in a straight line: base's frame, mm/s.
+    void hold_line(const Vec3& velocity);
+    [[nodiscard]] bool moving() const { return motion_ || held_ || held_line_; }
     /// Of the motion, s; 0 without one.
     [[nodiscard]] double duration() const { return motion_ ? motion_->duration : 0.0; }
     [[nodiscard]] double time() const { return time_; }
@@ -125,6 +130,7 @@ public:
 
 private:
     void solve();
+    [[nodiscard]] motion::Trajectory planned(const std::vector<motion::ArmStop>& stops) const;
     void place(const kinematics::JointPositions& joints); ///< and the trace
     [[nodiscard]] std::string branch_of(const kinematics::JointPositions& joints) const;
 
@@ -142,6 +148,7 @@ private:
     std::optional<ArmPlay> motion_;
     double time_ = 0.0;
     std::optional<kinematics::JointPositions> held_; ///< rates of a jog
+    std::optional<Vec3> held_line_;
     std::shared_ptr<const std::vector<Vec3>> trace_;
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;

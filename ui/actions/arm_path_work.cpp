@@ -12,11 +12,10 @@ namespace {
 
 // Coarser than for the motion itself: what a person sees while the part is dragged.
 constexpr double shown_tolerance = 0.2, shown_axis_tolerance = 0.01, shown_step = 20.0;
-constexpr double quarter_turn = 0.5 * pi;
 
 kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
     kinematics::ArmPathSettings settings;
-    settings.aim = motion::aim_of(wish.arm->arm(), quarter_turn);
+    settings.aim = motion::aim_of(wish.arm->arm(), wish.most_lean);
     if (!wish.planned) {
         settings.tip_tolerance = shown_tolerance;
         settings.axis_tolerance = shown_axis_tolerance;

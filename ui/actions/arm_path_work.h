@@ -19,6 +19,7 @@ struct ArmPathWish {
     std::shared_ptr<const kinematics::MachineModel> machine; ///< that the program is for
     std::shared_ptr<const viewport::ArmLook> arm;
     Frame base_T_part = Frame::Identity();
+    double most_lean = 0.0;            ///< of the tool from what is programmed
     kinematics::JointPositions joints; ///< where the arm stands
     bool planned = false;              ///< its motion is wanted, too
 };

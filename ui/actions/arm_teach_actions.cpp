@@ -1,5 +1,6 @@
 // Points that a person teaches the arm, motion programs of its card, and the project's path on it.
 #include "core/base/units.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/internal/simple_action.h"
@@ -77,6 +78,14 @@ Permission takes_lines(const Workbench& now) {
                                                                  : "The arm is moving.");
 }
 
+Permission can_load_settings(const Workbench& now) {
+    const Permission able = takes_lines(now);
+    return able.allowed && now.controller.status.powered
+               ? Permission::refused(
+                     "The motors have power, and a wrong setting would move them at once: Kill first.")
+               : able;
+}
+
 Permission can_send(const Workbench& now) {
     const Permission able = takes_lines(now);
     return able.allowed ? sound_program(now) : able;
@@ -107,14 +116,38 @@ void record(Hands& hands) {
                         {});
 }
 
+std::vector<double> degrees_of(const kinematics::JointPositions& joints) {
+    std::vector<double> degrees;
+    for (const double joint : joints) {
+        degrees.push_back(to_degrees(joint));
+    }
+    return degrees;
+}
+
 void simulate(Hands& hands) {
     ArmBench& arm = hands.workshop.arm();
-    std::vector<double> start;
-    for (const double joint : arm.joints()) {
-        start.push_back(to_degrees(joint));
-    }
+    const machine::PmacSettings card = hands.now.arm_connected()
+                                           ? machine::arm_settings_of(hands.now.controller.choice.axes)
+                                           : machine::five_axis_arm_settings();
     arm.program().follow(hands.now.project.arm.program);
-    arm.program().simulate(std::move(start));
+    arm.program().simulate(machine::within_limits(card, arm.arm()), degrees_of(arm.joints()));
+}
+
+/// It is refused where a joint would leave its limits, as far as an emulated card tells in a short time.
+void run(Hands& hands) {
+    constexpr double longest = 300.0; // s of the card's time; beyond it the driver watches alone
+    const ArmBench& arm = hands.workshop.arm();
+    machine::MotionSimulationSettings settings;
+    settings.card =
+        machine::within_limits(machine::arm_settings_of(hands.now.controller.choice.axes), arm.arm());
+    settings.start_deg = degrees_of(arm.joints());
+    settings.longest = longest;
+    const auto found =
+        machine::simulate_motion_program(hands.now.project.arm.program, "program", settings, {});
+    if (found.beyond_limits) {
+        throw Error(*found.beyond_limits);
+    }
+    hands.workshop.run_on_card(arm.program().lines());
 }
 
 /// Into the card's buffer without running it.
@@ -179,7 +212,7 @@ void add_arm_teach_actions(Actions& actions) {
     add(actions,
         {"arm.run_program", menu, "Run the program", "Sends it to the card and runs it.", "", icons::play},
         can_run,
-        [](Hands& hands) { hands.workshop.run_on_card(hands.workshop.arm().program().lines()); });
+        run);
     add(actions,
         {"arm.open_program", menu, "Open a program", "In place of the present text.", "", icons::folder},
         in_workspace,
@@ -204,7 +237,7 @@ void add_arm_teach_actions(Actions& actions) {
          "A file as pmac.ini; protections that it switches off are told.",
          "",
          icons::settings},
-        takes_lines,
+        can_load_settings,
         ask_for<FileQuestion::load_card_settings>);
     add(actions,
         {"arm.send_path",

@@ -4,6 +4,8 @@ namespace millwright::actions {
 
 Catalogue::Catalogue() {
     add_file_actions(actions_);
+    add_import_actions(actions_);
+    add_quit_action(actions_);
     add_edit_actions(actions_);
     add_view_actions(actions_);
     add_layer_actions(actions_);

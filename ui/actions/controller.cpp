@@ -71,16 +71,22 @@ void Controller::enqueue(Task task) {
 }
 
 void Controller::connect(const machine::DriverChoice& choice,
-                         std::shared_ptr<const kinematics::MachineModel> model) {
+                         std::shared_ptr<const kinematics::MachineModel> model,
+                         std::shared_ptr<const kinematics::ArmModel> arm) {
     {
         const std::scoped_lock lock(mutex_);
         view_.link = LinkState::connecting;
         view_.choice = choice;
         view_.failure.reset();
     }
-    enqueue([this, choice, model = std::move(model)] {
+    machine::MovedAxes axes{std::move(model), {}, 1.0, std::move(arm)};
+    if (axes.model) {
+        axes.position = resting_place(*axes.model);
+        axes.known = false; // nobody has looked
+    }
+    enqueue([this, choice, axes = std::move(axes)] {
         drop();
-        try_connect(choice, model);
+        try_connect(choice, axes);
     });
 }
 
@@ -134,15 +140,12 @@ void Controller::tell_in_background(std::function<void(machine::Driver&)> what) 
     });
 }
 
-void Controller::try_connect(const machine::DriverChoice& choice,
-                             const std::shared_ptr<const kinematics::MachineModel>& model) {
+void Controller::try_connect(const machine::DriverChoice& choice, const machine::MovedAxes& axes) {
     std::shared_ptr<machine::Driver> made;
     machine::PositionMemory memory(folder_,
                                    std::string(machine::to_text(choice.kind)) + " " + choice.address);
     std::optional<Diagnostic> failure;
     try {
-        const machine::MovedAxes axes{
-            model, model ? resting_place(*model) : kinematics::AxisPositions(), 1.0};
         made = machine::make_driver(choice, axes, clock_);
         made->connect();
         memory.remind(*made);
@@ -156,7 +159,7 @@ void Controller::try_connect(const machine::DriverChoice& choice,
         driver_ = std::move(made);
         view_.status = driver_->status();
         view_.can = driver_->capabilities();
-        view_.axes = axes_of(view_.can, model.get());
+        view_.axes = axes_of(view_.can, axes.model.get());
     }
 }
 

@@ -49,9 +49,11 @@ public:
     /// Stops whatever moves and drops the link.
     ~Controller();
 
-    /// In the background, in place of what is connected. `model`: of machines that no controller plans for.
-    /// Nothing moves.
-    void connect(const machine::DriverChoice& choice, std::shared_ptr<const kinematics::MachineModel> model);
+    /// In the background, in place of what is connected. `model`: of machines that no controller plans for;
+    /// `arm`: what a PMAC moves. Nothing moves.
+    void connect(const machine::DriverChoice& choice,
+                 std::shared_ptr<const kinematics::MachineModel> model,
+                 std::shared_ptr<const kinematics::ArmModel> arm);
     /// In the background, makes a lost link again. Nothing moves; a controller that is locked stays so.
     void reconnect();
     /// In the background: stops what moves first.
@@ -79,8 +81,7 @@ private:
     void enqueue(Task task);
     void work(const std::stop_token& stop);
     void watch();
-    void try_connect(const machine::DriverChoice& choice,
-                     const std::shared_ptr<const kinematics::MachineModel>& model);
+    void try_connect(const machine::DriverChoice& choice, const machine::MovedAxes& axes);
     void drop();
     void remember(const machine::DriverStatus& status);
     void tell_in_background(std::function<void(machine::Driver&)> what);

@@ -70,6 +70,12 @@ Permission can_home(const Workbench& now) {
     if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::linuxcnc) {
         return Permission::refused("LinuxCNC homes when it is switched on: unlock it first.");
     }
+    if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::pmac) {
+        return Permission::refused("There is an alarm: look at the arm, then unlock it first.");
+    }
+    if (!now.controller.status.powered) {
+        return Permission::refused("The motors have no power.");
+    }
     const bool at_rest =
         state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
     return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");

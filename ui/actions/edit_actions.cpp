@@ -1,4 +1,8 @@
+#include "core/project/joined_surface.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/viewport/symmetric_points.h"
+
+#include <fmt/format.h>
 
 namespace millwright::actions {
 
@@ -45,11 +49,34 @@ double mean_of_neighbours(const geometry::ControlNet& net, int i, int j) {
 void smooth(Hands& hands) {
     project::Project draft = hands.history.current();
     const auto& before = hands.history.current().surface.patches;
-    for (const ControlPointId& id : hands.session.selected) {
+    const auto net = [&](geometry::PatchId patch) -> const geometry::ControlNet& {
+        return before[static_cast<std::size_t>(patch)];
+    };
+    const std::vector<ControlPointId>& selected = hands.session.selected;
+    for (const auto& [id, share] : with_images(net, hands.session.symmetry, selected, selected.front())) {
         const auto patch = static_cast<std::size_t>(id.patch);
         draft.surface.patches[patch].point(id.i, id.j).z() = mean_of_neighbours(before[patch], id.i, id.j);
     }
     hands.history.commit(std::move(draft), "Smooth control points");
+}
+
+Permission has_patches(const Workbench& now) {
+    return now.project.surface.patches.size() > 1 ? Permission{}
+                                                  : Permission::refused("The surface has one patch only.");
+}
+
+void join(Hands& hands, geometry::Continuity continuity) {
+    project::Project draft = hands.history.current();
+    const project::JoinedSurface joined =
+        project::joined_surface(draft.surface, continuity, project::usual_gap_mm(draft.surface));
+    draft.surface = joined.surface;
+    hands.history.commit(std::move(draft), "Join the patches");
+    tell(hands.session,
+         widgets::Severity::good,
+         fmt::format("{} {} joined; control points moved by at most {:.4f} mm.",
+                     joined.seams.size(),
+                     joined.seams.size() == 1 ? "seam" : "seams",
+                     joined.largest_move));
 }
 
 } // namespace
@@ -91,6 +118,24 @@ void add_edit_actions(Actions& actions) {
          ""},
         has_selection,
         smooth);
+    add(actions,
+        {"edit.join_position",
+         "Edit",
+         "Close the gaps between patches",
+         "Sides that lie near each other become one (C0), by the least movement of control points.",
+         "",
+         ""},
+        has_patches,
+        [](Hands& hands) { join(hands, geometry::Continuity::position); });
+    add(actions,
+        {"edit.join_tangent",
+         "Edit",
+         "Join the patches smoothly",
+         "The same, and no edge is left where they meet (C1).",
+         "",
+         ""},
+        has_patches,
+        [](Hands& hands) { join(hands, geometry::Continuity::tangent); });
 }
 
 } // namespace millwright::actions

@@ -59,7 +59,7 @@ void add_file_actions(Actions& actions) {
         {"file.open",
          "File",
          "Open ...",
-         "Opens a project, or a G-code file beside it.",
+         "Opens a project; or a G-code file, a plot or a surface of another program beside it.",
          "Ctrl+O",
          icons::folder},
         always,
@@ -104,6 +104,9 @@ void add_file_actions(Actions& actions) {
          ""},
         has_file,
         [](Hands& hands) { hands.workshop.close_file(); });
+}
+
+void add_quit_action(Actions& actions) {
     add(actions,
         {"file.quit", "File", "Quit", "Closes the workbench; asks first if a job is running.", "Ctrl+Q", ""},
         always,

@@ -1,3 +1,5 @@
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
 
@@ -8,6 +10,7 @@ namespace icons = widgets::icons;
 namespace {
 
 using project::GridMethod;
+using project::StrategyInput;
 using widgets::Permission;
 
 Permission has_surface(const Workbench& now) {
@@ -29,7 +32,9 @@ template <GridMethod method> void start(Hands& hands) {
     hands.pipeline.start_adaptation(method);
     hands.pipeline.play_adaptation();
     hands.session.workspace = Workspace::grid;
-    hands.session.shown = method;
+    if (hands.now.evaluation(method)) { // what is watched only has no path
+        show_grid(hands.session, method);
+    }
 }
 
 template <GridMethod method> bool is_chosen(const Workbench& now) {
@@ -41,6 +46,78 @@ template <GridMethod method> void choose(Hands& hands) {
     draft.grid.method = method;
     hands.history.commit(std::move(draft), "Choose the grid of the program");
     hands.session.shown = method;
+}
+
+using viewport::SurfaceToolKind;
+
+template <SurfaceToolKind kind> bool is_in_hand(const Workbench& now) {
+    return now.session.surface_tool.kind == kind;
+}
+
+/// The brush shows what it paints.
+template <SurfaceToolKind kind> void take_in_hand(Hands& hands) {
+    Session& session = hands.session;
+    session.surface_tool.kind = kind;
+    session.surface_tool.draft.clear();
+    if (kind != SurfaceToolKind::none) {
+        session.workspace = Workspace::grid;
+    }
+    if (kind == SurfaceToolKind::brush) {
+        session.layers_now().weight = true;
+    }
+}
+
+void add_tool_actions(Actions& actions) {
+    add(actions,
+        {"grid.brush",
+         "Grid",
+         "Paint the weight",
+         "A brush on the surface: cells become smaller where it was.",
+         "",
+         ""},
+        always,
+        take_in_hand<SurfaceToolKind::brush>,
+        is_in_hand<SurfaceToolKind::brush>);
+    add(actions,
+        {"grid.outline",
+         "Grid",
+         "Draw the region of adaptation",
+         "An outline on the surface: the elliptic grid and the harmonic map adapt inside of it alone.",
+         "",
+         ""},
+        always,
+        take_in_hand<SurfaceToolKind::outline>,
+        is_in_hand<SurfaceToolKind::outline>);
+    add(actions,
+        {"grid.no_tool", "Grid", "Put the tool away", "The mouse points at the path again.", "", ""},
+        always,
+        take_in_hand<SurfaceToolKind::none>,
+        is_in_hand<SurfaceToolKind::none>);
+}
+
+template <StrategyInput strategy> bool is_strategy(const Workbench& now) {
+    return now.project.toolpath.strategy == strategy;
+}
+
+template <StrategyInput strategy> void use(Hands& hands) {
+    project::Project draft = hands.history.current();
+    draft.toolpath.strategy = strategy;
+    hands.session.shown = project::program_grid(draft);
+    hands.session.own_path_shown = true;
+    hands.history.commit(std::move(draft), "Choose the strategy");
+}
+
+template <StrategyInput strategy> void add_use(Actions& actions, std::string_view id) {
+    const auto& row = project::row_of(project::strategies(), strategy);
+    add(actions, {id, "Grid", row.label, row.tip, "", ""}, always, use<strategy>, is_strategy<strategy>);
+}
+
+void add_strategy_actions(Actions& actions) {
+    add_use<StrategyInput::zigzag>(actions, "path.zigzag");
+    add_use<StrategyInput::iso_parametric>(actions, "path.iso_parametric");
+    add_use<StrategyInput::spiral>(actions, "path.spiral");
+    add_use<StrategyInput::constant_scallop>(actions, "path.constant_scallop");
+    add_use<StrategyInput::fewest_points>(actions, "path.fewest_points");
 }
 
 } // namespace
@@ -74,6 +151,24 @@ void add_grid_actions(Actions& actions) {
         has_surface,
         start<GridMethod::chain>);
     add(actions,
+        {"grid.harmonic",
+         "Grid",
+         "Make the harmonic map",
+         "Starts the harmonic map from the uniform grid and shows every step.",
+         "",
+         icons::play},
+        has_surface,
+        start<GridMethod::harmonic>);
+    add(actions,
+        {"grid.redistribute",
+         "Grid",
+         "Redistribute the nodes",
+         "Gives the nodes of every track equal shares of its error: one step.",
+         "",
+         icons::play},
+        has_surface,
+        start<GridMethod::redistribution>);
+    add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Goes on by itself.", "", icons::play},
         is_watched,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
@@ -105,6 +200,16 @@ void add_grid_actions(Actions& actions) {
         choose<GridMethod::uniform>,
         is_chosen<GridMethod::uniform>);
     add(actions,
+        {"grid.use_redistribution",
+         "Grid",
+         "Program from the redistributed nodes",
+         "The program follows straight tracks whose nodes share the error.",
+         "",
+         ""},
+        always,
+        choose<GridMethod::redistribution>,
+        is_chosen<GridMethod::redistribution>);
+    add(actions,
         {"grid.use_elliptic",
          "Grid",
          "Program from the elliptic grid",
@@ -114,6 +219,16 @@ void add_grid_actions(Actions& actions) {
         always,
         choose<GridMethod::elliptic>,
         is_chosen<GridMethod::elliptic>);
+    add(actions,
+        {"grid.use_harmonic",
+         "Grid",
+         "Program from the harmonic map",
+         "The program follows the harmonic map.",
+         "",
+         ""},
+        always,
+        choose<GridMethod::harmonic>,
+        is_chosen<GridMethod::harmonic>);
     add(actions,
         {"grid.use_tracks",
          "Grid",
@@ -134,6 +249,8 @@ void add_grid_actions(Actions& actions) {
         always,
         choose<GridMethod::chain>,
         is_chosen<GridMethod::chain>);
+    add_strategy_actions(actions);
+    add_tool_actions(actions);
     add(
         actions,
         {"work.cancel",

@@ -23,6 +23,7 @@ struct HandSettings {
     bool keys_armed = false; ///< arrow and page keys move the machine
     bool pad_armed = false;  ///< so does a gamepad
     double spindle_rpm = 6000.0;
+    std::vector<double> stands; ///< what a person reads of a machine that does not tell it: axes, mm or deg
     double probe_way_mm = 20.0; ///< downwards at most
     double probe_mm_per_min = 100.0;
     ArmFrame arm_frame = ArmFrame::joints;

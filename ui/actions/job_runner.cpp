@@ -27,6 +27,7 @@ public:
         view_.running = true;
         view_.name = job_.name;
         view_.listing = job_.listing;
+        view_.from_line = job_.from_line;
         thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
     }
 

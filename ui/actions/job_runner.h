@@ -20,6 +20,7 @@ struct JobView {
     std::string name;                              ///< empty before the first job
     std::optional<machine::JobReport> report;      ///< the last
     std::shared_ptr<const gcode::Listing> listing; ///< what is sent
+    int from_line = 1;                             ///< of the file, as machine::Job has it
     std::optional<machine::JobOutcome> outcome;    ///< of the last job that ended
     std::optional<Diagnostic> failure;             ///< it did not start, or its log could not be written
 };

@@ -39,12 +39,19 @@ void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
     if (!wish || !allowed || must_let_go_) {
         return let_go();
     }
+    const bool went_on = moving_;
     try {
         renew(*wish);
+        asks_again_ = false;
     } catch (const Error&) {
         const auto driver = controller_.driver();
-        if (driver && driver->status().activity == machine::Activity::jog) {
+        const machine::DriverStatus now_is = driver ? driver->status() : machine::DriverStatus{};
+        if (now_is.activity == machine::Activity::jog) {
             return; // it still brakes, as its dead man wanted: the next frame asks again
+        }
+        // It may have come to rest between its answer and this look.
+        if (went_on && now_is.state == machine::DriverState::idle && !std::exchange(asks_again_, true)) {
+            return;
         }
         must_let_go_ = true; // said once, not in every frame
         let_go();

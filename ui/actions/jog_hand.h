@@ -44,6 +44,7 @@ private:
     Controller& controller_;
     bool moving_ = false;
     bool must_let_go_ = false;
+    bool asks_again_ = false;                        ///< after a refusal by what has come to rest meanwhile
     std::chrono::steady_clock::time_point followed_; ///< when follow() was called last
 };
 

@@ -53,6 +53,11 @@ public:
         const std::scoped_lock lock(mutex_);
         return busy_ || wish_;
     }
+    /// How far what is being done has come, as it tells; nothing told yet: 0 and no text.
+    [[nodiscard]] Progress::Report report() const {
+        const std::scoped_lock lock(mutex_);
+        return report_;
+    }
     /// Blocks until nothing is left to do.
     void wait_idle() const {
         std::unique_lock lock(mutex_);
@@ -71,12 +76,14 @@ private:
                 }
                 wish = std::exchange(wish_, std::nullopt);
                 present_ = present;
+                report_ = {};
                 busy_ = true;
             }
             std::shared_ptr<const Answer> found;
             try {
-                found = std::make_shared<const Answer>(
-                    work_(*wish, Progress([](const Progress::Report&) {}, present.get_token())));
+                found = std::make_shared<const Answer>(work_(
+                    *wish,
+                    Progress([this](const Progress::Report& now) { listen(now); }, present.get_token())));
             } catch (const Cancelled&) { // nobody wants it any more
             }
             {
@@ -93,12 +100,27 @@ private:
         }
     }
 
+    void listen(const Progress::Report& now) {
+        constexpr double visible = 0.01; // of a progress bar
+        {
+            const std::scoped_lock lock(mutex_);
+            if (now.text == report_.text && now.fraction < report_.fraction + visible) {
+                return;
+            }
+            report_ = now;
+        }
+        if (wake_) {
+            wake_();
+        }
+    }
+
     Work work_;
     std::function<void()> wake_;
     mutable std::mutex mutex_; ///< guards what follows
     mutable std::condition_variable_any changed_;
     std::optional<Wish> wish_;
     std::stop_source present_;
+    Progress::Report report_; ///< of the present work
     bool busy_ = false;
     std::shared_ptr<const Answer> answer_;
     std::jthread thread_; // last: it ends before what it uses

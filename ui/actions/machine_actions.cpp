@@ -46,9 +46,17 @@ Permission machine_ready(const Workbench& now) {
                : Permission::refused("The machine is moving.");
 }
 
-/// A line in the middle is gone to by what the controller takes for its position.
+/// A line in the middle is gone to by what the controller takes for its position; a machine that is told
+/// where it stands goes everywhere by that.
 Permission position_ready(const Workbench& now, int from_line) {
     const std::string& doubt = now.controller.status.position_doubt;
+    if (now.controller.connected() && now.controller.can.told_place) {
+        const bool assumed = from_line > 1 && !now.controller.status.position_known;
+        return assumed || !doubt.empty()
+                   ? Permission::refused(
+                         "The machine does not tell where it stands: read it there, and enter it.")
+                   : Permission{};
+    }
     const bool wrong = now.controller.connected() && from_line > 1 && !doubt.empty();
     return wrong ? Permission::refused(machine::doubt_sentence(doubt) +
                                        " Or say that it stands where the controller says.")
@@ -69,6 +77,32 @@ template <DriverState state> Permission driver_is(const Workbench& now) {
     return is ? Permission{}
               : Permission::refused(state == DriverState::running ? "No job is moving."
                                                                   : "No job is being held.");
+}
+
+/// A program that runs without a job, as an arm's.
+bool plays(const Workbench& now, DriverState state) {
+    return now.controller.connected() && !now.job.running && now.controller.status.state == state &&
+           now.controller.status.activity == machine::Activity::program;
+}
+
+template <DriverState state> Permission moves_in(const Workbench& now) {
+    return plays(now, state) ? Permission{} : driver_is<state>(now);
+}
+
+void hold(Hands& hands) {
+    if (hands.now.job.running) {
+        hands.jobs.hold();
+    } else {
+        hands.workshop.controller().tell([](machine::Driver& driver) { driver.hold(); });
+    }
+}
+
+void resume(Hands& hands) {
+    if (hands.now.job.running) {
+        hands.jobs.resume();
+    } else {
+        hands.workshop.controller().tell([](machine::Driver& driver) { driver.resume(); });
+    }
 }
 
 /// A job, or what a person has told the machine to do by hand.
@@ -227,12 +261,12 @@ void add_machine_actions(Actions& actions) {
          "Brakes along the path; the job can be resumed.",
          "F10",
          icons::hold},
-        driver_is<DriverState::running>,
-        [](Hands& hands) { hands.jobs.hold(); });
+        moves_in<DriverState::running>,
+        hold);
     add(actions,
         {"machine.resume", "Machine", "Resume", "Goes on where it was held.", "F11", icons::play},
-        driver_is<DriverState::holding>,
-        [](Hands& hands) { hands.jobs.resume(); });
+        moves_in<DriverState::holding>,
+        resume);
     add(actions,
         {"machine.stop",
          "Machine",

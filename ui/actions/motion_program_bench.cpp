@@ -1,7 +1,5 @@
 #include "ui/actions/motion_program_bench.h"
 
-#include "core/machine/drivers/pmac/pmac_settings.h"
-
 namespace millwright::actions {
 
 namespace {
@@ -14,7 +12,7 @@ MotionProgramBench::MotionProgramBench(std::function<void()> wake) : work_(run, 
 
 MotionProgramBench::Answer MotionProgramBench::run(const Wish& wish, const Progress& progress) {
     machine::MotionSimulationSettings settings;
-    settings.card = machine::arm_settings();
+    settings.card = wish.card;
     settings.start_deg = wish.start_deg;
     return {wish.text,
             std::make_shared<const machine::MotionSimulation>(
@@ -29,9 +27,9 @@ void MotionProgramBench::follow(const std::string& text) {
     faults_ = machine::motion_program_faults(text_, named);
 }
 
-void MotionProgramBench::simulate(std::vector<double> start_deg) {
+void MotionProgramBench::simulate(machine::PmacSettings card, std::vector<double> start_deg) {
     (void)lines();
-    work_.want({text_, std::move(start_deg)});
+    work_.want({text_, std::move(card), std::move(start_deg)});
 }
 
 std::shared_ptr<const machine::MotionSimulation> MotionProgramBench::take() {

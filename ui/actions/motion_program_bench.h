@@ -22,8 +22,8 @@ public:
     /// Of the text, by line; then how the last simulation of this very text broke off.
     [[nodiscard]] const std::vector<Diagnostic>& faults() const { return faults_; }
 
-    /// Runs the text in the background, from `start_deg` of each axis of the card.
-    void simulate(std::vector<double> start_deg);
+    /// Runs the text in the background on `card`, from `start_deg` of each of its axes.
+    void simulate(machine::PmacSettings card, std::vector<double> start_deg);
     [[nodiscard]] bool busy() const { return work_.busy(); }
     /// A simulation that has ended since this was last asked; null without one.
     [[nodiscard]] std::shared_ptr<const machine::MotionSimulation> take();
@@ -35,6 +35,7 @@ public:
 private:
     struct Wish {
         std::string text;
+        machine::PmacSettings card;
         std::vector<double> start_deg;
     };
     struct Answer {

@@ -71,7 +71,8 @@ void add_plot_actions(Actions& actions) {
         {"plot.write_program",
          menu,
          "Write the G-code",
-         "Beside the plot; no other file is replaced.",
+         "Beside the plot, or in your own folder where that ships with the program; no other file is "
+         "replaced.",
          "",
          icons::save},
         has_path,
@@ -97,7 +98,7 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},
         is_playing,
-        [](Hands& hands) { hands.workshop.plot().table().emergency_stop(); });
+        [](Hands& hands) { hands.workshop.plot().table().stop(); });
 }
 
 } // namespace millwright::actions

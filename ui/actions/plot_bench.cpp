@@ -72,10 +72,9 @@ void PlotBench::play_table() {
     table_->play(table_choice_, *now->strokes, model);
 }
 
-fs::path PlotBench::write_program() const {
+fs::path PlotBench::write_program(const fs::path& folder) const {
     const auto now = latest();
     expects(now != nullptr && !now->program.empty(), "there is a program to be written");
-    const fs::path folder = file().parent_path();
     const std::string name = file().stem().string();
     fs::path target = folder / (name + ".ngc");
     for (int n = 2; fs::exists(target); ++n) {

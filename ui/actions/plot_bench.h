@@ -47,8 +47,8 @@ public:
     [[nodiscard]] const TablePlayer& table() const { return *table_; }
     /// Of a path that is too long to get its program by itself.
     void make_program() { worker_.request_program(); }
-    /// Copies the program beside the plot under a name that is not taken, and gives the name. Throws Error.
-    [[nodiscard]] std::filesystem::path write_program() const;
+    /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.
+    [[nodiscard]] std::filesystem::path write_program(const std::filesystem::path& folder) const;
 
     void cancel() { worker_.cancel(); }
     void wait_idle() const { worker_.wait_idle(); }

@@ -16,6 +16,11 @@ Session new_session() {
     return session;
 }
 
+void show_grid(Session& session, project::GridMethod method) {
+    session.shown = method;
+    session.own_path_shown = false;
+}
+
 void tell(Session& session, widgets::Severity severity, std::string text, std::string place) {
     session.log.push_back(place.empty() ? text : place + ": " + text);
     session.notices.push_back({severity, std::move(text), std::move(place)});

@@ -2,6 +2,7 @@
 // loses no work. Kept apart from the project so that undo never moves the camera.
 #pragma once
 
+#include "core/geometry/net_symmetry.h"
 #include "core/project/opened_program.h"
 #include "core/project/project.h"
 #include "ui/actions/approach.h"
@@ -79,7 +80,9 @@ enum class FileQuestion {
     none,
     open,
     save_as,
-    open_points, ///< taught to the arm
+    import_surface, ///< of another program
+    export_surface, ///< for one
+    open_points,    ///< taught to the arm
     save_points,
     open_motion_program, ///< of the arm's card
     save_motion_program,
@@ -112,15 +115,28 @@ struct SetUpView {
     std::optional<toolpath::SetUpPlace> place; ///< nothing: the best
 };
 
+/// The tool on the surface in the Grid workspace.
+struct SurfaceToolView {
+    viewport::SurfaceToolKind kind = viewport::SurfaceToolKind::none;
+    double radius_mm = 10.0; ///< of the brush
+    double strength = 0.5;   ///< of a dab
+    bool erases = false;
+    std::vector<Vec2> draft; ///< corners of an outline in the making
+};
+
 struct Session {
     Workspace workspace = Workspace::design;
     std::array<viewport::Layers, workspace_count> layers;    ///< one a workspace
     std::vector<viewport::ControlPointId> selected;          ///< ascending
+    geometry::NetSymmetry symmetry;                          ///< of what is done to control points
     project::GridMethod shown = project::GridMethod::tracks; ///< whose path and error are drawn
+    /// The program's path instead, where its strategy makes another one than the zigzag over its grid.
+    bool own_path_shown = true;
     Beside beside;
     std::shared_ptr<const KeptResult> kept; ///< null before one was
     viewport::ErrorScale error;
     SetUpView set_up;
+    SurfaceToolView surface_tool;
     bool four_views = false;
     Playback playback;
     FileView file;
@@ -157,6 +173,9 @@ struct Session {
 
 /// With the layers that people expect in each workspace.
 [[nodiscard]] Session new_session();
+
+/// From now on the zigzag over that grid is drawn, with its error.
+void show_grid(Session& session, project::GridMethod method);
 
 /// Shows a notice and keeps it in the log.
 void tell(Session& session, widgets::Severity severity, std::string text, std::string place = {});

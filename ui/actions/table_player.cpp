@@ -3,8 +3,11 @@
 #include "core/plot/decode_within.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -23,16 +26,37 @@ double fastest_of(const plot::DecodeSettings& decoding, const kinematics::Machin
                      decoding.plunge_velocity.value_or(0.0)});
 }
 
+/// From where the table stands up to where it travels, and on to the beginning of the first stroke.
+std::vector<Vec3> points_from(const Vec3& stands,
+                              double fastest,
+                              const plot::Strokes& strokes,
+                              const plot::DecodeSettings& decoding) {
+    const double step = decoding.velocity * decoding.period;
+    const double way = decoding.pen_up_z - stands.z();
+    const auto steps = static_cast<std::int64_t>(std::ceil(std::abs(way) / step));
+    std::vector<Vec3> points;
+    for (std::int64_t n = 0; n < steps; ++n) {
+        points.push_back(stands +
+                         Vec3::UnitZ() * (way * static_cast<double>(n) / static_cast<double>(steps)));
+    }
+    const std::vector<Vec3> rest = plot::decode_within(fastest, strokes, decoding, stands.head<2>());
+    points.insert(points.end(), rest.begin(), rest.end());
+    return points;
+}
+
 std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
                                                 const plot::Strokes& strokes,
                                                 const kinematics::MachineModel& model,
+                                                const std::optional<Vec3>& stands,
                                                 machine::Clock& clock,
                                                 std::int64_t& total) {
     plot::DecodeSettings decoding = choice.decoding;
     constexpr std::int64_t most = 5'000'000;
     decoding.most_points = most;
-    auto points = std::make_shared<const std::vector<Vec3>>(
-        plot::decode_within(fastest_of(decoding, model), strokes, decoding));
+    const double fastest = fastest_of(decoding, model);
+    auto points =
+        std::make_shared<const std::vector<Vec3>>(stands ? points_from(*stands, fastest, strokes, decoding)
+                                                         : plot::decode_within(fastest, strokes, decoding));
     machine::PlayerOptions options;
     options.period = choice.decoding.period;
     options.speed = choice.speed;
@@ -56,10 +80,12 @@ void TablePlayer::play(const TableChoice& choice,
     }
     thread_ = {};
     const std::scoped_lock lock(mutex_);
+    const std::optional<Vec3> stands = place_of(choice.port);
     player_.reset();
     failure_.reset();
     try {
-        player_ = player_of(choice, strokes, *model, clock_, total_);
+        player_ = player_of(choice, strokes, *model, stands, clock_, total_);
+        port_ = choice.port;
     } catch (const Error& error) {
         failure_ = error.diagnostic();
         return;
@@ -73,6 +99,21 @@ void TablePlayer::play(const TableChoice& choice,
         }
         wake_();
     });
+}
+
+/// For the eyes alone everything begins anew.
+std::optional<Vec3> TablePlayer::place_of(const std::string& port) {
+    if (player_ && !port_.empty() && player_->status().sent > 0) {
+        stands_ = {port_, player_->status().position};
+    }
+    return stands_ && stands_->port == port ? std::optional(stands_->at) : std::nullopt;
+}
+
+void TablePlayer::stop() {
+    const std::scoped_lock lock(mutex_);
+    if (player_) {
+        player_->stop();
+    }
 }
 
 void TablePlayer::emergency_stop() {

@@ -43,11 +43,13 @@ public:
     ~TablePlayer() = default; // the thread stops the player: nothing is sent any more
 
     /// In whole paths at constant velocity; limits of the machine are checked before. What is wrong is told
-    /// by view(). Throws Error while one is playing.
+    /// by view(). A table that something was played to before is led up and to the beginning from where that
+    /// ended; else it is taken to stand there. Throws Error while one is playing.
     void play(const TableChoice& choice,
               const plot::Strokes& strokes,
               const std::shared_ptr<const kinematics::MachineModel>& model);
     /// At once.
+    void stop();
     void emergency_stop();
     [[nodiscard]] TableView view() const;
     [[nodiscard]] bool playing() const { return view().status.state == machine::PlayState::playing; }
@@ -55,10 +57,20 @@ public:
     void wait();
 
 private:
+    /// Where a table is that was sent points.
+    struct Place {
+        std::string port;
+        Vec3 at = Vec3::Zero(); ///< mm
+    };
+
+    [[nodiscard]] std::optional<Vec3> place_of(const std::string& port);
+
     std::function<void()> wake_;
     machine::SteadyClock clock_;
     mutable std::mutex mutex_; ///< guards what follows
     std::shared_ptr<machine::PointPlayer> player_;
+    std::string port_;            ///< of the player
+    std::optional<Place> stands_; ///< after the player before it
     std::int64_t total_ = 0;
     std::optional<Diagnostic> failure_;
     std::jthread thread_;

@@ -1,5 +1,6 @@
 #include "core/project/settings.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/shown_grid.h"
 
 namespace millwright::actions {
 
@@ -16,7 +17,7 @@ template <Workspace workspace> bool is_in(const Workbench& now) {
 }
 
 template <project::GridMethod method> bool is_shown(const Workbench& now) {
-    return now.session.shown == method;
+    return shown_grid(now) == method && !now.shows_own_path();
 }
 
 template <bool PaneSizes::*pane> bool has_pane(const Workbench& now) {
@@ -24,7 +25,7 @@ template <bool PaneSizes::*pane> bool has_pane(const Workbench& now) {
 }
 
 template <project::GridMethod method> void show(Hands& hands) {
-    hands.session.shown = method;
+    show_grid(hands.session, method);
 }
 
 template <project::GridMethod method> widgets::Permission is_there(const Workbench& now) {
@@ -46,20 +47,16 @@ widgets::Permission has_shown(const Workbench& now) {
                                                    : widgets::Permission::refused("No path is shown.");
 }
 
-/// The study of the cut is that of the program's path alone.
 void keep_result(Hands& hands) {
     const Workbench& now = hands.now;
     const project::Plan& plan = now.plan->plan;
-    const auto method = now.session.shown;
-    const bool is_program = method == now.project.grid.method;
-    hands.session.kept = std::make_shared<const KeptResult>(
-        KeptResult{std::string(project::row_of(project::grid_methods(), method).label) + " on " +
-                       now.project.machine.file,
-                   plan.surface,
-                   plan.workpiece,
-                   now.shown(),
-                   is_program ? plan.cut : nullptr,
-                   plan.singular_points});
+    hands.session.kept =
+        std::make_shared<const KeptResult>(KeptResult{now.shown_name() + " on " + now.project.machine.file,
+                                                      plan.surface,
+                                                      plan.workpiece,
+                                                      now.shown(),
+                                                      plan.cut_of(now.project, now.shown().get()),
+                                                      plan.singular_points});
     hands.session.beside = {{}, true};
 }
 
@@ -114,8 +111,14 @@ void add_view_actions(Actions& actions) {
         is_in<Workspace::arm>);
     add_show<GridMethod::uniform>(
         actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");
+    add_show<GridMethod::redistribution>(actions,
+                                         "view.show_redistribution",
+                                         "Show the redistributed nodes",
+                                         "Draws path and error of the grid whose tracks share their error.");
     add_show<GridMethod::elliptic>(
         actions, "view.show_elliptic", "Show the elliptic grid", "Draws path and error of the adapted grid.");
+    add_show<GridMethod::harmonic>(
+        actions, "view.show_harmonic", "Show the harmonic map", "Draws path and error of the harmonic map.");
     add_show<GridMethod::tracks>(actions,
                                  "view.show_tracks",
                                  "Show the optimised tracks",
@@ -124,6 +127,24 @@ void add_view_actions(Actions& actions) {
                                 "view.show_chain",
                                 "Show the whole chain's grid",
                                 "Draws path and error of the best grid, once it was chosen for the program.");
+    add(
+        actions,
+        {"view.show_path",
+         "View",
+         "Show the path of the program",
+         "Draws path and error of the strategy that was chosen.",
+         "",
+         ""},
+        [](const Workbench& now) {
+            return now.plan && now.plan->plan.path
+                       ? widgets::Permission{}
+                       : widgets::Permission::refused("The program follows a zigzag over its grid.");
+        },
+        [](Hands& hands) {
+            hands.session.own_path_shown = true;
+            hands.session.workspace = Workspace::toolpath;
+        },
+        [](const Workbench& now) { return now.shows_own_path(); });
     add(actions,
         {"view.keep_result",
          "View",

@@ -1,5 +1,9 @@
 #include "ui/actions/workbench.h"
 
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
+#include "ui/actions/shown_grid.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,10 +43,23 @@ toolpath::SetUpPlace Workbench::set_up_place() const {
 }
 
 std::shared_ptr<const project::Evaluation> Workbench::shown() const {
-    if (auto wanted = evaluation(session.shown)) {
-        return wanted;
+    if (shows_own_path()) {
+        return plan->plan.path;
     }
-    return evaluation(project::GridMethod::uniform);
+    return evaluation(shown_grid(*this));
+}
+
+bool Workbench::shows_own_path() const {
+    return session.own_path_shown && plan && plan->plan.path && project::has_own_path(project);
+}
+
+std::string Workbench::shown_name() const {
+    return shows_own_path() ? project::strategy_text(project)
+                            : std::string(project::row_of(project::grid_methods(), shown_grid(*this)).label);
+}
+
+std::shared_ptr<const project::Evaluation> Workbench::program_path() const {
+    return plan ? plan->plan.program_path(project) : nullptr;
 }
 
 bool Workbench::in_file() const {
@@ -111,16 +128,44 @@ std::string Workbench::failure() const {
     return plan && plan->failure ? to_text(*plan->failure) : std::string();
 }
 
-/// Where a controller plans for itself, from the line that it executes.
+std::optional<int> Workbench::job_line() const {
+    const int block = job.report->driver.block;
+    if (!job.listing || block < 0 || block >= std::ssize(job.listing->line_of_block)) {
+        return std::nullopt;
+    }
+    const int line = job.listing->line_of_block[static_cast<std::size_t>(block)];
+    return std::max(line, job.from_line); // what is above it is the approach
+}
+
+std::optional<double> Workbench::time_at_line(int line) const {
+    if (in_file()) {
+        return opened->execution ? std::optional(time_of(*opened, opened->execution->step_at_or_after(line)))
+                                 : std::nullopt;
+    }
+    const auto text = listing();
+    const auto planned = trajectory();
+    if (!text || !planned) {
+        return std::nullopt;
+    }
+    const auto& lines = text->line_of_block;
+    const auto block = static_cast<int>(std::ranges::lower_bound(lines, line) - lines.begin());
+    return block < planned->block_count() ? planned->start_of(block) : planned->duration();
+}
+
+/// Where a controller plans for itself, and where the job began at a line and has times of its own, from the
+/// line that is executed.
 double Workbench::job_time() const {
     const machine::DriverStatus& status = job.report->driver;
-    const bool by_line = in_file() && opened->execution && job.listing && status.block >= 0 &&
-                         status.block < static_cast<int>(job.listing->line_of_block.size());
-    if (status.planned_time > 0.0 || !by_line) {
+    const bool whole = job.from_line <= 1;
+    if (whole && (status.planned_time > 0.0 || !in_file())) {
         return status.planned_time;
     }
-    const int line = job.listing->line_of_block[static_cast<std::size_t>(status.block)];
-    return time_of(*opened, opened->execution->step_at_or_after(line));
+    const bool over = job.listing && status.executed_blocks >= std::ssize(job.listing->line_of_block);
+    if (!whole && over) {
+        return duration();
+    }
+    const auto line = job_line();
+    return (line ? time_at_line(*line) : std::nullopt).value_or(whole ? status.planned_time : 0.0);
 }
 
 double Workbench::time() const {
@@ -167,7 +212,7 @@ bool Workbench::at_machine() const {
         return false;
     }
     constexpr double same_moment = 1e-9; // s
-    return job.running || std::abs(session.playback.time - job.report->driver.planned_time) < same_moment;
+    return job.running || std::abs(session.playback.time - job_time()) < same_moment;
 }
 
 std::optional<viewport::Moment> Workbench::moment_of_program() const {

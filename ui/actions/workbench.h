@@ -23,6 +23,7 @@
 namespace millwright::actions {
 
 class ArmBench;
+class ImportBench;
 class ProcessorBench;
 
 /// Both null where there is none.
@@ -55,6 +56,7 @@ struct Workbench {
     const ProcessorBench& processor;
     const ArmBench& arm;
     const PlotBench& plot;
+    const ImportBench& import;
     std::vector<machine::QueuedJob> queue; ///< in their order
     /// Bodies of the project's machine; null where its file names none.
     std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids;
@@ -78,6 +80,12 @@ struct Workbench {
 
     /// Null-safe access to what is shown.
     [[nodiscard]] std::shared_ptr<const project::Evaluation> shown() const;
+    /// What is shown is the path of a strategy, not a grid's zigzag.
+    [[nodiscard]] bool shows_own_path() const;
+    /// "Spiral", "Track optimiser".
+    [[nodiscard]] std::string shown_name() const;
+    /// What the program follows; null if not there.
+    [[nodiscard]] std::shared_ptr<const project::Evaluation> program_path() const;
     [[nodiscard]] std::shared_ptr<const project::Evaluation> evaluation(project::GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const motion::Trajectory> trajectory() const;
     [[nodiscard]] std::shared_ptr<const gcode::Program> program() const;
@@ -103,12 +111,14 @@ struct Workbench {
     [[nodiscard]] std::optional<viewport::Moment> moment() const;
     [[nodiscard]] int block() const;       ///< -1 without a program
     [[nodiscard]] double time() const;     ///< s of the trajectory
-    [[nodiscard]] double job_time() const; ///< the same, of the running job
+    [[nodiscard]] double job_time() const; ///< the same, of the job that was last reported
     /// What moment() says is where the machine stands, not what the timeline would have it do.
     [[nodiscard]] bool at_machine() const;
 
 private:
     [[nodiscard]] std::optional<viewport::Moment> moment_of_program() const;
+    [[nodiscard]] std::optional<int> job_line() const; ///< that is executed, or would be
+    [[nodiscard]] std::optional<double> time_at_line(int line) const;
 };
 
 } // namespace millwright::actions

@@ -3,8 +3,10 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/actions/import_bench.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/processor_bench.h"
+#include "ui/actions/surface_export.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,6 +29,11 @@ void drop_lost_selection(Session& session, const project::Project& project) {
     std::erase_if(session.selected, lost);
 }
 
+project::Activity activity_of(const SurfaceExport& work) {
+    Progress::Report now = work.progress();
+    return {true, now.fraction, "Writing the surface" + (now.text.empty() ? "" : ": " + now.text)};
+}
+
 } // namespace
 
 Workshop::Workshop(WorkshopOptions options)
@@ -40,6 +47,8 @@ Workshop::Workshop(WorkshopOptions options)
     reader_ = std::make_unique<project::ProgramReader>(wake);
     set_up_ = std::make_unique<project::SetUpWorker>(wake);
     plot_ = std::make_unique<PlotBench>(options_.assets, wake);
+    import_ = std::make_unique<ImportBench>(wake);
+    export_ = std::make_unique<SurfaceExport>(wake);
     controller_ = std::make_unique<Controller>(options_.log_folder, wake);
     jog_ = std::make_unique<JogHand>(*controller_);
     jobs_ = std::make_unique<JobRunner>(options_.log_folder, wake);
@@ -58,7 +67,9 @@ Workbench Workshop::look() const {
             document(),
             pipeline_->latest(),
             pipeline_->adaptation(),
-            plot_->activity().busy     ? plot_->activity()
+            import_->activity().busy   ? import_->activity()
+            : export_->busy()          ? activity_of(*export_)
+            : plot_->activity().busy   ? plot_->activity()
             : reader_->activity().busy ? reader_->activity()
             : set_up_->activity().busy ? set_up_->activity()
                                        : pipeline_->activity(),
@@ -78,6 +89,7 @@ Workbench Workshop::look() const {
             *processor_,
             *arm_,
             *plot_,
+            *import_,
             queue_.jobs(),
             machine_solids_.bodies(),
             set_up_->latest(),
@@ -168,7 +180,18 @@ void Workshop::connect() {
     }
     HandSettings& hand = session_.hand;
     hand.keys_armed = hand.pad_armed = hand.arm_keys = hand.single_block = false;
-    controller_->connect(session_.hand.choice, std::move(model));
+    machine::DriverChoice choice = hand.choice;
+    if (choice.kind != machine::DriverKind::records) {
+        choice.record.reset(); // of the table alone: a coordinate stream has lines of its own here
+    }
+    std::shared_ptr<const kinematics::ArmModel> arm;
+    if (choice.kind == machine::DriverKind::pmac) {
+        if (!arm_->loaded()) {
+            arm_->load("motoman-l3");
+        }
+        arm = {arm_->look(), &arm_->arm()};
+    }
+    controller_->connect(choice, std::move(model), std::move(arm));
 }
 
 void Workshop::watch_jog(bool held, bool focused) {
@@ -180,6 +203,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 bool Workshop::advance(double seconds) {
     follow_received();
     follow_plot();
+    follow_import();
     follow_file();
     follow_begin();
     follow_queue();
@@ -249,11 +273,11 @@ void Workshop::follow_begin() {
 
 /// So that the timeline stays where the machine came to rest.
 void Workshop::follow_job() {
-    const JobView job = jobs_->view();
-    if ((job.running || follows_job_) && job.report) {
-        session_.playback.time = job.report->driver.planned_time;
+    const Workbench now = look();
+    if ((now.job.running || follows_job_) && now.job.report) {
+        session_.playback.time = now.job_time();
     }
-    follows_job_ = job.running;
+    follows_job_ = now.job.running;
 }
 
 void Workshop::edit(const std::string& title,
@@ -274,6 +298,9 @@ void Workshop::edit(const std::string& title,
 void Workshop::wait_idle() {
     pipeline_->wait_idle();
     set_up_->wait_idle();
+    import_->wait_idle();
+    export_->wait_idle();
+    follow_import();
     plot_->wait_idle();
     follow_plot();
     reader_->wait_idle();

@@ -18,6 +18,7 @@
 
 namespace millwright::actions {
 
+class SurfaceExport;
 enum class ProcessorSource : std::uint8_t; // processor_bench.h
 
 struct WorkshopOptions {
@@ -49,8 +50,9 @@ public:
     /// Lets `seconds` of wall time pass for what plays. True if the picture changed.
     bool advance(double seconds);
 
-    /// A project file opens in place of the project, whatever is unsaved; undo goes back. Any other file is
-    /// taken for G-code and opens beside the project. Throws Error; what is open then stays.
+    /// A project file opens in place of the project, whatever is unsaved; undo goes back. A surface of
+    /// another program goes on the import bench, a plot beside the surface; any other file is taken for
+    /// G-code and opens beside the project. Throws Error; what is open then stays.
     void open(const std::filesystem::path& file);
     /// Files from outside of the window, dropped on it or named on the command line: opens the first one as
     /// soon as nothing asks the person, and says which of several that is.
@@ -131,6 +133,12 @@ public:
     void open_motion_program(const std::filesystem::path& file);
     void save_motion_program(const std::filesystem::path& file);
     [[nodiscard]] PlotBench& plot() { return *plot_; }
+    [[nodiscard]] ImportBench& import() { return *import_; }
+    /// What is on the import bench becomes the project's surface.
+    void take_import();
+    /// Writes the surface for another program, in the background. Throws Error for an end of the name that
+    /// stands for no such kind of file.
+    void export_surface(const std::filesystem::path& file);
     /// Writes the program of the plot beside it as soon as there is one; `to_machine`: and opens it there.
     void write_plot(bool to_machine);
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
@@ -161,7 +169,10 @@ private:
     void follow_file();
     void follow_received();
     void open_plot(const std::filesystem::path& file);
+    void open_surface(const std::filesystem::path& file);
+    void follow_import();
     void follow_plot();
+    void give_place_back();
     void finish_writing_plot();
     void remember(const std::filesystem::path& file);
     void start_autosave();
@@ -196,17 +207,23 @@ private:
     std::unique_ptr<ProcessorBench> processor_; ///< never null
     std::unique_ptr<ArmBench> arm_;             ///< never null
     std::unique_ptr<PlotBench> plot_;
+    std::unique_ptr<ImportBench> import_;   ///< never null
+    std::unique_ptr<SurfaceExport> export_; ///< never null
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
     std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
+    std::uint64_t followed_import_ = 0;           ///< revision whose failure was told
     std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
     bool arm_failed_ = false;                     ///< the arm that ships could not be read
     std::optional<int> settings_sent_;            ///< the card's answer to them is still to be told
     bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
     bool follows_job_ = false;                    ///< a job was running when it was last looked at
+    std::filesystem::path gcode_;                 ///< opened by a person; empty: none
+    BeginAt gcode_begin_;                         ///< of its job, while the plot's program has its place
+    bool plot_plays_ = false;                     ///< the program of the plot has its place
 };
 
 } // namespace millwright::actions

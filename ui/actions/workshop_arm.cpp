@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_motion_ways.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 #include "core/machine/drivers/pmac/pmac_program.h"
 #include "core/motion/arm_tour.h"
@@ -10,6 +11,8 @@
 #include "core/project/taught_points.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/workshop.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +57,18 @@ std::string counted(std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+/// One notice of one kind of findings: a pile of them would hide what matters.
+void tell_findings(Session& session, const std::vector<Diagnostic>& found, std::string_view several) {
+    if (found.empty()) {
+        return;
+    }
+    std::string text = found.size() > 1 ? fmt::format("{} {}:", found.size(), several) : "";
+    for (const Diagnostic& one : found) {
+        text += fmt::format("{}line {}: {}", text.empty() ? "" : "\n", one.place.line, one.message);
+    }
+    tell(session, widgets::Severity::warning, text, found.front().place.file.filename().string());
+}
+
 } // namespace
 
 /// It has an arm once it is looked at; a connected one is drawn where it stands.
@@ -81,6 +96,12 @@ void Workshop::follow_arm_work() {
     if (const auto simulation = arm_->program().take()) {
         if (simulation->records.size() > 1 && !now.arm_connected()) {
             arm_->play(play_of(simulation));
+        } else if (simulation->faults.empty()) {
+            tell(
+                session_,
+                widgets::Severity::good,
+                fmt::format("On an emulated card the program takes {:.1f} s, and no joint leaves its limits.",
+                            simulation->duration));
         }
         if (!simulation->faults.empty()) {
             tell(session_, widgets::Severity::warning, to_text(simulation->faults.front()));
@@ -92,6 +113,7 @@ void Workshop::follow_arm_work() {
                                                          shown_one.machine,
                                                          arm_->look(),
                                                          project::base_T_path(now.project.arm.path),
+                                                         from_degrees(now.project.arm.path.most_lean_deg),
                                                          arm_->joints(),
                                                          false})
                              : std::nullopt);
@@ -116,7 +138,7 @@ void Workshop::follow_arm_work() {
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
     if (look().arm_connected()) {
         expect_start(motion, arm_->joints());
-        run_on_card(machine::pmac_program(motion, machine::arm_settings()));
+        run_on_card(machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes)));
     } else {
         arm_->play(play_of(motion));
     }
@@ -146,11 +168,10 @@ void Workshop::run_on_card(const std::vector<std::string>& lines) {
 void Workshop::load_card_settings(const fs::path& file) {
     session_.question = FileQuestion::none;
     const machine::PmacFile found = machine::read_pmac_file(read_file(file), file);
-    for (const Diagnostic& warning : found.warnings) {
-        tell(session_,
-             widgets::Severity::warning,
-             warning.message,
-             to_text(Diagnostic{warning.place, {}, {}}));
+    for (const auto& [kind, several] :
+         {std::pair(&found.omissions, "lines are left out"),
+          std::pair(&found.warnings, "protections are off or values too great")}) {
+        tell_findings(session_, *kind, several);
     }
     std::vector<std::string> lines;
     for (const machine::PmacFile::Line& line : found.lines) {
@@ -160,7 +181,7 @@ void Workshop::load_card_settings(const fs::path& file) {
     tell(session_,
          widgets::Severity::info,
          counted(lines.size(), "line") + " of " + file.filename().string() + " sent, with " +
-             counted(found.warnings.size(), "warning") + ".");
+             counted(found.warnings.size() + found.omissions.size(), "warning") + ".");
 }
 
 void Workshop::open_points(const fs::path& file) {

@@ -1,9 +1,18 @@
 // The part of the workshop that deals with whole files: opening, saving, leaving, recovering.
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/machine/way_on.h"
+#include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
+#include "core/project/strategy_path.h"
+#include "ui/actions/import_bench.h"
+#include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace millwright::actions {
@@ -30,11 +39,31 @@ project::Project on_disk(const fs::path& file) {
     }
 }
 
+/// Beside what it was made of; of what ships with the program, and where nothing can be written, in a folder
+/// of the user's own.
+fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& options) {
+    std::error_code ignored;
+    const fs::path folder = fs::weakly_canonical(drawing.parent_path(), ignored);
+    const fs::path shipped = fs::weakly_canonical(options.assets, ignored);
+    const auto [end, rest] = std::ranges::mismatch(shipped, folder);
+    const bool ships = !options.assets.empty() && end == shipped.end();
+    if (!ships && ::access(folder.c_str(), W_OK) == 0) {
+        return drawing.parent_path();
+    }
+    const fs::path own = options.log_folder.parent_path() / "programs";
+    make_folder(own);
+    return own;
+}
+
 } // namespace
 
 void Workshop::open(const fs::path& file) {
     if (project::is_plot_file(file)) {
         open_plot(file);
+        return;
+    }
+    if (project::is_importable(file)) {
+        open_surface(file);
         return;
     }
     if (!is_project_file(file)) {
@@ -43,7 +72,8 @@ void Workshop::open(const fs::path& file) {
     }
     const fs::path whole = fs::absolute(file).lexically_normal();
     project::Project opened = project::read_project(whole);
-    session_.shown = opened.grid.method;
+    session_.shown = project::program_grid(opened);
+    session_.own_path_shown = true;
     begin(opened, "Open " + file.filename().string(), {whole, opened});
     remember(file);
 }
@@ -77,6 +107,9 @@ void Workshop::open_gcode(const fs::path& file) {
         throw Error("a job is running; another program can be opened when it has ended", file);
     }
     reader_->open(file, session_.file.reading, options_.assets);
+    gcode_ = file;
+    plot_plays_ = false;
+    followed_plot_ = 0;
     session_.workspace = Workspace::program;
     session_.question = FileQuestion::none;
     session_.fit_wanted = true;
@@ -117,9 +150,12 @@ void Workshop::open_plot(const fs::path& file) {
 /// The program that was made of the plot takes the place of an opened one, while one looks at the plot.
 void Workshop::follow_plot() {
     guarded([&] { finish_writing_plot(); });
+    if (session_.workspace != Workspace::plot) {
+        return give_place_back();
+    }
     const auto made = plot_->latest();
-    if (session_.workspace != Workspace::plot || !made || !made->finished || made->program.empty() ||
-        made->revision == followed_plot_ || jobs_->view().running) {
+    if (!made || !made->finished || made->program.empty() || made->revision == followed_plot_ ||
+        jobs_->view().running) {
         return;
     }
     followed_plot_ = made->revision;
@@ -127,9 +163,23 @@ void Workshop::follow_plot() {
     reading.machine = made->input.settings.machine;
     guarded([&] { reader_->open(made->program, reading, options_.assets); });
     session_.file.step.reset();
-    session_.begin = {};
+    const BeginAt begin = std::exchange(session_.begin, {});
+    gcode_begin_ = std::exchange(plot_plays_, true) ? gcode_begin_ : begin;
     session_.playback.playing = false;
     tells_of_file_ = false;
+}
+
+/// To the program that a person had opened, if any.
+void Workshop::give_place_back() {
+    if (!plot_plays_ || gcode_.empty() || jobs_->view().running) {
+        return;
+    }
+    plot_plays_ = false;
+    followed_plot_ = 0;
+    guarded([&] { reader_->open(gcode_, session_.file.reading, options_.assets); });
+    session_.file.step.reset();
+    session_.begin = std::exchange(gcode_begin_, {});
+    session_.playback.playing = false;
 }
 
 void Workshop::write_plot(bool to_machine) {
@@ -147,7 +197,7 @@ void Workshop::finish_writing_plot() {
     if (made->failure) {
         throw Error(*made->failure);
     }
-    const fs::path program = plot_->write_program();
+    const fs::path program = plot_->write_program(place_of_program(plot_->file(), options_));
     tell(session_, widgets::Severity::good, "G-code written.", program.string());
     if (to_machine) {
         session_.file.reading.machine = plot_->settings().machine;
@@ -159,22 +209,40 @@ void Workshop::finish_writing_plot() {
 
 void Workshop::read_again() {
     if (const auto opened = reader_->latest()) {
+        const bool of_plot = plot_plays_;
         open_gcode(fs::path(opened->file));
+        if (of_plot) {
+            gcode_.clear(); // it goes with the plot
+        }
     }
 }
 
 void Workshop::close_file() {
     reader_->close();
+    gcode_.clear();
+    plot_plays_ = false;
+    followed_plot_ = 0;
     session_.file.step.reset();
     session_.fit_wanted = true;
     follow_file();
 }
 
 void Workshop::cancel_work() {
+    if (const project::Activity ended = look().activity; ended.busy) {
+        const bool planned = pipeline_->activity().busy;
+        tell(session_,
+             widgets::Severity::info,
+             "Cancelled" + (ended.text.empty() ? "" : ": " + ended.text) + "." +
+                 (planned ? " What is missing is made with the next change of the project." : ""));
+    }
     pipeline_->cancel();
     reader_->cancel();
     set_up_->cancel();
     plot_->cancel();
+    if (import_->activity().busy) {
+        import_->close();
+    }
+    export_->cancel();
     writes_plot_.reset();
 }
 
@@ -235,6 +303,7 @@ void Workshop::begin(project::Project other, const std::string& title, Document 
 }
 
 void Workshop::look_at_another() {
+    import_->drop_reference();
     session_.begin = {};
     session_.selected.clear();
     session_.fit_wanted = true;

@@ -50,6 +50,9 @@ Permission can_jog(const Workbench& now, int joint) {
     if (joint >= 0 && !drives(now, joint)) {
         return Permission::refused("The controller does not drive this joint.");
     }
+    if (!now.controller.status.powered && now.controller.status.state != machine::DriverState::alarm) {
+        return Permission::refused("The motors have no power.");
+    }
     return now.controller.status.activity == machine::Activity::jog ? Permission{} : at_rest(now.controller);
 }
 
@@ -78,7 +81,7 @@ public:
 
     void line(int axis, double sign, bool held, bool pressed) {
         const double step = now_.session.hand.step;
-        if (!(held || (pressed && step > 0.0))) {
+        if (step > 0.0 ? !pressed : !held) {
             return;
         }
         const Mat3 directions = now_.session.hand.arm_frame == ArmFrame::tool ? Mat3(now_.arm.tool().linear())
@@ -91,11 +94,11 @@ public:
             return;
         }
         if (step > 0.0) {
-            if (pressed) {
-                begin_step(*found.rates * (step / velocity.norm()));
-            }
+            step_line(step * way);
         } else {
             rates_ = slowed(*found.rates);
+            const double most = found.rates->cwiseAbs().maxCoeff();
+            velocity_ = most > 0.0 ? Vec3(velocity * (rates_->cwiseAbs().maxCoeff() / most)) : velocity;
         }
     }
 
@@ -105,7 +108,9 @@ public:
         }
         refusal_.clear();
         if (!now_.arm_connected()) {
-            ask_.arm([rates = *rates_](actions::ArmBench& bench) { bench.hold_jog(rates); });
+            ask_.arm([rates = *rates_, velocity = velocity_](actions::ArmBench& bench) {
+                velocity ? bench.hold_line(*velocity) : bench.hold_jog(rates);
+            });
             return;
         }
         const JointPositions driven = rates_->head(std::ssize(now_.controller.axes));
@@ -127,6 +132,20 @@ private:
         return most > cap ? JointPositions(rates * (cap / most)) : rates;
     }
 
+    void step_line(const Vec3& way) {
+        if (!now_.arm_connected()) {
+            refusal_.clear();
+            ask_.arm([way](actions::ArmBench& bench) { bench.move_tip_by(way); });
+            return;
+        }
+        const kinematics::ArmHold there = kinematics::moved_tip(now_.arm.arm(), now_.arm.joints(), way);
+        if (there.trouble == kinematics::ArmTrouble::none) {
+            begin_step(there.joints - now_.arm.joints());
+        } else {
+            refusal_ = there.why;
+        }
+    }
+
     void begin_step(const JointPositions& way) {
         refusal_.clear();
         if (!now_.arm_connected()) {
@@ -143,6 +162,7 @@ private:
     ActionQueue& ask_;
     std::string& refusal_;
     std::optional<JointPositions> rates_;
+    std::optional<Vec3> velocity_; ///< of the tip, where it goes in a line: mm/s
 };
 
 void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -242,7 +262,7 @@ void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) con
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", Rank::danger, "Kill");
 }
 
-void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) const {
+void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) {
     if (!now.session.hand.arm_keys || ui.was_typing() || now.asks()) {
         return;
     }
@@ -250,11 +270,14 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     const int joints = now.arm.arm().joint_count();
     const int joint = std::min(now.session.hand.arm_joint, joints - 1);
     for (int n = 0; n < std::min(joints, 5); ++n) {
-        if (render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
+        const bool is_sign = ImGui::GetIO().KeyShift; // as # is, above 3
+        if (!is_sign && render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
             ask.show([n](actions::Session& session) { session.hand.arm_joint = n; });
         }
     }
-    if (can_jog(now, joint).allowed) {
+    const bool held = render::key_down(Key::equal) || render::key_down(Key::minus);
+    key_joint_ = held ? key_joint_ : joint; // another joint begins with another press
+    if (can_jog(now, joint).allowed && key_joint_ == joint) {
         for (const auto& [key, sign] : {std::pair(Key::equal, 1.0), std::pair(Key::minus, -1.0)}) {
             wish.joint(joint, sign, render::key_down(key), render::key_pressed(key));
         }
@@ -288,7 +311,7 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
             session.panes.lower_shown = true;
             session.lower_tab_now() = actions::LowerTab::console;
         });
-        ui.focus_pane("lower");
+        ui.focus_field("lower/command");
     }
 }
 

@@ -24,10 +24,11 @@ private:
     void draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const;
     void draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) const;
+    void obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish);
 
     const actions::Catalogue& catalogue_;
     ConnectionPanel connection_;
+    int key_joint_ = 0;   ///< that + and - moved when they went down
     std::string refusal_; ///< why the last jog was not done
 };
 

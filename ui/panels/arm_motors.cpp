@@ -34,11 +34,13 @@ public:
     Row(const Workbench& now, int joint) : joint_(now.arm.arm().joint(joint)), at_(now.arm.joints()[joint]) {
         const machine::DriverStatus& status = now.controller.status;
         const auto n = static_cast<std::size_t>(joint);
-        if (!now.arm_connected() || joint >= status.velocity.size()) {
+        if (!now.arm_connected() || joint >= status.position.size()) {
             return;
         }
-        velocity_ = status.velocity[joint];
         known_ = status.position_known;
+        if (joint < status.velocity.size()) {
+            velocity_ = status.velocity[joint];
+        }
         motor_ = n < status.motors.size() ? std::optional(status.motors[n]) : std::nullopt;
         limits_ =
             n < now.controller.limits.axes.size() ? now.controller.limits.axes[n] : MachineLimits::Axis{};

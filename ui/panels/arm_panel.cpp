@@ -93,8 +93,11 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
         (void)widgets::banner(ui,
                               "not_known",
                               {widgets::Severity::warning,
-                               "Position not known: these are degrees from where the arm stood when the card "
-                               "was switched on. Home it.",
+                               now.controller.status.velocity.size() == 0 // as last told
+                                   ? "Position not known: these are the degrees that the card told last, and "
+                                     "the arm may have gone on. Look at it."
+                                   : "Position not known: these are degrees from where the arm stood when "
+                                     "the card was switched on. Home it.",
                                {}});
     }
     const auto labels = ui.label_share(0.24F);
@@ -218,14 +221,26 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
 }
 
 void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const bool real = now.arm_connected();
     {
         const auto row = ui.row(4);
-        action_button(ui, now, ask, catalogue_, "arm.go_joints", widgets::Rank::primary, "By joints");
-        action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "In a line");
-        action_button(ui, now, ask, catalogue_, "arm.stop", widgets::Rank::normal, "Stop");
+        if (real) {
+            action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");
+            action_button(ui, now, ask, catalogue_, "machine.resume", widgets::Rank::normal, "Resume");
+            action_button(ui, now, ask, catalogue_, "machine.stop", widgets::Rank::primary, "Stop");
+        } else {
+            action_button(ui, now, ask, catalogue_, "arm.go_joints", widgets::Rank::primary, "By joints");
+            action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "In a line");
+            action_button(ui, now, ask, catalogue_, "arm.stop", widgets::Rank::normal, "Stop");
+        }
         action_button(ui, now, ask, catalogue_, "arm.clear_trace", widgets::Rank::normal, "Clear trace");
     }
-    if (now.arm_connected()) {
+    const machine::DriverStatus& status = now.controller.status;
+    if (real && !status.message.empty()) { // always in sight, and it moves no button
+        ui.words(as_sentence(status.message),
+                 status.state == machine::DriverState::alarm ? widgets::Tone::danger
+                                                             : widgets::Tone::warning);
+    } else if (real) {
         ui.note("The picture follows the connected PMAC.");
     } else if (now.arm.duration() > 0.0) {
         ui.note(

@@ -1,6 +1,7 @@
 #include "ui/panels/arm_path_fields.h"
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
@@ -36,6 +37,36 @@ void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             draft.arm.path.turned_deg = to;
         });
     }
+    const widgets::FieldInfo lean{
+        "lean",
+        "May lean",
+        "\u00b0",
+        "By how much the tool may be turned from what is programmed, where an arm of "
+        "five joints cannot hold it so; 0: not at all",
+        0.0,
+        90.0,
+        {},
+        1};
+    if (const auto v = ui.number(place.most_lean_deg, lean)) {
+        ask.edit("Lean of the tool on the arm",
+                 [to = *v](project::Project& draft) { draft.arm.path.most_lean_deg = to; });
+    }
+}
+
+/// An arm of five joints turns the tool into its own plane, and cuts otherwise than the machine would.
+void lean_text(Ui& ui, const kinematics::ArmReach& reach) {
+    constexpr double told = 0.1; // degrees
+    const double lean = to_degrees(reach.most_tilt);
+    if (lean > told) {
+        (void)widgets::banner(
+            ui,
+            "leans",
+            {widgets::Severity::warning,
+             fmt::format("The arm cannot hold the tool as it is programmed: it leans by up to "
+                         "{}\u00b0 from that.",
+                         fixed(lean, 1)),
+             {}});
+    }
 }
 
 void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
@@ -46,6 +77,7 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     const kinematics::ArmReach& reach = path.reach;
     const double percent = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
     ui.value("reached", "Reached", fixed(percent, 1), fmt::format("% of {} mm", fixed(reach.length, 0)));
+    lean_text(ui, reach);
     constexpr std::size_t most_shown = 3;
     for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
         const kinematics::ArmHole& hole = reach.holes[n];

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/panels/internal/lines.h"
+#include "ui/panels/stands_fields.h"
 #include "ui/widgets/arithmetic.h"
 #include "ui/widgets/notices.h"
 
@@ -78,6 +79,10 @@ void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
 /// Homing or a new zero take it away as well.
 void draw_doubt(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::string& doubt = now.controller.status.position_doubt;
+    if (asks_where_it_stands(now.controller)) {
+        stands_fields(ui, now, ask);
+        return;
+    }
     if (!now.controller.connected() || doubt.empty()) {
         return;
     }

@@ -70,9 +70,7 @@ std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& sh
     } else {
         other.name = std::string(project::row_of(project::grid_methods(), *beside.method).label);
         other.scene.shown = now.evaluation(*beside.method);
-        if (*beside.method != now.project.grid.method) {
-            other.scene.cut = nullptr;
-        }
+        other.scene.cut = now.plan->plan.cut_of(now.project, other.scene.shown.get());
     }
     if (!other.scene.shown) {
         return std::nullopt;

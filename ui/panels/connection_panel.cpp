@@ -3,6 +3,7 @@
 #include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/links/serial_ports.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/stands_fields.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
 
@@ -157,7 +158,15 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
     } else if (choice.kind == DriverKind::records) {
         draw_records(ui, now, ask);
     } else if (choice.kind == DriverKind::pmac) {
-        ui.note("It moves the four driven joints of a Motoman L-3. Nothing moves by connecting.");
+        if (const auto on = ui.toggle("fifth_axis",
+                                      "Axis 5",
+                                      choice.axes.find('B') != std::string::npos,
+                                      "Motor 5 turns joint 5: on a second row of outputs, or simulated in "
+                                      "the card, which has to be set up for it")) {
+            choose(ask,
+                   [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
+        }
+        ui.note("It moves the driven joints of a Motoman L-3. Nothing moves by connecting.");
     } else {
         const widgets::FieldInfo info{
             "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
@@ -238,7 +247,7 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
 bool ConnectionPanel::has_messages(const actions::ControllerView& machine) {
     return machine.connected() &&
            (!machine.status.message.empty() || !machine.status.position_doubt.empty() ||
-            !reports_advice(machine).empty());
+            asks_where_it_stands(machine) || !reports_advice(machine).empty());
 }
 
 void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -262,6 +271,9 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
         ui.note(machine::doubt_sentence(machine.status.position_doubt));
         action_button(ui, now, ask, catalogue_, "machine.trust_position");
     }
+    if (asks_where_it_stands(machine)) {
+        stands_fields(ui, now, ask);
+    }
     if (const auto advice = reports_advice(machine); !advice.empty()) {
         ui.note(advice);
     }
@@ -269,7 +281,10 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
 
 void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::ControllerView& machine = now.controller;
-    if (machine.failure) {
+    const DriverChoice& chosen = now.session.hand.choice; // a link that nobody wants any more is not told of
+    const bool is_of_it = machine.link != LinkState::none ||
+                          (machine.choice.kind == chosen.kind && machine.choice.address == chosen.address);
+    if (machine.failure && is_of_it) {
         const std::string hint = machine.failure->hint.empty() ? "" : " (" + machine.failure->hint + ")";
         (void)widgets::banner(
             ui, "failure", {widgets::Severity::warning, as_sentence(machine.failure->message) + hint, {}});

@@ -57,6 +57,9 @@ Permission can_type(const Workbench& now) {
 }
 
 Permission can_send(const Workbench& now) {
+    if (now.controller.choice.kind == machine::DriverKind::pmac && !now.controller.status.link_lost) {
+        return {}; // it is asked and stopped by lines while it moves, and says itself what has to wait
+    }
     return now.job.running ? Permission::refused("A job is running.") : at_rest(now.controller);
 }
 

@@ -1,7 +1,10 @@
 #include "ui/panels/design_panel.h"
 
 #include "core/geometry/presets.h"
+#include "ui/actions/import_bench.h"
+#include "ui/panels/import_panel.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/viewport/symmetric_points.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +17,7 @@ namespace {
 
 using geometry::ControlNet;
 using viewport::ControlPointId;
+using viewport::SharedPoint;
 
 constexpr double farthest = project::farthest_point_mm;
 
@@ -24,15 +28,54 @@ const ControlNet& net_of(const project::Project& project, const ControlPointId& 
     return project.surface.patches[static_cast<std::size_t>(id.patch)];
 }
 
-/// Moves every point of `ids` by `by`.
-void move_points(ActionQueue& ask, const std::vector<ControlPointId>& ids, const Vec3& by) {
-    ask.edit(ids.size() == 1 ? "Move a control point" : fmt::format("Move {} control points", ids.size()),
-             [ids, by](project::Project& draft) {
-                 for (const ControlPointId& id : ids) {
-                     net_of(draft, id).point(id.i, id.j) += by;
+/// The points and their images, with what each takes of the way of the first one.
+std::vector<SharedPoint> shared_by(const Workbench& now, const std::vector<ControlPointId>& ids) {
+    const auto net = [&](geometry::PatchId patch) -> const ControlNet& {
+        return now.project.surface.patches[static_cast<std::size_t>(patch)];
+    };
+    return with_images(net, now.session.symmetry, ids, ids.front());
+}
+
+/// Moves the first point of `ids` by `by`, the others and the images along.
+void move_points(const Workbench& now,
+                 ActionQueue& ask,
+                 const std::vector<ControlPointId>& ids,
+                 const Vec3& by) {
+    const std::vector<SharedPoint> points = shared_by(now, ids);
+    ask.edit(points.size() == 1 ? "Move a control point"
+                                : fmt::format("Move {} control points", points.size()),
+             [points, by](project::Project& draft) {
+                 for (const SharedPoint& point : points) {
+                     net_of(draft, point.id).point(point.id.i, point.id.j) += point.share.cwiseProduct(by);
                  }
                  draft.surface.preset.clear();
              });
+}
+
+void set_weights(const Workbench& now,
+                 ActionQueue& ask,
+                 const std::vector<ControlPointId>& ids,
+                 double weight) {
+    ask.edit("Change a weight", [points = shared_by(now, ids), weight](project::Project& draft) {
+        for (const SharedPoint& point : points) {
+            net_of(draft, point.id).weight(point.id.i, point.id.j) = weight;
+        }
+        draft.surface.preset.clear();
+    });
+}
+
+/// What is done to one side of the net is done to the other one, too.
+void symmetry_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const geometry::NetSymmetry& symmetry = now.session.symmetry;
+    constexpr const char* tip =
+        "What is done to a control point happens to its image in the net, mirrored; points in "
+        "the middle stay there";
+    if (const auto on = ui.toggle("symmetric_x", "Symmetric in X", symmetry.x, tip)) {
+        ask.show([x = *on](actions::Session& session) { session.symmetry.x = x; });
+    }
+    if (const auto on = ui.toggle("symmetric_y", "Symmetric in Y", symmetry.y, tip)) {
+        ask.show([y = *on](actions::Session& session) { session.symmetry.y = y; });
+    }
 }
 
 std::vector<widgets::Option> preset_options() {
@@ -60,7 +103,12 @@ void set_preset(project::Project& draft, const geometry::SurfacePreset& preset) 
 } // namespace
 
 void DesignPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.import.is_open()) {
+        import_panel(ui, now, ask, catalogue_);
+        return;
+    }
     draw_surface(ui, now, ask);
+    patch_.draw(ui, now, ask);
     draw_point(ui, now, ask);
     draw_net(ui, now, ask);
 }
@@ -83,8 +131,6 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  [preset](project::Project& draft) { set_preset(draft, preset); });
         ask.run("view.fit");
     }
-    const ControlNet& net = now.project.surface.patches.front();
-    ui.value("degree", "Degree u, v", fmt::format("{}, {}", net.rows - 1, net.columns - 1));
     if (now.project.surface.patches.size() > 1) {
         const widgets::FieldInfo info{"machined",
                                       "Machined patch",
@@ -113,6 +159,7 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!section) {
         return;
     }
+    symmetry_fields(ui, now, ask);
     const std::vector<ControlPointId>& selected = now.session.selected;
     if (selected.empty()) {
         ui.note(
@@ -140,18 +187,13 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
         if (const auto value = ui.number(at[axis], info)) {
             Vec3 by = Vec3::Zero();
             by[axis] = *value - at[axis];
-            move_points(ask, selected, by);
+            move_points(now, ask, selected, by);
         }
     }
     const widgets::FieldInfo weight{
         "weight", "Weight", "", "Rational weight; 1 everywhere gives a polynomial patch", 1e-6, 1e6, 1.0, 4};
     if (const auto value = ui.number(net.weight(id.i, id.j), weight)) {
-        ask.edit("Change a weight", [selected, w = *value](project::Project& draft) {
-            for (const ControlPointId& point : selected) {
-                net_of(draft, point).weight(point.i, point.j) = w;
-            }
-            draft.surface.preset.clear();
-        });
+        set_weights(now, ask, selected, *value);
     }
     action_button(ui, now, ask, catalogue_, "edit.smooth");
 }
@@ -165,7 +207,8 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.segmented("coordinate", "", shown_coordinate_, coordinates)) {
         shown_coordinate_ = *chosen;
     }
-    const ControlNet& net = now.project.surface.patches.front();
+    const int patch = edited_patch(now);
+    const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(patch)];
     const bool weights = shown_coordinate_ == 3;
     for (int i = 0; i < net.rows; ++i) {
         const auto scope = ui.scope(fmt::format("row{}", i));
@@ -182,12 +225,12 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                           weights ? 3 : 2};
             const double value = weights ? net.weight(i, j) : net.point(i, j)[shown_coordinate_];
             if (const auto changed = ui.number(value, info)) {
-                ask.edit(weights ? "Change a weight" : "Move a control point",
-                         [i, j, axis = shown_coordinate_, v = *changed](project::Project& draft) {
-                             ControlNet& edited = draft.surface.patches.front();
-                             (axis == 3 ? edited.weight(i, j) : edited.point(i, j)[axis]) = v;
-                             draft.surface.preset.clear();
-                         });
+                const std::vector<ControlPointId> cell{{static_cast<geometry::PatchId>(patch), i, j}};
+                if (weights) {
+                    set_weights(now, ask, cell, *changed);
+                } else {
+                    move_points(now, ask, cell, (*changed - value) * Vec3::Unit(shown_coordinate_));
+                }
             }
         }
     }

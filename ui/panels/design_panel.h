@@ -1,8 +1,9 @@
-// The inspector of the Design workspace: where the surface came from, the selected control point, the whole
-// net.
+// The inspector of the Design workspace: where the surface came from, the patch, the selected control
+// point, the whole net.
 #pragma once
 
 #include "ui/panels/panel.h"
+#include "ui/panels/patch_fields.h"
 
 namespace millwright::panels {
 
@@ -17,6 +18,7 @@ private:
     void draw_net(Ui& ui, const Workbench& now, ActionQueue& ask);
 
     const actions::Catalogue& catalogue_;
+    PatchFields patch_;
     int shown_coordinate_ = 2; ///< x, y, z or weight in the table of the net
 };
 

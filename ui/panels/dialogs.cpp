@@ -138,7 +138,8 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
     (void)widgets::banner(ui,
                           "look",
                           {widgets::Severity::warning,
-                           "Look at the machine and the part before anything else. Nothing moves by itself.",
+                           "Look at the machine and the part before anything else: a controller may still be "
+                           "executing what it was sent. Millwright moves nothing by itself.",
                            {}});
     if (now.broken_jobs->size() > 1) {
         ui.note(fmt::format("{} more after this one.", now.broken_jobs->size() - 1));

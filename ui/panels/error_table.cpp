@@ -2,11 +2,14 @@
 
 #include "core/base/text.h"
 #include "core/project/settings.h"
+#include "core/project/strategy_path.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace millwright::panels {
@@ -27,10 +30,7 @@ constexpr std::array<widgets::Column, 10> columns{{{"Grid", "", 1.9F, false},
                                                    {"points", "", 0.9F, true},
                                                    {"length", "mm", 1.1F, true}}};
 
-std::string cell_of(const Evaluation* evaluation, GridMethod method, int column) {
-    if (column == 0) {
-        return std::string(project::row_of(project::grid_methods(), method).label);
-    }
+std::string cell_of(const Evaluation* evaluation, int column) {
     if (evaluation == nullptr) {
         return "-";
     }
@@ -49,7 +49,7 @@ std::string cell_of(const Evaluation* evaluation, GridMethod method, int column)
     case 6:
         return angle_text(error.axis_max);
     case 7:
-        return length_text(evaluation->track_gap);
+        return evaluation->track_gap ? length_text(*evaluation->track_gap) : "-";
     case 8:
         return fmt::format("{}", evaluation->toolpath.points.size());
     default:
@@ -62,20 +62,31 @@ std::string cell_of(const Evaluation* evaluation, GridMethod method, int column)
 void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue& ask) {
     widgets::TableView view;
     view.columns = columns;
-    view.rows = std::ssize(project::every_grid_method);
+    const std::ptrdiff_t grids = std::ssize(project::every_grid_method);
+    const bool has_path = project::has_own_path(now.project);
+    const auto method_of = [](std::ptrdiff_t row) {
+        return project::every_grid_method[static_cast<std::size_t>(row)];
+    };
+    view.rows = has_path ? grids + 1 : grids; // the path of the strategy is the last
     view.cell = [&](std::ptrdiff_t row, int column) {
-        const GridMethod method = project::every_grid_method[static_cast<std::size_t>(row)];
-        return cell_of(now.evaluation(method).get(), method, column);
+        if (row == grids) {
+            return column == 0 ? project::strategy_text(now.project)
+                               : cell_of(now.program_path().get(), column);
+        }
+        return column == 0 ? std::string(project::row_of(project::grid_methods(), method_of(row)).label)
+                           : cell_of(now.evaluation(method_of(row)).get(), column);
     };
-    view.row_id = [](std::ptrdiff_t row) {
-        return std::string(project::row_of(project::grid_methods(),
-                                           project::every_grid_method[static_cast<std::size_t>(row)])
-                               .id);
+    view.row_id = [&](std::ptrdiff_t row) {
+        return row == grids ? "path"
+                            : std::string(project::row_of(project::grid_methods(), method_of(row)).id);
     };
-    view.chosen = static_cast<std::ptrdiff_t>(now.session.shown);
+    view.chosen = now.shows_own_path() ? grids : static_cast<std::ptrdiff_t>(actions::shown_grid(now));
     if (const auto row = widgets::table(ui, id, view)) {
-        const GridMethod method = project::every_grid_method[static_cast<std::size_t>(*row)];
-        ask.show([method](actions::Session& session) { session.shown = method; });
+        if (*row == grids) {
+            ask.show([](actions::Session& session) { session.own_path_shown = true; });
+        } else { // refused where it was not made
+            ask.run("view.show_" + view.row_id(*row));
+        }
     }
 }
 

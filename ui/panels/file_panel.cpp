@@ -1,6 +1,8 @@
 #include "ui/panels/file_panel.h"
 
 #include "core/base/error.h"
+#include "core/exchange/surface_file.h"
+#include "core/project/imported_surface.h"
 #include "ui/actions/workshop.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
@@ -23,6 +25,22 @@ using widgets::Rank;
 
 constexpr std::string_view extension = ".json";
 
+constexpr std::array<std::string_view, 8> gcode_extensions{
+    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
+
+bool is_gcode(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(
+        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
+}
+
+/// What "Open" can make something of.
+bool is_opened(const fs::path& file) {
+    return file.extension() == extension || is_gcode(file) || project::is_importable(file) ||
+           project::is_plot_file(file);
+}
+
 /// What is asked for, and what becomes of the file.
 struct Question {
     FileQuestion question;
@@ -31,11 +49,32 @@ struct Question {
     std::string_view ending; ///< of what is listed and saved; empty: every file
     std::string_view first;  ///< name to save to; empty: the project's
     void (*answer)(actions::Workshop&, const fs::path&);
+    bool (*lists)(const fs::path&) = nullptr; ///< in place of the ending; null: that
 };
 
-constexpr std::array<Question, 8> questions{
-    {{FileQuestion::open, "Open a project or a G-code file", true, extension, "", nullptr},
+constexpr std::array<Question, 10> questions{
+    {{FileQuestion::open,
+      "Open a project, G-code, a surface, a plot or a picture",
+      true,
+      extension,
+      "",
+      nullptr,
+      is_opened},
      {FileQuestion::save_as, "Save the project as", false, extension, "", nullptr},
+     {FileQuestion::import_surface,
+      "Import a surface",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open(file); },
+      project::is_importable},
+     {FileQuestion::export_surface,
+      "Export the surface as",
+      false,
+      ".step",
+      "surface.step",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.export_surface(file); },
+      exchange::is_surface_file},
      {FileQuestion::open_points,
       "Open taught points",
       true,
@@ -78,8 +117,6 @@ const Question& about(FileQuestion question) {
     expects(found != questions.end(), "a question about a file");
     return *found;
 }
-constexpr std::array<std::string_view, 8> gcode_extensions{
-    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
 constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
 
 struct Listed {
@@ -87,11 +124,9 @@ struct Listed {
     std::string fault;
 };
 
-bool is_gcode(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(
-        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
+bool is_listed(const Question& question, const fs::path& file) {
+    return question.lists != nullptr ? question.lists(file)
+                                     : question.ending.empty() || file.extension() == question.ending;
 }
 
 /// Folders and the files of `question` by name; hidden ones left out.
@@ -105,8 +140,7 @@ Listed listed(const fs::path& folder, FileQuestion question) {
         }
         if (entry.is_directory(unreadable)) {
             result.folders.push_back(entry.path());
-        } else if (about(question).ending.empty() || entry.path().extension() == about(question).ending ||
-                   (question == FileQuestion::open && is_gcode(entry.path()))) {
+        } else if (is_listed(about(question), entry.path())) {
             result.files.push_back(entry.path());
         }
     }
@@ -114,6 +148,12 @@ Listed listed(const fs::path& folder, FileQuestion question) {
     std::sort(result.folders.begin(), result.folders.end());
     std::sort(result.files.begin(), result.files.end());
     return result;
+}
+
+std::string ending_tip(FileQuestion question) {
+    return question == FileQuestion::export_surface
+               ? "Ends in .step, .glb, .stl, .obj or .ply: that is the kind of file"
+               : "Ends in " + std::string(about(question).ending);
 }
 
 fs::path starting_folder(const Workbench& now) {
@@ -221,7 +261,9 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
         const bool is_folder = static_cast<std::size_t>(row) < folders_;
         return source_ == Source::recent ? shortened(entry.parent_path())
                : is_folder               ? std::string("folder")
-                                         : std::string(is_gcode(entry) ? "G-code" : "");
+                                         : std::string(is_gcode(entry)                 ? "G-code"
+                                         : project::is_importable(entry) ? "surface"
+                                                                         : "");
     };
     view.row_id = [this](std::ptrdiff_t row) {
         const fs::path& entry = entries_[static_cast<std::size_t>(row)];
@@ -250,6 +292,8 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
     if (asked_ != FileQuestion::open) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
+    } else if (project::is_importable(chosen_)) {
+        ui.note("A surface of another program: it is shown first, in the Design workspace.");
     } else if (is_gcode(chosen_)) {
         ui.note("A G-code program: it opens beside the project, in the Program workspace.");
     } else {
@@ -279,8 +323,7 @@ fs::path FilePanel::file_to_save() const {
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (const auto typed =
-            ui.text_field("name", "File name", name_, "Ends in " + std::string(about(asked_).ending))) {
+    if (const auto typed = ui.text_field("name", "File name", name_, ending_tip(asked_))) {
         name_ = *typed;
     }
     const fs::path file = file_to_save();

@@ -1,12 +1,17 @@
 #include "ui/panels/grid_panel.h"
 
+#include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/grid/expression_weight.h"
 #include "core/project/grids.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/surface_tool.h"
+#include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
+
+#include <string>
 
 namespace millwright::panels {
 
@@ -41,14 +46,57 @@ void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
         });
 }
 
+/// What it takes; where that is much, whether it is made all the same.
+void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::GridInput& input) {
+    ui.note(project::memory_sentence(method, input) + ".");
+    if (input.elliptic.any_memory || project::memory_fault(method, input, free_memory())) {
+        if (const auto on = ui.toggle("any_memory",
+                                      "Take the memory",
+                                      input.elliptic.any_memory,
+                                      "It is made even where it takes more than half of what is free")) {
+            ask.edit("Change whether much memory is taken",
+                     [v = *on](Project& p) { p.grid.elliptic.any_memory = v; });
+        }
+    }
+}
+
+/// The program uses it, or it is watched.
+bool is_in_hand(const Workbench& now, GridMethod method) {
+    return now.watched ? now.watched->method == method : now.project.grid.method == method;
+}
+
+std::string label_of(GridMethod method) {
+    return std::string(project::row_of(project::grid_methods(), method).label);
+}
+
+/// What is watched, and how it stands.
 std::string status_text(const project::WatchedAdaptation& watched) {
+    const std::string name = label_of(watched.method);
     if (watched.failure) {
-        return watched.failure->message;
+        return name + ": " + watched.failure->message;
     }
     if (!watched.state) {
-        return "not started";
+        return name + ": not started";
     }
-    return watched.state->note;
+    const bool stands = !watched.playing && watched.state->status == grid::ImproverStatus::running;
+    return name + (stands ? ", stopped before its end: " : ": ") + watched.state->note;
+}
+
+/// The one that is watched stands out; where none is, that of the program.
+widgets::Rank rank_of(const Workbench& now, GridMethod method) {
+    const GridMethod foremost = now.watched ? now.watched->method : now.project.grid.method;
+    return method == foremost ? widgets::Rank::primary : widgets::Rank::normal;
+}
+
+/// Below the buttons, none of which moves when a plan is finished while a hand goes to it.
+void draw_note(Ui& ui, const Workbench& now) {
+    const auto made = now.evaluation(now.project.grid.method);
+    if (made && !made->outcome.note.empty()) {
+        ui.note("The program's grid (" + label_of(now.project.grid.method) + "): " + made->outcome.note);
+    }
+    if (made && !made->outcome.warning.empty()) {
+        (void)widgets::banner(ui, "warning", {widgets::Severity::warning, made->outcome.warning, {}});
+    }
 }
 
 } // namespace
@@ -56,6 +104,9 @@ std::string status_text(const project::WatchedAdaptation& watched) {
 void GridPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_grid(ui, now, ask);
     draw_watched(ui, now, ask);
+    draw_note(ui, now);
+    surface_tool_fields(ui, now, ask);
+    draw_redistribution(ui, now, ask);
     draw_tracks(ui, now, ask);
     draw_chain(ui, now, ask);
     draw_elliptic(ui, now, ask);
@@ -78,14 +129,10 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
                                        project::track_directions(),
                                        now.project.grid.direction,
                                        [](Project& p, grid::TrackDirection d) { p.grid.direction = d; });
-    choice_field<GridMethod>(ui,
-                             ask,
-                             "method",
-                             "Program uses",
-                             "Choose the grid of the program",
-                             project::grid_methods(),
-                             now.project.grid.method,
-                             [](Project& p, GridMethod m) { p.grid.method = m; });
+    const auto [options, index] = options_of(project::grid_methods(), now.project.grid.method);
+    if (const auto chosen = ui.choice("method", "Program uses", index, options)) {
+        ask.run("grid.use_" + std::string(project::grid_methods()[static_cast<std::size_t>(*chosen)].id));
+    }
 }
 
 void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -95,9 +142,21 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
     {
         const auto row = ui.row(3);
-        action_button(ui, now, ask, catalogue_, "grid.adapt", widgets::Rank::normal, "Elliptic");
-        action_button(ui, now, ask, catalogue_, "grid.optimise", widgets::Rank::primary, "Tracks");
-        action_button(ui, now, ask, catalogue_, "grid.chain", widgets::Rank::normal, "Chain");
+        action_button(ui, now, ask, catalogue_, "grid.adapt", rank_of(now, GridMethod::elliptic), "Elliptic");
+        action_button(ui, now, ask, catalogue_, "grid.optimise", rank_of(now, GridMethod::tracks), "Tracks");
+        action_button(ui, now, ask, catalogue_, "grid.chain", rank_of(now, GridMethod::chain), "Chain");
+    }
+    {
+        const auto row = ui.row(2);
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "grid.redistribute",
+                      rank_of(now, GridMethod::redistribution),
+                      "1-D shares");
+        action_button(
+            ui, now, ask, catalogue_, "grid.harmonic", rank_of(now, GridMethod::harmonic), "Harmonic map");
     }
     if (!now.watched) {
         ui.note("Starts from the uniform grid and shows every step in the view.");
@@ -126,6 +185,35 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         ui.value("gain", "Change", change_text(state->start.mean, state->of_best.mean));
     }
     ui.note(status_text(*now.watched));
+    if (const GridMethod watched = now.watched->method; watched != now.project.grid.method) {
+        const auto& row = project::row_of(project::grid_methods(), watched);
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "grid.use_" + std::string(row.id),
+                      widgets::Rank::normal,
+                      "Use it for the program");
+    }
+    if (const auto& state = now.watched->state; state && !state->warning.empty()) {
+        (void)widgets::banner(ui, "warning", {widgets::Severity::warning, state->warning, {}});
+    }
+}
+
+void GridPanel::draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    if (!is_in_hand(now, GridMethod::redistribution)) {
+        return;
+    }
+    const auto section = ui.section("redistribution", "1-D redistribution");
+    if (!section) {
+        return;
+    }
+    number_fields<project::RedistributionInput>(
+        ui,
+        ask,
+        project::redistribution_numbers(),
+        now.project.grid.redistribution,
+        [](Project& p) -> project::RedistributionInput& { return p.grid.redistribution; });
 }
 
 void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -151,7 +239,8 @@ void GridPanel::draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const
 }
 
 void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("elliptic", "Elliptic adaptation");
+    const bool harmonic = is_in_hand(now, GridMethod::harmonic);
+    const auto section = ui.section("elliptic", harmonic ? "Harmonic map" : "Elliptic adaptation");
     if (!section) {
         return;
     }
@@ -187,10 +276,14 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
                   "Colours the surface by the weight, as the adaptation begins with it")) {
         ask.run("view.layer_weight");
     }
-    number_fields<project::EllipticInput>(
-        ui, ask, project::elliptic_numbers(), input, [](Project& p) -> project::EllipticInput& {
-            return p.grid.elliptic;
-        });
+    for (const auto& setting : project::elliptic_numbers()) {
+        if (!harmonic || project::is_of_harmonic_map(setting.id)) {
+            number_fields<project::EllipticInput>(
+                ui, ask, {&setting, 1}, input, [](Project& p) -> project::EllipticInput& {
+                    return p.grid.elliptic;
+                });
+        }
+    }
     if (const auto on = ui.toggle("sliding",
                                   "Boundary slides",
                                   input.sliding_boundary,
@@ -198,16 +291,18 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         ask.edit("Change how the boundary is held",
                  [v = *on](Project& p) { p.grid.elliptic.sliding_boundary = v; });
     }
-    choice_field<grid::EllipticMethod>(
-        ui,
-        ask,
-        "solver",
-        "Solver",
-        "Choose who moves the nodes",
-        project::elliptic_solvers(),
-        input.solver,
-        [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
-    ui.note(project::memory_sentence(project::GridMethod::elliptic, now.project.grid) + ".");
+    if (!harmonic) {
+        choice_field<grid::EllipticMethod>(
+            ui,
+            ask,
+            "solver",
+            "Solver",
+            "Choose who moves the nodes",
+            project::elliptic_solvers(),
+            input.solver,
+            [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
+    }
+    draw_memory(ui, ask, harmonic ? GridMethod::harmonic : GridMethod::elliptic, now.project.grid);
 }
 
 } // namespace millwright::panels

@@ -17,6 +17,7 @@ private:
     void draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 

@@ -210,8 +210,16 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     widgets::readout(ui, "axes", axes, system);
     if (machine.status.link_lost) {
         ui.words("As last told: the link is lost.", widgets::Tone::danger);
+    } else if (machine.can.told_place) {
+        const bool doubt = !machine.status.position_doubt.empty();
+        ui.words(doubt                           ? "In doubt: read it at the machine, and enter it."
+                 : machine.status.position_known ? "As it was told: it does not tell it."
+                                                 : "Assumed: it does not tell it.",
+                 doubt ? widgets::Tone::warning : widgets::Tone::muted);
     } else if (!machine.status.position_doubt.empty()) {
         ui.words("In doubt: home the machine or confirm it.", widgets::Tone::warning);
+    } else { // so that no button below moves while a hand goes to it
+        ui.words("As the machine tells it.", widgets::Tone::muted);
     }
     const Permission can = can_command(machine);
     std::string all;

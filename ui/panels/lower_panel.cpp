@@ -140,12 +140,14 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const ErrorOverPath before = error_over_path(*uniform);
     const ErrorOverPath after = error_over_path(*shown);
-    const auto name = [](GridMethod method) {
-        return project::row_of(project::grid_methods(), method).label;
-    };
-    std::vector<widgets::Series> series{{name(GridMethod::uniform), before.at, before.error, 0, false}};
+    const std::string shown_name = now.shown_name();
+    std::vector<widgets::Series> series{{project::row_of(project::grid_methods(), GridMethod::uniform).label,
+                                         before.at,
+                                         before.error,
+                                         0,
+                                         false}};
     if (shown != uniform) {
-        series.push_back({name(now.session.shown), after.at, after.error, 0, true});
+        series.push_back({shown_name, after.at, after.error, 0, true});
     }
     widgets::PlotView view;
     view.x_label = "path length";
@@ -155,7 +157,7 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.series = series;
     view.limit_y = now.session.error.limit;
     const auto moment = now.moment();
-    if (moment && shown == now.evaluation(now.project.grid.method)) {
+    if (moment && shown == now.program_path()) {
         view.cursor_x = length_before(*shown, moment->move, moment->fraction);
     }
     if (const auto x = widgets::line_plot(ui, "error", view)) {

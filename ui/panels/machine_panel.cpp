@@ -99,7 +99,7 @@ void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     const auto section =
-        ui.section("position", now.at_machine() ? "Position of the machine" : "Position on the timeline");
+        ui.section("position", now.job.running ? "Position of the machine" : "Position on the timeline");
     if (section) {
         axis_positions(ui, now);
     }
@@ -184,8 +184,15 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         const std::optional<double> left = time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
         ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
+        const bool told_late = report.driver.sent_blocks > report.driver.executed_blocks;
+        if (told_late) {
+            ui.value("sent", "Sent to it", fmt::format("{} blocks", report.driver.sent_blocks));
+        }
         if (ui.progress("progress",
-                        fmt::format("Block {} of {}", report.driver.executed_blocks, report.blocks),
+                        fmt::format("Block {} of {}{}",
+                                    report.driver.executed_blocks,
+                                    report.blocks,
+                                    told_late ? " for certain" : ""),
                         fraction)) {
             ask.run("machine.stop");
         }

@@ -63,7 +63,8 @@ bool has_room(std::string_view menu, Workspace workspace) {
 
 /// A line stands above these in their menu.
 bool begins_group(std::string_view id) {
-    constexpr std::array<std::string_view, 13> first{"file.save",
+    constexpr std::array<std::string_view, 14> first{"file.save",
+                                                     "file.import",
                                                      "file.write_program",
                                                      "file.quit",
                                                      "edit.select_all",

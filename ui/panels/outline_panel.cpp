@@ -1,6 +1,8 @@
 #include "ui/panels/outline_panel.h"
 
 #include "core/base/text.h"
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
@@ -8,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -26,7 +29,19 @@ struct Row {
 
 std::string error_of(const Workbench& now, GridMethod method) {
     const auto evaluation = now.evaluation(method);
+    if (now.plan && now.plan->plan.failure(method)) {
+        return "failed";
+    }
+    if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
+        return "as uniform";
+    }
     return evaluation ? length_text(evaluation->closest.mean) + " mm" : "...";
+}
+
+/// Grids that are always made, or that the program uses.
+bool is_listed(const Workbench& now, GridMethod method) {
+    return method == GridMethod::uniform || std::ranges::count(project::compared_methods, method) > 0 ||
+           now.evaluation(method) || project::program_grid(now.project) == method;
 }
 
 std::vector<Row> rows_of(const Workbench& now) {
@@ -37,11 +52,21 @@ std::vector<Row> rows_of(const Workbench& now) {
          fmt::format("degree {}, {}", net.rows - 1, net.columns - 1),
          Workspace::design},
         {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
-        {"uniform", "  Uniform", error_of(now, GridMethod::uniform), Workspace::toolpath},
-        {"elliptic", "  Elliptic", error_of(now, GridMethod::elliptic), Workspace::toolpath},
-        {"tracks", "  Tracks", error_of(now, GridMethod::tracks), Workspace::toolpath}};
-    if (now.evaluation(GridMethod::chain) || now.project.grid.method == GridMethod::chain) {
-        rows.push_back({"chain", "  Chain", error_of(now, GridMethod::chain), Workspace::toolpath});
+    };
+    constexpr std::array<std::string_view, project::every_grid_method.size()> names{
+        "  Uniform", "  1-D", "  Elliptic", "  Harmonic", "  Tracks", "  Chain"};
+    for (const GridMethod method : project::every_grid_method) {
+        if (is_listed(now, method)) {
+            rows.push_back({std::string(project::row_of(project::grid_methods(), method).id),
+                            std::string(names[static_cast<std::size_t>(method)]),
+                            error_of(now, method),
+                            Workspace::toolpath});
+        }
+    }
+    if (project::has_own_path(now.project)) {
+        const auto path = now.program_path();
+        rows.push_back(
+            {"path", "  Path", path ? length_text(path->closest.mean) + " mm" : "...", Workspace::toolpath});
     }
     const auto shown = now.shown();
     rows.push_back({"toolpath",
@@ -82,6 +107,17 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             [workspace = chosen.workspace](actions::Session& session) { session.workspace = workspace; });
         if (chosen.workspace == Workspace::toolpath && chosen.id != "toolpath") {
             ask.run("view.show_" + chosen.id);
+        }
+    }
+    for (const GridMethod method : project::every_grid_method) {
+        const auto evaluation = now.evaluation(method);
+        if (evaluation && !evaluation->outcome.warning.empty()) {
+            const auto& row = project::row_of(project::grid_methods(), method);
+            ui.gap();
+            (void)widgets::banner(
+                ui,
+                fmt::format("warning_{}", row.id),
+                {widgets::Severity::warning, evaluation->outcome.warning, std::string(row.label)});
         }
     }
     if (!now.failure().empty()) {

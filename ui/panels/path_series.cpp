@@ -13,8 +13,8 @@ ErrorOverPath error_over_path(const project::Evaluation& evaluation) {
     double length = 0.0;
     for (const toolpath::MoveDeviation& move : evaluation.field.moves) {
         series.at.push_back(length + 0.5 * move.length);
-        const bool cross = move.kind == toolpath::MoveKind::cross;
-        series.error.push_back(cross ? std::numeric_limits<double>::quiet_NaN() : move.closest);
+        const bool links = move.kind != toolpath::MoveKind::track;
+        series.error.push_back(links ? std::numeric_limits<double>::quiet_NaN() : move.closest);
         length += move.length;
     }
     return series;

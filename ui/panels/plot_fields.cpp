@@ -6,8 +6,11 @@
 #include "core/project/plot_settings.h"
 #include "ui/panels/internal/fields.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -173,8 +176,12 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     numbers(ui, ask, set, {"chords_mm"});
 }
 
-void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
-    numbers(ui, ask, set, {"step_over_mm", "merge_mm"});
+void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
+    numbers(ui, ask, set, {"step_over_mm"});
+    if (!set.step_over && made != nullptr && made->step_over > 0.0) {
+        ui.note(fmt::format("0 goes by the tool: {:.3f} mm.", made->step_over));
+    }
+    numbers(ui, ask, set, {"merge_mm"});
     if (const auto section = ui.section("roughing", "Roughing", false)) {
         numbers(ui, ask, set, {"depth_per_pass_mm", "allowance_mm", "rough_step_over_mm"});
     }
@@ -201,12 +208,18 @@ void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
            [](PlotSettings& s, bool on) { s.join_dots = on; });
 }
 
-void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
+void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
     choice<PictureUse>(
         ui, ask, "use", "Becomes", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
             draft.plot.settings.use = use;
         });
     numbers(ui, ask, set, {"width_mm"});
+    if (made != nullptr && made->picture_size.x() > 0.0) {
+        ui.note(fmt::format("{}{:.2f} x {:.2f} mm.",
+                            set.size.width ? "" : "0 goes by the pixels: ",
+                            made->picture_size.x(),
+                            made->picture_size.y()));
+    }
     choice<plot::GrayRule>(ui,
                            ask,
                            "gray",
@@ -225,7 +238,7 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
             numbers(ui, ask, set, {"depth_mm"});
         }
         tip_fields(ui, ask, set);
-        set.use == PictureUse::relief ? relief_fields(ui, ask, set) : dot_fields(ui, ask, set);
+        set.use == PictureUse::relief ? relief_fields(ui, ask, set, made) : dot_fields(ui, ask, set);
     }
     size_fields(ui, ask, set);
 }
@@ -251,6 +264,11 @@ void name_choice(Ui& ui,
     }
 }
 
+widgets::Permission unless_path(const Workbench& now, const char* reason) {
+    return project::is_path_file(now.plot.file()) ? widgets::Permission::refused(reason)
+                                                  : widgets::Permission{};
+}
+
 } // namespace
 
 bool cuts_brightness(const Workbench& now) {
@@ -259,7 +277,8 @@ bool cuts_brightness(const Workbench& now) {
 
 void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (project::is_picture_file(now.plot.file())) {
-        picture_fields(ui, ask, now.plot.settings());
+        const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
+        picture_fields(ui, ask, now.plot.settings(), made.get());
     } else if (project::is_path_file(now.plot.file())) {
         ui.note("A path that was made before: it is cut as it stands.");
     } else {
@@ -271,8 +290,11 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     const plot::StrokePlan& plan = set.strokes;
+    const widgets::Permission shaping =
+        unless_path(now, "A path file is cut as it stands: this counts for drawings.");
     if (const auto section = ui.section("cutter", "Cutter")) {
-        numbers(ui, ask, set, {"tool_mm"});
+        numbers(ui, ask, set, {"tool_mm"}); // how wide it cuts is seen of path files, too
+        const auto permitted = ui.permitted(shaping);
         choice<plot::CutterSide>(
             ui,
             ask,
@@ -291,6 +313,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             [](Project& draft, plot::Corners corners) { draft.plot.settings.strokes.corners = corners; });
     }
     if (const auto section = ui.section("fill", "Fill closed strokes")) {
+        const auto permitted = ui.permitted(shaping);
         numbers(ui, ask, set, {"hatch_mm", "hatch_angle_deg"});
         toggle(ui,
                ask,
@@ -302,6 +325,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         numbers(ui, ask, set, {"contours_mm"});
     }
     if (const auto section = ui.section("travel", "Travel")) {
+        const auto permitted = ui.permitted(shaping);
         toggle(ui,
                ask,
                "order",
@@ -326,9 +350,14 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const PlotSettings& set = now.plot.settings();
-    speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
-    speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
-    numbers(ui, ask, set, {"safe_height_mm", "plate_mm"});
+    {
+        const auto permitted =
+            ui.permitted(unless_path(now, "The path file has its own speeds and heights."));
+        speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
+        speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
+        numbers(ui, ask, set, {"safe_height_mm"});
+    }
+    numbers(ui, ask, set, {"plate_mm"});
     if (set.plate > 0.0) {
         toggle(ui,
                ask,

@@ -103,16 +103,26 @@ std::string metres(double mm) {
     return fmt::format("{:.3f}", m * mm);
 }
 
-/// What becomes of the drawing beside what the file has.
-void compare(Ui& ui, const plot::WorkTime& planned, const plot::WorkTime& drawn) {
+std::string planned_time(double seconds) {
+    return seconds > 0.0 ? plot::time_for_people(seconds) : "...";
+}
+
+/// What becomes of the drawing beside what the file has. `planner_s`: of what is cut; 0 while it is not
+/// known.
+void compare(Ui& ui, const project::PlotResult& made, double planner_s) {
+    const plot::WorkTime& planned = made.as_planned;
+    const plot::WorkTime& drawn = made.as_drawn;
     constexpr std::array<widgets::Column, 3> columns{
         {{"", "", 1.3F, false}, {"Planned", "", 1.0F, true}, {"As drawn", "", 1.0F, true}}};
-    constexpr std::array<const char*, 4> ids{"drawn", "between", "runs", "thesis"};
-    const std::array<std::array<std::string, 3>, 4> cells{
+    constexpr std::array<const char*, 5> ids{"drawn", "between", "runs", "thesis", "planner"};
+    const std::array<std::array<std::string, 3>, 5> cells{
         {{"Draws, m", metres(planned.cut_length), metres(drawn.cut_length)},
          {"In the air, m", metres(planned.travel_length), metres(drawn.travel_length)},
          {"Lifts", fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs)},
-         {"By the thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)}}};
+         {"By the thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)},
+         {"By the planner",
+          planned_time(planner_s),
+          planned_time(made.drawn_seconds.value_or(made.cut_as_drawn ? planner_s : 0.0))}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(cells);
@@ -235,11 +245,11 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         ui.text(to_text(*made->failure));
         return;
     }
+    const double planned = now.in_file() ? now.duration() : 0.0;
     if (made->as_drawn.runs > 0) {
-        compare(ui, made->as_planned, made->as_drawn);
+        compare(ui, *made, planned);
     }
     ui.value("way", "Way, with lifts", metres(made->lengths.cut + made->lengths.travel), "m");
-    const double planned = now.in_file() ? now.duration() : 0.0;
     ui.value("planner",
              "Time, planner",
              planned > 0.0 ? plot::minutes_and_seconds(planned) : "...",
@@ -255,7 +265,10 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
     if (!section) {
         return;
     }
-    ui.value("axes", "X  Y  Z", axis_words(now), "mm");
+    {
+        const auto labels = ui.label_share(0.2F); // three axes of four digits want the room
+        ui.value("axes", "X  Y  Z", axis_words(now), "mm");
+    }
     const double left = std::max(now.duration() - now.time(), 0.0);
     ui.value("left",
              "Remaining",

@@ -101,8 +101,7 @@ std::vector<std::string> pipeline_lines(const Processor& processor) {
                         cordic::to_text(word.op),
                         cordic::to_text(word.condition),
                         word.branch),
-            signal_names(word.controls),
-            fmt::format("clock {}", processor.state().clocks.total)};
+            signal_names(word.controls)};
 }
 
 std::string_view cycle_name(const cordic::BusPins& pins) {

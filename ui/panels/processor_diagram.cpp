@@ -34,6 +34,8 @@ struct BlockPlace {
 };
 
 constexpr float columns = 12.0F;
+constexpr float gap_across = 14.0F; // between two columns, px
+constexpr float gap_down = 10.0F;   // between two rows
 constexpr int rows = 4;
 
 constexpr std::array<BlockPlace, 14> blocks{{
@@ -72,16 +74,20 @@ constexpr std::array<Way, 10> ways{{
     {Block::counter, Block::sequencer, 0},
 }};
 
-Rect place_of(const BlockPlace& block, const Rect& place, float gap) {
+Rect place_of(const Ui& ui, const BlockPlace& block, const Rect& place) {
+    const float across = ui.px(gap_across);
+    const float down = ui.px(gap_down);
     const float unit = place.w / columns;
-    const std::array<float, rows> heights{0.235F, 0.235F, 0.215F, 0.315F};
+    const std::array<float, rows> heights{0.22F, 0.22F, 0.175F, 0.385F};
     float top = place.y;
     for (int n = 0; n < static_cast<int>(block.row); ++n) {
         top += heights[static_cast<std::size_t>(n)] * place.h;
     }
     const float height = heights[static_cast<std::size_t>(block.row)] * place.h;
-    return {
-        place.x + block.column * unit + 0.5F * gap, top + 0.5F * gap, block.wide * unit - gap, height - gap};
+    return {place.x + block.column * unit + 0.5F * across,
+            top + 0.5F * down,
+            block.wide * unit - across,
+            height - down};
 }
 
 /// From border to border, straight.
@@ -111,7 +117,7 @@ const Rect& box_of(const Boxes& boxes, Block block) {
 void draw_bus(Sketch& sketch, const Ui& ui, const Boxes& boxes, const ProcessorState& state) {
     const widgets::Palette& colours = ui.colours();
     const Rect& from = box_of(boxes, Block::bus);
-    const float y = from.bottom() + ui.px(9.0F);
+    const float y = from.bottom() + 0.5F * ui.px(gap_down);
     const float begin = from.right() - ui.px(24.0F);
     const bool used = lights(Block::bus, state);
     float lit_end = begin;
@@ -138,8 +144,8 @@ void draw_block(Ui& ui,
         lit ? widgets::mixed(colours.raised, colours.accent, 0.22) : colours.raised;
     sketch.box(box, ground, lit ? colours.accent : colours.line, widgets::gaps::rounding);
     const float pad = ui.px(7.0F);
-    const float top = ui.px(3.0F);
-    const float title = ui.px(17.0F);
+    const float top = ui.px(2.0F);
+    const float title = ui.px(16.0F);
     const float inside = box.w - 2.0F * pad;
     sketch.text({box.x + pad, box.y + top, inside, title},
                 block.title,
@@ -166,12 +172,11 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const widgets::Canvas canvas = widgets::canvas(ui, "diagram", place, 0);
     const auto scope = ui.scope("blocks");
     Sketch sketch(ui, canvas.rect);
-    const float margin = ui.px(8.0F);
-    const float gap = ui.px(14.0F);
+    const float margin = ui.px(6.0F);
     const Rect inside{place.x, place.y + margin, place.w, place.h - 2.0F * margin};
     Boxes boxes;
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-        boxes[n] = place_of(blocks[n], inside, gap);
+        boxes[n] = place_of(ui, blocks[n], inside);
     }
     const ControlSignals controls = processor.state().pipeline.controls;
     const widgets::Palette& colours = ui.colours();

@@ -33,14 +33,15 @@ constexpr int thesis_steps = 29;
 constexpr std::array<widgets::Option, 3> kinds{
     {{"f32", "f32", {}, "IEEE binary32, the presumed hardware"},
      {"f64", "f64", {}, "IEEE binary64, as the thesis's own experiments"},
-     {"fixed", "Fixed", {}, "Two's complement: 10 bits before the point, and as many behind as chosen"}}};
+     {"fixed",
+      "Fixed",
+      {},
+      "Two's complement: as many bits before and behind the point as chosen, 8 to 64 in all"}}};
 constexpr std::array<NumberKind, 3> kind_of{NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
 
 constexpr std::array<double, 4> speeds{20.0, 200.0, 5000.0, 0.0};
 constexpr std::array<widgets::Option, 4> speed_options{
     {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "All"}}};
-
-constexpr int integer_bits = 10; // mm up to 511, and the speed of rapids
 
 void choose(ActionQueue& ask, const ProcessorChoice& choice) {
     ask.processor([choice](ProcessorBench& bench) { bench.set(choice); });
@@ -96,8 +97,9 @@ std::string bits_text(const cordic::Processor& processor, Register name) {
 constexpr std::array<std::string_view, 4> source_actions{
     "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
 
-constexpr widgets::FieldInfo bits_field{
-    "fraction", "Fraction bits", {}, "10 before it, sign included", 4.0, 54.0};
+constexpr widgets::FieldInfo integer_field{
+    "integer", "Integer bits", {}, "Before the point, the sign among them", 1.0, 32.0};
+constexpr widgets::FieldInfo fraction_field{"fraction", "Fraction bits", {}, "Behind the point", 0.0, 62.0};
 constexpr widgets::FieldInfo steps_field{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
 constexpr widgets::FieldInfo tolerance_field{"tolerance",
                                              "Chord tolerance",
@@ -128,23 +130,41 @@ constexpr widgets::FieldInfo needle_field{
     3000.0,
     0};
 
+/// As many as wanted beside `other` of them, so far as a word goes.
+int bits_beside(int other, int wanted) {
+    return std::clamp(wanted, cordic::least_word - other, cordic::largest_word - other);
+}
+
+/// The bits of a fixed-point word, before the point and behind it.
+void draw_word(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
+    const cordic::NumberFormat& now = choice.format;
+    const auto take = [&](int integer_bits, int fraction_bits) {
+        ProcessorChoice wanted = choice;
+        wanted.format = cordic::fixed_format(integer_bits, fraction_bits);
+        choose(ask, wanted);
+    };
+    if (const auto value = widgets::slider(ui, now.integer_bits, integer_field)) {
+        take(bits_beside(now.fraction_bits, *value), now.fraction_bits);
+    }
+    if (const auto value = widgets::slider(ui, now.fraction_bits, fraction_field)) {
+        take(now.integer_bits, bits_beside(now.integer_bits, *value));
+    }
+    ui.value("word", "Word", fmt::format("{}, {}", cordic::to_text(now), now.word()), "bits");
+}
+
 void draw_format(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
     const auto kind = static_cast<int>(std::ranges::find(kind_of, choice.format.kind) - kind_of.begin());
     if (const auto chosen = ui.segmented("kind", "Format", kind, kinds)) {
         ProcessorChoice wanted = choice;
+        constexpr int usual_integer_bits = 10; // mm up to 511, and the speed of rapids
         constexpr int usual_fraction_bits = 22;
         wanted.format = *chosen == 0   ? cordic::binary32
                         : *chosen == 1 ? cordic::binary64
-                                       : cordic::fixed_format(integer_bits, usual_fraction_bits);
+                                       : cordic::fixed_format(usual_integer_bits, usual_fraction_bits);
         choose(ask, wanted);
     }
-    if (choice.format.kind != NumberKind::fixed) {
-        return;
-    }
-    if (const auto value = widgets::slider(ui, choice.format.fraction_bits, bits_field)) {
-        ProcessorChoice wanted = choice;
-        wanted.format = cordic::fixed_format(integer_bits, *value);
-        choose(ask, wanted);
+    if (choice.format.kind == NumberKind::fixed) {
+        draw_word(ui, choice, ask);
     }
 }
 
@@ -233,9 +253,9 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
 }
 
 void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    draw_choice(ui, now, ask);
+    draw_registers(ui, now); // first, so that the smallest window has all of them in sight
     draw_errors(ui, now);
-    draw_registers(ui, now);
+    draw_choice(ui, now, ask);
     draw_times(ui, now, ask);
     draw_clocks(ui, now);
 }
@@ -284,7 +304,6 @@ void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
     constexpr double micrometres = 1e3;
     ui.value("position", "Position", fmt::format("{:.4g}", micrometres * report.position_error), "\u00b5m");
     ui.value("speed", "Speed", fmt::format("{:.3g}", 100.0 * report.speed_error), "% of the feed");
-    ui.value("clocks", "Clocks", fmt::format("{}", report.clocks.total));
     if (report.stop != cordic::Stop::halted) {
         ui.text(followed_text(now.processor));
     }
@@ -296,7 +315,7 @@ void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
         return;
     }
     const cordic::Debugger& debugger = now.processor.debugger();
-    const float line = ui.px(19.0F);
+    const float line = ui.px(17.0F);
     for (int n = 0; n < cordic::register_count; ++n) {
         const auto name = static_cast<Register>(n);
         const auto index = static_cast<std::size_t>(n);
@@ -367,6 +386,9 @@ void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {
     const auto section = ui.section("spent", "Clocks by what they were spent on");
     if (!section) {
         return;
+    }
+    if (!now.processor.failure()) {
+        ui.value("clocks", "Whole program", fmt::format("{}", now.processor.report().clocks.total));
     }
     const cordic::ClockCounts& clocks = now.processor.debugger().state().clocks;
     ui.value("cordic", "CORDIC steps", fmt::format("{}", clocks.cordic));

@@ -77,7 +77,7 @@ void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
     if (block.kind == gcode::BlockKind::feed) {
         ui.value("feed", "Feed on the part", fixed(to_mm_per_min(block.feed), 0), "mm/min");
     }
-    const auto shown = now.evaluation(now.project.grid.method);
+    const auto shown = now.program_path();
     const auto move = static_cast<std::size_t>(block.path_point - 1);
     if (shown && block.path_point > 0 && move < shown->field.moves.size()) {
         ui.value("error", "Error of this move", length_text(shown->field.moves[move].closest), "mm");

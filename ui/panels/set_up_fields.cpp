@@ -5,6 +5,7 @@
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/viewport/map_picture.h"
+#include "ui/viewport/set_up_map.h"
 #include "ui/widgets/heat_map.h"
 #include "ui/widgets/notices.h"
 
@@ -124,39 +125,12 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
            [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
 }
 
-std::vector<double> for_people(SetUpParameter parameter, const std::vector<double>& values) {
-    std::vector<double> result;
-    for (const double value : values) {
-        result.push_back(project::for_people(parameter, value));
-    }
-    return result;
-}
-
-double of(const toolpath::SetUpPlace& place, SetUpParameter parameter) {
-    return place[static_cast<Eigen::Index>(parameter)];
-}
-
 void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
     const toolpath::SetUpMap& map = found.study->map;
-    const auto x = for_people(map.across, map.x);
-    const auto y = for_people(map.up, map.y);
-    const auto shown = [&](const toolpath::SetUpPlace& place) {
-        return widgets::MapPlace{project::for_people(map.across, of(place, map.across)),
-                                 project::for_people(map.up, of(place, map.up))};
-    };
-    widgets::HeatMapView view;
-    view.title = found.settings.goal == SetUpGoal::error ? "mean error" : "travel";
-    view.x_label = project::name(map.across);
-    view.x_unit = project::unit(map.across);
-    view.y_label = project::name(map.up);
-    view.y_unit = project::unit(map.up);
-    view.unit = "mm";
-    view.x = x;
-    view.y = y;
-    view.values = map.costs;
+    const viewport::SetUpMapView labelled(
+        map, found.settings.goal, found.study->search.best.place, now.set_up_place());
+    widgets::HeatMapView view = labelled.view;
     view.colours = viewport::map_colours();
-    view.best = shown(found.study->search.best.place);
-    view.chosen = shown(now.set_up_place());
     view.height = ui.px(240.0F);
     if (const auto clicked = widgets::heat_map(ui, "map", view)) {
         ask.show([clicked = *clicked,
@@ -185,6 +159,12 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
     }
     map_field(ui, now, ask, found);
     const toolpath::SetUpSearch& search = found.study->search;
+    const bool by_error = found.settings.goal == SetUpGoal::error;
+    ui.note(fmt::format("{} of a uniform grid of {} x {} nodes{}:",
+                        by_error ? "Mean distance to the curve" : "Way of the linear axes",
+                        found.settings.nodes,
+                        found.settings.nodes,
+                        by_error ? ", not that to the surface in the outline" : ""));
     ui.value("start", "Where it stood", cost_text(search.start.cost), "mm");
     ui.value("best",
              "At the best place",

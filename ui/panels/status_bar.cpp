@@ -37,7 +37,10 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
             ask.run("work.cancel");
         }
     } else {
-        ui.words(now.failure().empty() ? "Ready" : "No program: see the outline", widgets::Tone::muted);
+        ui.words(now.failure().empty() ? "Ready"
+                 : now.program()       ? "A compared grid failed: see the outline"
+                                       : "No program: see the outline",
+                 widgets::Tone::muted);
     }
     std::string file = now.document.file.empty() ? now.project.name : now.document.file.filename().string();
     file += now.changed() ? " (not saved)" : "";

@@ -54,6 +54,8 @@ std::string_view state_text(PlayState state) {
         return "moving";
     case PlayState::done:
         return "every point was sent";
+    case PlayState::stopped:
+        return "stopped";
     case PlayState::emergency_stop:
         return "stopped at once";
     }
@@ -264,7 +266,7 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         action_button(ui, now, ask, catalogue_, "plot.stop_table", widgets::Rank::danger, "Stop");
     }
     const actions::TableView table = now.plot.table().view();
-    if (table.there && !table.status.sentence.empty()) {
+    if (table.there && table.status.state == PlayState::emergency_stop) {
         ui.words(table.status.sentence, widgets::Tone::danger);
     }
     const Rect all = ui.rest();

@@ -3,6 +3,7 @@
 #include "ui/panels/internal/lines.h"
 #include "ui/widgets/timeline.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -41,12 +42,24 @@ void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// What runs though no program is opened here, as the machine tells it.
+void draw_job(Ui& ui, const machine::JobReport& job) {
+    widgets::TimelineView view;
+    view.permission = widgets::Permission::refused("A job runs: see the Machine workspace.");
+    view.blocks = job.blocks;
+    view.block = std::min(job.driver.executed_blocks + 1, job.blocks);
+    view.fraction = job.blocks > 0 ? static_cast<double>(job.driver.executed_blocks) / job.blocks : 0.0;
+    view.time_s = job.elapsed;
+    view.total_s = std::max(job.planned_time, job.elapsed);
+    (void)widgets::timeline(ui, "timeline", view);
+}
+
 } // namespace
 
 void TimelinePanel::refresh(const Workbench& now) {
     const auto trajectory = now.trajectory();
     const auto program = now.program();
-    const auto evaluation = now.evaluation(now.project.grid.method);
+    const auto evaluation = now.program_path();
     if (trajectory == trajectory_) {
         return;
     }
@@ -102,7 +115,11 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.in_file()) {
         return draw_file(ui, now, ask);
     }
-    if (now.session.workspace == actions::Workspace::plot) {
+    const bool plot = now.session.workspace == actions::Workspace::plot;
+    if (plot && now.job.running && now.job.report) {
+        return draw_job(ui, *now.job.report);
+    }
+    if (plot) {
         return draw_nothing(ui, now);
     }
     refresh(now);

@@ -19,9 +19,13 @@ namespace {
 using project::Project;
 using toolpath::CutterKind;
 
-bool is_asked_for(const project::ToolInput& tool, std::string_view id) {
+/// The scallop of a strategy is asked for there.
+bool is_asked_for(const Project& project, std::string_view id) {
+    const project::ToolInput& tool = project.tool;
     const bool of_no_holder = id == "holder_length_mm" && !(tool.holder_diameter_mm > 0.0);
-    return project::has_number(tool.cutter, id) && !of_no_holder;
+    const bool of_strategy =
+        id == "scallop_mm" && project.toolpath.strategy == project::StrategyInput::constant_scallop;
+    return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy;
 }
 
 void bites_text(Ui& ui, const project::CutStudy& cut) {
@@ -57,7 +61,7 @@ void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                              tool.cutter,
                              [](Project& p, CutterKind kind) { p.tool.cutter = kind; });
     for (const auto& setting : project::tool_numbers()) {
-        if (is_asked_for(tool, setting.id)) {
+        if (is_asked_for(now.project, setting.id)) {
             number_fields<project::ToolInput>(
                 ui, ask, {&setting, 1}, tool, [](Project& p) -> project::ToolInput& { return p.tool; });
         }

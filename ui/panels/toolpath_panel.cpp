@@ -2,10 +2,13 @@
 
 #include "core/base/text.h"
 #include "core/project/assets.h"
+#include "core/project/strategy_path.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/panels/beside.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/set_up_fields.h"
+#include "ui/panels/strategy_fields.h"
 #include "ui/panels/tool_fields.h"
 #include "ui/widgets/notices.h"
 
@@ -37,10 +40,43 @@ Vec3 workpiece_offset(const Workbench& now) {
     return known ? now.plan->plan.workpiece->machine.description().workpiece_offset : Vec3(Vec3::Zero());
 }
 
+/// A grid that was made, or the path of the program where that is none of theirs.
+void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    std::vector<widgets::Option> options;
+    std::vector<GridMethod> made;
+    int index = 0;
+    const GridMethod shown = actions::shown_grid(now);
+    for (const auto& row : project::grid_methods()) {
+        if (row.value == shown || now.evaluation(row.value)) {
+            index = row.value == shown ? static_cast<int>(made.size()) : index;
+            made.push_back(row.value);
+            options.push_back({row.id, row.label, {}, row.tip, {}});
+        }
+    }
+    const std::string_view path = project::row_of(project::strategies(), now.project.toolpath.strategy).label;
+    const auto grids = static_cast<int>(options.size());
+    if (project::has_own_path(now.project)) {
+        options.push_back({"path", path, {}, "The path that the program follows", {}});
+    }
+    if (const auto chosen = ui.choice("shown",
+                                      "Path shown",
+                                      now.shows_own_path() ? grids : index,
+                                      options,
+                                      "The grids that are made; \"Program uses\" (F3) makes another")) {
+        if (*chosen == grids) {
+            ask.run("view.show_path");
+            return;
+        }
+        const GridMethod method = made[static_cast<std::size_t>(*chosen)];
+        ask.show([method](actions::Session& session) { show_grid(session, method); });
+    }
+}
+
 } // namespace
 
 void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_error(ui, now, ask);
+    strategy_fields(ui, now, ask);
     tool_fields(ui, now, ask);
     cut_fields(ui, now);
     draw_setup(ui, now, ask);
@@ -54,11 +90,7 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
     if (!section) {
         return;
     }
-    const auto [options, index] = options_of(project::grid_methods(), now.session.shown);
-    if (const auto chosen = ui.choice("shown", "Grid shown", index, options)) {
-        const GridMethod method = project::grid_methods()[static_cast<std::size_t>(*chosen)].value;
-        ask.show([method](actions::Session& session) { session.shown = method; });
-    }
+    shown_field(ui, now, ask);
     beside_fields(ui, now, ask, catalogue_);
     const auto shown = now.shown();
     const auto start = now.evaluation(GridMethod::uniform);
@@ -77,7 +109,9 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
     ui.value("lmean", "Mean by length", length_text(error.lmean), "mm");
     ui.value("p95", "95 % below", length_text(error.p95), "mm");
     ui.value("axis", "Axis deviation", angle_text(error.axis_max), "deg");
-    ui.value("gap", "Track gap", length_text(shown->track_gap), "mm");
+    if (shown->track_gap) {
+        ui.value("gap", "Track gap", length_text(*shown->track_gap), "mm");
+    }
     ui.value("cross", "Cross moves", length_text(shown->cross_closest.max), "mm");
     const widgets::FieldInfo limit{
         "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};

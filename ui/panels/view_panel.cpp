@@ -3,8 +3,11 @@
 #include "core/project/plan.h"
 #include "core/project/settings.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/actions/import_bench.h"
+#include "ui/actions/workshop.h"
 #include "ui/panels/beside.h"
 #include "ui/panels/layer_list.h"
+#include "ui/panels/surface_tool.h"
 
 #include <algorithm>
 #include <string>
@@ -68,6 +71,14 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
 template <class Event, class Move>
 void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&& move) {
     if (now.arm_connected()) {
+        if (event.stage == viewport::DragStage::finished) {
+            ask.show([](actions::Session& session) {
+                actions::tell(session,
+                              widgets::Severity::info,
+                              "Nothing was moved: the picture follows the connected arm. Jog it with the "
+                              "buttons at the left.");
+            });
+        }
         return;
     }
     if (event.stage == viewport::DragStage::going_on) {
@@ -93,6 +104,29 @@ bool shows_the_project(const Workbench& now) {
            *now.plan->plan.surface == project::surface_of(now.project.surface);
 }
 
+/// Once it is read.
+bool shows_import(const Workbench& now) {
+    return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
+}
+
+/// While the file is on the bench; afterwards its faces only stand there.
+void choose_face(int number, const Workbench& now, ActionQueue& ask) {
+    if (shows_import(now)) {
+        project::ImportChoice choice = now.import.choice();
+        choice.face = number;
+        ask.files([choice](actions::Workshop& workshop) { workshop.import().choose(choice); });
+    }
+}
+
+/// What would become of the surface, in place of it.
+void show_import(const Workbench& now, viewport::Scene& scene) {
+    const auto found = now.import.latest();
+    scene.layers.control_net = false; // nothing of it can be changed yet
+    scene.selected.clear();
+    scene.surface = found->patches;
+    scene.trims = found->trims;
+}
+
 } // namespace
 
 viewport::Scene scene_of(const Workbench& now) {
@@ -105,6 +139,7 @@ viewport::Scene scene_of(const Workbench& now) {
         return scene;
     }
     scene.selected = now.session.selected;
+    scene.symmetry = now.session.symmetry;
     scene.error = now.session.error;
     scene.against_light = now.session.against_light;
     const bool plots = now.session.workspace == Workspace::plot;
@@ -123,24 +158,32 @@ viewport::Scene scene_of(const Workbench& now) {
     if (!now.plan || plots) {
         return scene;
     }
+    scene.reference = now.import.reference(now.project.surface);
+    scene.layers.deviation = scene.layers.deviation && now.import.is_measured(now.project.surface);
+    if (shows_import(now)) {
+        show_import(now, scene);
+        return scene;
+    }
     const project::Plan& plan = now.plan->plan;
     scene.surface = plan.surface;
+    scene.trims = plan.trims;
     scene.workpiece = plan.workpiece;
     scene.singular_points = plan.singular_points;
     scene.shown = now.shown();
     scene.weight = plan.weight;
-    scene.cut = plan.cut;
+    scene.cut = plan.cut_of(now.project, scene.shown.get());
     scene.machine_solids = now.machine_solids;
     if (now.set_up && project::same_but_for_place(now.set_up->project, now.project)) {
         scene.set_up = now.set_up;
         scene.set_up_place = now.set_up_place();
     }
     scene.start = now.evaluation(project::GridMethod::uniform);
+    scene.surface_tool = surface_tool_of(now);
     if (now.watched && now.session.workspace == Workspace::grid) {
         scene.watched = now.watched->state;
     }
     scene.now = now.moment();
-    const bool same_path = scene.shown == now.evaluation(now.project.grid.method);
+    const bool same_path = scene.shown == now.program_path();
     if (scene.now && !same_path) {
         scene.now->move = -1; // the path that is drawn is not the one that is executed
     }
@@ -162,8 +205,20 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
         });
     } else if (const auto* part = std::get_if<viewport::MoveArmPart>(&event)) {
         move_part(*part, ask);
+    } else if (const auto* face = std::get_if<viewport::ChooseFace>(&event)) {
+        choose_face(face->number, now, ask);
     } else if (const auto* place = std::get_if<viewport::GoToPathPlace>(&event)) {
         go_to_path_place(place->place, now, ask);
+    } else if (const auto* painted = std::get_if<viewport::PaintSurface>(&event)) {
+        obey(*painted, now, ask);
+    } else if (const auto* corner = std::get_if<viewport::AddOutlineCorner>(&event)) {
+        obey(*corner, ask);
+    } else if (const auto* close = std::get_if<viewport::CloseOutline>(&event)) {
+        obey(*close, now, ask);
+    } else if (const auto* drop = std::get_if<viewport::DropOutline>(&event)) {
+        obey(*drop, ask);
+    } else if (const auto* moved = std::get_if<viewport::MoveOutlineCorner>(&event)) {
+        obey(*moved, now, ask);
     }
 }
 
@@ -209,6 +264,15 @@ void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// A map that has just come lies beside the part, where nobody looks.
+void ViewPanel::fit_set_up(const viewport::Scene& shown) {
+    const auto in_sight = shown.layers.set_up_map ? shown.set_up : nullptr;
+    if (in_sight && in_sight != set_up_ && in_sight->study) {
+        view_.fit();
+    }
+    set_up_ = in_sight;
+}
+
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
     if (now.session.workspace == Workspace::arm) {
         if (now.session.fit_wanted && now.arm.loaded()) {
@@ -219,19 +283,17 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
         fit_plot(now, ask);
     } else if (now.in_file()) {
         fit_file(now, ask);
-    } else if (now.session.fit_wanted && shows_the_project(now)) {
+    } else if (now.session.fit_wanted &&
+               (shows_import(now) || (!now.import.is_open() && shows_the_project(now)))) {
         view_.fit();
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
     view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
     viewport::Scene shown = scene_of(now);
+    fit_set_up(shown);
     const auto beside = scene_beside(now, shown);
     const auto events =
-        beside ? view_.draw_two(
-                     ui,
-                     place,
-                     {beside->scene, beside->name},
-                     {shown, std::string(project::row_of(project::grid_methods(), now.session.shown).label)})
+        beside ? view_.draw_two(ui, place, {beside->scene, beside->name}, {shown, now.shown_name()})
                : view_.draw(ui, place, shown);
     for (const viewport::ViewEvent& event : events) {
         obey(event, now, ask);

@@ -21,11 +21,13 @@ public:
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
+    void fit_set_up(const viewport::Scene& shown);
     void fit_file(const Workbench& now, ActionQueue& ask);
     void fit_plot(const Workbench& now, ActionQueue& ask);
 
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
+    std::shared_ptr<const project::SetUpResult> set_up_; ///< whose map is in sight
     bool growing_ = false;                     ///< an opened file was fitted before all of it was there
     std::optional<render::CameraPose> fitted_; ///< how the camera stood then
 };

@@ -4,6 +4,7 @@
 #include "ui/actions/processor_bench.h"
 #include "ui/actions/shortcut.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/internal/hand_fields.h"
 #include "ui/panels/processor_diagram.h"
 #include "ui/panels/status_bar.h"
 #include "ui/render/imgui_compat.h"
@@ -125,15 +126,29 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     return result;
 }
 
+/// What is held down while the machine takes no jog, or while the stop key is pressed, moves nothing later.
+bool Window::no_jog(const Workbench& now) {
+    const bool stop_key = now.session.workspace == actions::Workspace::arm && now.session.hand.arm_keys &&
+                          render::key_pressed(render::Key::slash);
+    const bool jogging = now.controller.status.activity == machine::Activity::jog;
+    return stop_key || (now.controller.connected() && !jogging && !at_rest(now.controller).allowed);
+}
+
 void Window::draw(Ui& ui, float width, float height, bool focused) {
-    workshop_.watch_jog(jog_may_be_held(workshop_.look().gamepad), focused);
+    const bool held = jog_may_be_held(workshop_.look().gamepad);
+    workshop_.watch_jog(held, focused);
     const Workbench now = workshop_.look();
+    const bool may_jog = jog_gate_.follow(held,
+                                          focused,
+                                          search_.is_open() || now.asks() || no_jog(now),
+                                          now.session.workspace,
+                                          std::chrono::steady_clock::now());
     const Layout place = layout(ui, now.session, width, height);
     draw_panes(ui, now, place);
     draw_splitters(ui, now, place, width, height);
     draw_over(ui, now, place.view);
     obey_shortcuts(ui, now);
-    workshop_.perform(ask_, focused && !search_.is_open());
+    workshop_.perform(ask_, may_jog && !search_.is_open());
     for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
         toasts_.push(std::move(notice));
     }

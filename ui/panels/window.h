@@ -8,6 +8,7 @@
 #include "ui/panels/design_panel.h"
 #include "ui/panels/dialogs.h"
 #include "ui/panels/grid_panel.h"
+#include "ui/panels/jog_gate.h"
 #include "ui/panels/listing_panel.h"
 #include "ui/panels/lower_panel.h"
 #include "ui/panels/machine_panel.h"
@@ -42,6 +43,7 @@ private:
     struct Layout;
     [[nodiscard]] Layout
     layout(const Ui& ui, const actions::Session& session, float width, float height) const;
+    [[nodiscard]] static bool no_jog(const Workbench& now);
     void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
     void draw_emergency_stop(Ui& ui, const Workbench& now);
     void draw_middle(Ui& ui, const Workbench& now, const Layout& place);
@@ -71,6 +73,7 @@ private:
     ViewPanel view_;
     widgets::Toasts toasts_;
     widgets::Search search_;
+    JogGate jog_gate_;
 };
 
 } // namespace millwright::panels

@@ -23,6 +23,7 @@ constexpr const char* glsl_version = "#version 330 core";
 ImGuiSession::ImGuiSession(WindowContext& window) : ImGuiSession(window, window.handle()) {
     keyboard_ = &window;
     expects(ImGui_ImplGlfw_InitForOpenGL(window_, true), "ImGui accepts the window");
+    window.keep_typing();
 }
 
 ImGuiSession::ImGuiSession(OffscreenContext& memory) : ImGuiSession(memory, nullptr) {
@@ -56,6 +57,7 @@ void ImGuiSession::begin_back_ends() {
     ImGui_ImplOpenGL3_NewFrame();
     if (window_ != nullptr) {
         ImGui_ImplGlfw_NewFrame();
+        tell_typing();
         show_quick_keys();
         return;
     }
@@ -63,18 +65,38 @@ void ImGuiSession::begin_back_ends() {
     ImGui::GetIO().DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
 }
 
+void ImGuiSession::tell_typing() {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : std::exchange(quick_keys_, {})) {
+        io.KeysDown[key] = false; // it was told already that it is up
+    }
+    typing_.add(keyboard_->take_typing());
+    const auto was_down = [&io](int key) { return key >= 0 && io.KeysDownDuration[key] >= 0.0F; };
+    for (const TypedEvent& event : typing_.next(io.WantTextInput, was_down)) {
+        if (event.character) {
+            ImGui_ImplGlfw_CharCallback(window_, *event.character);
+        } else if (event.button) {
+            const bool known = *event.button >= 0 && *event.button < ImGuiMouseButton_COUNT;
+            io.MouseDown[known ? *event.button : 0] |= known; // also if it is up again by now
+        } else {
+            ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
+        }
+    }
+    for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
+        io.MouseDown[button] = io.MouseDown[button] && !typing_.waits_for_button(button);
+    }
+    if (typing_.waits()) {
+        keyboard_->request_redraw();
+    }
+}
+
 /// ImGui 1.86 looks at the keys once a frame. One that went down and up since the last is shown down in this.
 void ImGuiSession::show_quick_keys() {
     ImGuiIO& io = ImGui::GetIO();
-    const auto down = [this](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
-    if (!quick_keys_.empty()) {
-        for (const int key : std::exchange(quick_keys_, {})) {
-            io.KeysDown[key] = down(key);
-        }
-        io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
-        io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
-        io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
-    }
+    const auto down = [&io](int key) { return io.KeysDown[key]; };
+    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
     for (const KeyPress& press : keyboard_->take_key_presses()) {
         if (!io.KeysDown[press.key]) {
             io.KeysDown[press.key] = true;

@@ -5,6 +5,7 @@
 
 #include "ui/render/input_state.h"
 #include "ui/render/offscreen_context.h"
+#include "ui/render/typing.h"
 #include "ui/render/window_context.h"
 
 #include <vector>
@@ -36,12 +37,14 @@ public:
 private:
     ImGuiSession(Context& context, GLFWwindow* window);
     void begin_back_ends();
+    void tell_typing();
     void show_quick_keys();
 
     Context& context_;
     GLFWwindow* window_;
     WindowContext* keyboard_ = nullptr; ///< null in memory
-    std::vector<int> quick_keys_;       ///< shown down in the last frame although they were up again
+    Typing typing_;
+    std::vector<int> quick_keys_; ///< shown down in the last frame although they were up again
     ImGuiContext* imgui_;
 };
 

@@ -58,6 +58,9 @@ void MeshDrawer::draw(const MeshBuffer& buffer,
     set_depth(style.depth);
     if (opaque(style.coloring)) {
         glDisable(GL_BLEND);
+        if (style.closed && style.depth == Depth::tested) {
+            glEnable(GL_CULL_FACE);
+        }
     }
     // One step back, so that lines between its own vertices lie on it.
     glEnable(GL_POLYGON_OFFSET_FILL);

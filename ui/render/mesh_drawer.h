@@ -49,6 +49,7 @@ struct MeshStyle {
     float highlight = 0.12F;                            ///< strength of the soft highlight, 0 for none
     bool lit = true;                                    ///< false shows the plain colours
     Depth depth = Depth::tested;
+    bool closed = false; ///< a body without holes: opaque, its triangles that look away are not drawn
 };
 
 class MeshDrawer {

@@ -1,6 +1,7 @@
 #include "ui/render/window_context.h"
 
 #include "core/base/error.h"
+#include "ui/render/internal/display_loss.h"
 #include "ui/render/internal/gamepad_state.h"
 #include "ui/render/internal/gl.h"
 #include "ui/render/internal/gl_version.h"
@@ -69,11 +70,13 @@ GLFWwindow* opened_window(const WindowOptions& options) {
     return window;
 }
 
-/// What the callbacks of the window leave behind for wait().
+/// What the callbacks of the window leave behind for wait(), and what they call.
 struct Happened {
     std::atomic<bool> redraw = true; // a new window shows nothing yet
     std::vector<std::filesystem::path> dropped;
     std::vector<KeyPress> presses;
+    std::vector<TypedEvent> typing;
+    std::function<void()> on_display_lost;
 };
 
 Happened& happened_in(GLFWwindow* window) {
@@ -99,6 +102,27 @@ void key_changed(GLFWwindow* window, int key, int /*scancode*/, int action, int 
                                     .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
                                     .shift = (mods & GLFW_MOD_SHIFT) != 0,
                                     .alt = (mods & GLFW_MOD_ALT) != 0});
+    }
+}
+
+void keep_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
+    Happened& happened = happened_in(window);
+    happened.redraw = true;
+    happened.typing.push_back(
+        {.character = {}, .button = {}, .key = key, .scancode = scancode, .action = action, .mods = mods});
+}
+
+void keep_character(GLFWwindow* window, unsigned int character) {
+    Happened& happened = happened_in(window);
+    happened.redraw = true;
+    happened.typing.push_back({.character = character});
+}
+
+void keep_button(GLFWwindow* window, int button, int action, int /*mods*/) {
+    Happened& happened = happened_in(window);
+    happened.redraw = true;
+    if (action == GLFW_PRESS) {
+        happened.typing.push_back({.character = {}, .button = button});
     }
 }
 
@@ -130,13 +154,26 @@ void set_icon(GLFWwindow* window, const Picture& icon) {
 
 } // namespace
 
+/// Only the main thread talks to the display, and there the window is current.
+void display_lost() {
+    GLFWwindow* window = glfwGetCurrentContext();
+    if (window != nullptr) {
+        if (const auto listener = std::exchange(happened_in(window).on_display_lost, nullptr)) {
+            listener();
+        }
+    }
+}
+
 struct WindowContext::Parts {
     explicit Parts(const WindowOptions& options) : window(opened_window(options)) {
         listen(window, happened);
     }
     Parts(const Parts&) = delete;
     Parts& operator=(const Parts&) = delete;
-    ~Parts() { glfwDestroyWindow(window); }
+    ~Parts() {
+        happened.on_display_lost = nullptr; // whom it would tell may be gone before the window
+        glfwDestroyWindow(window);
+    }
 
     Library library;
     GLFWwindow* window;
@@ -242,9 +279,25 @@ void WindowContext::on_drop(DropListener listener) {
     parts_->on_drop = std::move(listener);
 }
 
+void WindowContext::on_display_lost(std::function<void()> listener) {
+    parts_->happened.on_display_lost = std::move(listener);
+    watch_display();
+}
+
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes what the window remembers
 std::vector<KeyPress> WindowContext::take_key_presses() {
     return std::exchange(parts_->happened.presses, {});
+}
+
+// NOLINTNEXTLINE(readability-make-member-function-const): it changes the window
+void WindowContext::keep_typing() {
+    glfwSetKeyCallback(handle(), keep_key);
+    glfwSetCharCallback(handle(), keep_character);
+    glfwSetMouseButtonCallback(handle(), keep_button);
+}
+
+std::vector<TypedEvent> WindowContext::take_typing() {
+    return std::exchange(parts_->happened.typing, {});
 }
 
 GLFWwindow* WindowContext::handle() const {

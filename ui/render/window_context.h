@@ -3,6 +3,7 @@
 
 #include "ui/render/context.h"
 #include "ui/render/gamepad.h"
+#include "ui/render/typing.h"
 
 #include <filesystem>
 #include <functional>
@@ -71,8 +72,19 @@ public:
     /// Called from wait() with the files that were dropped on the window.
     void on_drop(DropListener listener);
 
+    /// Called once, on the main thread, when the connection to the display is lost: the window was killed, or
+    /// the display ended. Nothing can be drawn any more, and nothing of this class may be called; the process
+    /// ends when the listener returns.
+    void on_display_lost(std::function<void()> listener);
+
     /// Keys that went down since the last call, also those that are up again.
     [[nodiscard]] std::vector<KeyPress> take_key_presses();
+
+    /// From now on keys, characters and buttons of the mouse are kept, in their order, instead of being told
+    /// to whom listens. Once, after everybody who listens was set up.
+    void keep_typing();
+    /// What was kept since the last call.
+    [[nodiscard]] std::vector<TypedEvent> take_typing();
 
     /// For the ImGui session; nobody else calls GLFW.
     [[nodiscard]] GLFWwindow* handle() const;

@@ -52,10 +52,8 @@ std::shared_ptr<const ArmLook> read_arm_look(const std::filesystem::path& file) 
         bodies = kinematics::read_bodies(*read.bodies);
         foot = lowest_of(bodies, read.bodies->parts);
     }
-    std::optional<kinematics::ReachShell> shell;
-    if (read.arm.planar_elbow()) {
-        shell = kinematics::reach_shell(read.arm);
-    }
+    auto shell = read.arm.planar_elbow() ? std::optional(kinematics::reach_shell(read.arm))
+                                         : kinematics::sampled_shell(read.arm);
     const double reach = kinematics::stretched_length(read.arm);
     return std::make_shared<const ArmLook>(
         ArmLook{std::move(read), std::move(bodies), std::move(shell), reach, foot});

@@ -16,7 +16,7 @@ namespace millwright::viewport {
 struct ArmLook {
     kinematics::ArmFile file;
     std::vector<geometry::SolidBody> bodies;     ///< of the file's parts; none: it is drawn as lines
-    std::optional<kinematics::ReachShell> shell; ///< of arms whose reach is known in closed form
+    std::optional<kinematics::ReachShell> shell; ///< of arms that turn about the base's axis
     double reach = 0.0;                          ///< of the stretched arm
     double foot = 0.0;                           ///< lowest z of the bodies that do not move, else 0
 

@@ -15,7 +15,7 @@ void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
     ui.heading(chart.title);
     std::vector<widgets::Series> series;
     for (const ChartLine& line : chart.lines) {
-        series.push_back({.label = line.label, .x = line.x, .y = line.y});
+        series.push_back({.label = line.label, .x = line.x, .y = line.y, .is_filled = line.is_filled});
     }
     widgets::PlotView view;
     view.x_label = chart.x_label;

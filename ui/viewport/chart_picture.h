@@ -14,6 +14,7 @@ struct ChartLine {
     std::string label;
     std::vector<double> x; ///< ascending
     std::vector<double> y; ///< as many; values that are not finite leave a gap
+    bool is_filled = false;
 };
 
 struct Chart {

@@ -61,13 +61,46 @@ struct MoveArmPart {
     DragStage stage = DragStage::going_on;
 };
 
+/// A face of another program's body, beside the design, was clicked.
+struct ChooseFace {
+    int number = 0; ///< its place in the file, from 1
+};
+
+/// The brush went over the machined patch; at first `from` and `to` are one place, as at the end.
+struct PaintSurface {
+    Vec2 from = Vec2::Zero(), to = Vec2::Zero(); ///< parameters
+    DragStage stage = DragStage::going_on;
+};
+
+/// The outline that is being drawn gets another corner.
+struct AddOutlineCorner {
+    Vec2 uv = Vec2::Zero();
+};
+/// Its last corner is joined to its first: it becomes the region.
+struct CloseOutline {};
+/// What was drawn of it is dropped.
+struct DropOutline {};
+
+/// A corner of the outline is being dragged.
+struct MoveOutlineCorner {
+    int corner = 0;
+    Vec2 uv = Vec2::Zero(); ///< where it is to be, while it goes on
+    DragStage stage = DragStage::going_on;
+};
+
 using ViewEvent = std::variant<MoveControlPoints,
                                SelectControlPoints,
                                GoToMove,
                                GoToPathPlace,
                                MoveArmTip,
                                TurnArmJoint,
-                               MoveArmPart>;
+                               MoveArmPart,
+                               ChooseFace,
+                               PaintSurface,
+                               AddOutlineCorner,
+                               CloseOutline,
+                               DropOutline,
+                               MoveOutlineCorner>;
 
 /// What the mouse points at, in workpiece coordinates.
 struct UnderMouse {

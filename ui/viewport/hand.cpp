@@ -3,10 +3,12 @@
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/navigation.h"
 #include "ui/viewport/program_picking.h"
+#include "ui/viewport/symmetric_points.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace millwright::viewport {
 
@@ -26,6 +28,18 @@ constexpr double hidden_share = 0.05; // of the surface's size: further behind i
 
 glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
     return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
+}
+
+/// What lies before the surface, or beside it.
+std::optional<int> face_at(const HandInput& input) {
+    const auto& reference = input.scene.reference;
+    if (!reference || !input.scene.layers.reference) {
+        return std::nullopt;
+    }
+    const render::Ray ray = render::ray(input.view, pixel_of(input.pointer));
+    const Frame s_T_w = scene_from_workpiece(input.scene);
+    const auto hit = input.picker.hit(ray, s_T_w);
+    return pick_face(*reference, ray, s_T_w, hit ? hit->distance : std::numeric_limits<double>::infinity());
 }
 
 bool editable(const Scene& scene) {
@@ -73,6 +87,21 @@ bool contains(const std::vector<ControlPointId>& points, const ControlPointId& p
 void Hand::leave() {
     highlight_ = {};
     under_mouse_ = {};
+    surface_.leave();
+}
+
+/// The mouse is on the surface alone.
+std::vector<ViewEvent> Hand::follow_tool(const HandInput& input) {
+    leave();
+    const auto hit = input.pointer.hovered || surface_.works()
+                         ? input.picker.hit(render::ray(input.view, pixel_of(input.pointer)),
+                                            scene_from_workpiece(input.scene))
+                         : std::nullopt;
+    if (hit) {
+        under_mouse_.on_surface = hit->position;
+        under_mouse_.uv = hit->uv;
+    }
+    return surface_.follow({input.scene, input.view, input.pointer, hit, input.take_back});
 }
 
 std::vector<ViewEvent> Hand::follow_arm(const HandInput& input) {
@@ -94,6 +123,9 @@ std::vector<ViewEvent> Hand::follow(const HandInput& input) {
     if (navigates(input.pointer)) {
         leave();
         return events;
+    }
+    if (input.scene.surface && input.scene.surface_tool.kind != SurfaceToolKind::none) {
+        return follow_tool(input);
     }
     if (!drag_ && !box_) {
         point_at(input);
@@ -193,15 +225,20 @@ void Hand::begin_drag(const HandInput& input, std::vector<ViewEvent>& events) {
         ids = {*pressed_->point};
         events.emplace_back(SelectControlPoints{.points = ids});
     }
+    std::erase_if(ids, [&](const ControlPointId& id) { return !exists(*scene.surface, id); });
+    const auto net_of = [&](geometry::PatchId patch) -> const geometry::ControlNet& {
+        return scene.surface->patch(patch).net();
+    };
     std::vector<MovedControlPoint> points;
+    std::vector<Vec3> shares;
     std::size_t grabbed = 0;
-    for (const ControlPointId& id : ids) {
-        if (exists(*scene.surface, id)) {
-            grabbed = id == *pressed_->point ? points.size() : grabbed;
-            points.push_back({.id = id, .position = position_of(*scene.surface, id)});
-        }
+    for (const SharedPoint& shared : with_images(net_of, scene.symmetry, ids, *pressed_->point)) {
+        grabbed = shared.id == *pressed_->point ? points.size() : grabbed;
+        points.push_back({.id = shared.id, .position = position_of(*scene.surface, shared.id)});
+        shares.push_back(shared.share);
     }
-    drag_.emplace(std::move(points), grabbed, scene_from_workpiece(scene), pressed_->pixel);
+    drag_.emplace(
+        std::move(points), grabbed, scene_from_workpiece(scene), pressed_->pixel, std::move(shares));
 }
 
 void Hand::take_back(std::vector<ViewEvent>& events) {
@@ -250,6 +287,8 @@ void Hand::click(const HandInput& input, std::vector<ViewEvent>& events) const {
             .points = input.pointer.ctrl ? toggled(selected, point) : std::vector<ControlPointId>{point}});
     } else if (highlight_.move) {
         events.emplace_back(GoToMove{.move = *highlight_.move, .fraction = move_fraction_.value_or(0.0)});
+    } else if (const auto face = face_at(input)) {
+        events.emplace_back(ChooseFace{*face});
     } else if (!selected.empty() && !input.pointer.ctrl) {
         events.emplace_back(SelectControlPoints{});
     }

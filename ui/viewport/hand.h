@@ -5,6 +5,7 @@
 #include "ui/viewport/picking.h"
 #include "ui/viewport/point_drag.h"
 #include "ui/viewport/scene_view.h"
+#include "ui/viewport/surface_hand.h"
 #include "ui/widgets/canvas.h"
 
 #include <optional>
@@ -37,6 +38,8 @@ public:
     [[nodiscard]] const std::optional<PointDrag>& drag() const { return drag_; }
     /// The box of a selection in the making.
     [[nodiscard]] const std::optional<Box>& box() const { return box_; }
+    /// Of a tool on the surface.
+    [[nodiscard]] const SurfaceHand& surface() const { return surface_; }
     /// A double click on nothing in this frame.
     [[nodiscard]] bool wants_fit() const { return wants_fit_; }
     /// The button is down, or the mouse was last seen in the picture.
@@ -51,6 +54,7 @@ private:
     };
 
     [[nodiscard]] std::vector<ViewEvent> follow_arm(const HandInput& input);
+    [[nodiscard]] std::vector<ViewEvent> follow_tool(const HandInput& input);
     void point_at(const HandInput& input);
     void press(const HandInput& input);
     void hold(const HandInput& input, std::vector<ViewEvent>& events);
@@ -61,6 +65,7 @@ private:
 
     Highlight highlight_;
     ArmHand arm_;
+    SurfaceHand surface_;
     UnderMouse under_mouse_;
     std::optional<double> move_fraction_;
     std::optional<Pressed> pressed_;

@@ -5,8 +5,8 @@ namespace millwright::viewport {
 Layers switched(Layers layers, const LayerSwitch& which) {
     const bool on = !(layers.*which.shown);
     if (on && (which.shown == &Layers::error_surface || which.shown == &Layers::weight ||
-               which.shown == &Layers::scallops)) {
-        layers.error_surface = layers.weight = layers.scallops = false;
+               which.shown == &Layers::scallops || which.shown == &Layers::deviation)) {
+        layers.error_surface = layers.weight = layers.scallops = layers.deviation = false;
     }
     layers.*which.shown = on;
     return layers;

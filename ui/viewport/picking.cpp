@@ -68,7 +68,7 @@ public:
     void look_at(int move) {
         const auto& points = scene_.shown->toolpath.points;
         const auto from = static_cast<std::size_t>(move);
-        if (points[from + 1].reached_by == toolpath::MoveKind::cross || far_away(move)) {
+        if (points[from + 1].reached_by != toolpath::MoveKind::track || far_away(move)) {
             return;
         }
         if (scene_.layers.error_path) {
@@ -217,6 +217,31 @@ std::optional<SurfaceHit> SurfacePicker::hit(const render::Ray& ray, const Frame
         }
     }
     return nearest;
+}
+
+std::optional<int> pick_face(const project::ReferenceMesh& reference,
+                             const render::Ray& ray,
+                             const Frame& s_T_w,
+                             double farthest_mm) {
+    const Frame w_T_s = s_T_w.inverse();
+    const Vec3 origin = w_T_s * Vec3(ray.origin.x, ray.origin.y, ray.origin.z);
+    const Vec3 direction = w_T_s.linear() * Vec3(ray.direction.x, ray.direction.y, ray.direction.z);
+    const auto& points = reference.rest.points;
+    std::optional<int> found;
+    double nearest = farthest_mm;
+    for (std::size_t n = 0; n < reference.faces.size(); ++n) {
+        const auto& [a, b, c] = reference.rest.triangles[n];
+        const auto met = meet_triangle(origin,
+                                       direction,
+                                       points[static_cast<std::size_t>(a)],
+                                       points[static_cast<std::size_t>(b)],
+                                       points[static_cast<std::size_t>(c)]);
+        if (met && met->x() <= nearest) {
+            nearest = met->x();
+            found = reference.faces[n];
+        }
+    }
+    return found;
 }
 
 std::optional<PathHit> pick_move(const Scene& scene,

@@ -47,6 +47,13 @@ private:
     std::vector<geometry::Mesh> meshes_; ///< one a patch
 };
 
+/// The face of the reference that the ray (scene) meets first, no further than `farthest_mm` from the ray's
+/// origin; nothing where it has no faces.
+[[nodiscard]] std::optional<int> pick_face(const project::ReferenceMesh& reference,
+                                           const render::Ray& ray,
+                                           const Frame& s_T_w,
+                                           double farthest_mm);
+
 /// A place of the path.
 struct PathHit {
     int move = 0;

@@ -36,8 +36,12 @@ Moment moment_at(const project::Evaluation& shown, double share) {
     return {.axes = positions[at], .move = static_cast<int>(at), .fraction = 0.0};
 }
 
-std::vector<Part> parts_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+std::vector<Part> parts_of(const project::Project& project,
+                           const project::Plan& plan,
+                           ViewKind kind,
+                           const MachineSolids& machine_solids) {
     Part part = {.scene = scene_of(project, plan, kind), .caption = {}};
+    part.scene.machine_solids = machine_solids;
     if (kind == ViewKind::machine && part.scene.shown && !part.scene.shown->axes.positions.empty()) {
         part.scene.now = moment_at(*part.scene.shown, machine_moment);
     }
@@ -46,7 +50,7 @@ std::vector<Part> parts_of(const project::Project& project, const project::Plan&
         return {part};
     }
     // Before and after, both in the colours of what was before.
-    part.caption = title(project.grid.method);
+    part.caption = program_title(project);
     Part before = {.scene = part.scene, .caption = std::string(title(GridMethod::uniform))};
     before.scene.shown = part.scene.start;
     part.scene.error.high = before.scene.error.high = error_colors(before.scene, {}).high;
@@ -95,7 +99,7 @@ private:
 } // namespace
 
 Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
-    const auto& chosen = plan.evaluation(project.grid.method);
+    const auto& chosen = plan.program_path(project);
     return {.layers = layers_of(kind),
             .surface = plan.surface,
             .workpiece = plan.workpiece,
@@ -114,10 +118,11 @@ render::Picture render_view(const project::Project& project,
                             const project::Plan& plan,
                             ViewKind kind,
                             const PixelSize& size,
-                            render::Theme theme) {
+                            render::Theme theme,
+                            const MachineSolids& machine_solids) {
     expects(size.width > 0 && size.height > 0, "a picture has an area");
     const PictureFacts facts = picture_facts(project, plan, kind);
-    const std::vector<Part> parts = parts_of(project, plan, kind);
+    const std::vector<Part> parts = parts_of(project, plan, kind, machine_solids);
     const bool has_legend = parts.front().scene.layers.error_path && parts.front().scene.shown;
     const Sheet sheet = sheet_for(size, static_cast<int>(parts.size()), facts, has_legend);
     const render::ViewColors colors = render::view_colors(theme);

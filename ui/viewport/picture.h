@@ -9,16 +9,20 @@
 
 namespace millwright::viewport {
 
+/// Of the workpiece's machine; null: it has none.
+using MachineSolids = std::shared_ptr<const std::vector<geometry::SolidBody>>;
+
 /// All of `plan` as one view shows it at first, on the grid that the project chose.
 [[nodiscard]] Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind);
 
 /// The same bytes each time. Makes a context of its own, which is current while it draws: a caller that has
-/// one makes it current again. Not within a frame of ImGui. Throws Error if there is no EGL or no OpenGL 3.3,
-/// Defect if the size has no area.
+/// one makes it current again. Not within a frame of ImGui. `machine_solids` as in a Scene. Throws Error if
+/// there is no EGL or no OpenGL 3.3, Defect if the size has no area.
 [[nodiscard]] render::Picture render_view(const project::Project& project,
                                           const project::Plan& plan,
                                           ViewKind kind,
                                           const render::PixelSize& size,
-                                          render::Theme theme);
+                                          render::Theme theme,
+                                          const MachineSolids& machine_solids = nullptr);
 
 } // namespace millwright::viewport

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/project/strategy_path.h"
 
 #include <array>
 #include <cmath>
@@ -33,7 +34,7 @@ std::vector<std::string> error_row(std::string_view name, const project::Evaluat
             length_text(errors.lmean, 4),
             length_text(errors.p95, 4),
             length_text(to_degrees(errors.axis_max), 2),
-            length_text(evaluation.track_gap, 2)};
+            evaluation.track_gap ? length_text(*evaluation.track_gap, 2) : "-"};
 }
 
 void add_errors(PictureFacts& facts, const project::Project& project, const project::Plan& plan) {
@@ -41,9 +42,9 @@ void add_errors(PictureFacts& facts, const project::Project& project, const proj
     if (plan.uniform) {
         facts.rows.push_back(error_row(title(GridMethod::uniform), *plan.uniform));
     }
-    const auto& chosen = plan.evaluation(project.grid.method);
-    if (chosen && project.grid.method != GridMethod::uniform) {
-        facts.rows.push_back(error_row(title(project.grid.method), *chosen));
+    const auto& chosen = plan.program_path(project);
+    if (chosen && chosen != plan.uniform) {
+        facts.rows.push_back(error_row(program_title(project), *chosen));
     }
 }
 
@@ -78,8 +79,13 @@ std::string subtitle(const project::Project& project, const project::Plan& plan,
 
 std::string_view title(GridMethod method) {
     constexpr std::array<std::string_view, project::every_grid_method.size()> titles = {
-        "uniform", "adapted", "optimised", "whole chain"};
+        "uniform", "redistributed", "adapted", "harmonic map", "optimised", "whole chain"};
     return titles[static_cast<std::size_t>(method)];
+}
+
+std::string program_title(const project::Project& project) {
+    return project::has_own_path(project) ? project::strategy_text(project)
+                                          : std::string(title(project::program_grid(project)));
 }
 
 PictureFacts picture_facts(const project::Project& project, const project::Plan& plan, ViewKind kind) {

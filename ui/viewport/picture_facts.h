@@ -19,6 +19,8 @@ struct PictureFacts {
 
 /// For people: "uniform", "adapted", "optimised".
 [[nodiscard]] std::string_view title(project::GridMethod method);
+/// The same of what the program follows: "optimised", "Spiral".
+[[nodiscard]] std::string program_title(const project::Project& project);
 
 /// Of the design the part's size and net; of all other views the errors on the machine, uniform grid first.
 /// Results that the plan lacks are left out.

@@ -42,9 +42,15 @@ double snap_step(const render::View& view, const Vec3& point_s) {
 PointDrag::PointDrag(std::vector<MovedControlPoint> points,
                      std::size_t grabbed,
                      const Frame& s_T_w,
-                     const glm::dvec2& pixel)
-    : start_(std::move(points)), grabbed_(grabbed), s_T_w_(s_T_w), start_pixel_(pixel), last_pixel_(pixel) {
-    expects(grabbed_ < start_.size(), "the grabbed control point is one of those dragged");
+                     const glm::dvec2& pixel,
+                     std::vector<Vec3> shares)
+    : start_(std::move(points)), shares_(std::move(shares)), grabbed_(grabbed), s_T_w_(s_T_w),
+      start_pixel_(pixel), last_pixel_(pixel) {
+    if (shares_.empty()) {
+        shares_.assign(start_.size(), Vec3::Ones());
+    }
+    expects(grabbed_ < start_.size() && shares_.size() == start_.size(),
+            "the grabbed control point is one of those dragged, and all have their shares");
 }
 
 std::optional<Vec3> PointDrag::place(const render::View& view, const glm::dvec2& pixel) const {
@@ -72,7 +78,7 @@ void PointDrag::move_to(const render::View& view, const glm::dvec2& pixel, const
         way_ += (keys.fine ? fine_factor : 1.0) * (*to - *from);
         last_pixel_ = pixel;
     }
-    moved_ = keys.snap ? snapped(view) : way_;
+    moved_ = (keys.snap ? snapped(view) : way_).cwiseProduct(shares_[grabbed_].cwiseAbs());
 }
 
 Vec3 PointDrag::snapped(const render::View& view) const {
@@ -90,8 +96,8 @@ Vec3 PointDrag::snapped(const render::View& view) const {
 
 std::vector<MovedControlPoint> PointDrag::points() const {
     std::vector<MovedControlPoint> points = start_;
-    for (MovedControlPoint& point : points) {
-        point.position += moved_;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        points[n].position += shares_[n].cwiseProduct(moved_);
     }
     return points;
 }

@@ -28,20 +28,22 @@ inline constexpr double fine_factor = 0.1;
 
 class PointDrag {
 public:
-    /// `points` are where they are now; the button went down at `pixel` on `points[grabbed]`.
+    /// `points` are where they are now; the button went down at `pixel` on `points[grabbed]`. `shares`: what
+    /// each takes of its way, in each coordinate; empty: all of it.
     PointDrag(std::vector<MovedControlPoint> points,
               std::size_t grabbed,
               const Frame& s_T_w,
-              const glm::dvec2& pixel);
+              const glm::dvec2& pixel,
+              std::vector<Vec3> shares = {});
 
     /// The mouse is at `pixel` now. Another axis counts from the beginning of the drag.
     void move_to(const render::View& view, const glm::dvec2& pixel, const DragKeys& keys);
 
-    /// All points by the same way.
+    /// All points by their shares of the way.
     [[nodiscard]] std::vector<MovedControlPoint> points() const;
     [[nodiscard]] const std::vector<MovedControlPoint>& start() const { return start_; }
     [[nodiscard]] const MovedControlPoint& grabbed() const { return start_[grabbed_]; }
-    /// What the points have moved by.
+    /// What the grabbed point has moved by.
     [[nodiscard]] const Vec3& moved() const { return moved_; }
     [[nodiscard]] const HeldAxis& axis() const { return axis_; }
 
@@ -51,6 +53,7 @@ private:
     [[nodiscard]] Vec3 snapped(const render::View& view) const;
 
     std::vector<MovedControlPoint> start_;
+    std::vector<Vec3> shares_; ///< one a point
     std::size_t grabbed_ = 0;
     Frame s_T_w_;
     glm::dvec2 start_pixel_{};

@@ -75,7 +75,7 @@ std::optional<ViewKind> view_kind(std::string_view id) {
 Layers layers_of(ViewKind kind) {
     switch (kind) {
     case ViewKind::design:
-        return {.surface_lines = true, .control_net = true};
+        return {.surface_lines = true, .control_net = true, .reference = true, .deviation = true};
     case ViewKind::grid:
         return {.grid = true, .singular_points = true};
     case ViewKind::toolpath:
@@ -100,7 +100,8 @@ Layers layers_of_arm() {
 }
 
 bool operator==(const Scene& a, const Scene& b) {
-    return a.layers == b.layers && a.surface == b.surface && a.workpiece == b.workpiece &&
+    return a.layers == b.layers && a.surface == b.surface && a.trims == b.trims &&
+           a.reference == b.reference && a.workpiece == b.workpiece &&
            std::ranges::equal(a.singular_points,
                               b.singular_points,
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
@@ -148,6 +149,9 @@ render::View path_view(const render::View& view, const Scene& scene) {
 }
 
 SurfaceColors surface_colors(const Scene& scene) {
+    if (scene.layers.deviation && scene.reference && !scene.reference->deviation.empty()) {
+        return SurfaceColors::deviation;
+    }
     if (scene.layers.weight && scene.weight && scene.workpiece) {
         return SurfaceColors::weight;
     }
@@ -167,6 +171,12 @@ render::ColorScale weight_colors(const Scene& scene) {
                                                                 : render::ColorMap::viridis,
             .low = weight.low,
             .high = weight.high + above};
+}
+
+render::ColorScale deviation_colors(const Scene& scene) {
+    expects(scene.reference != nullptr, "there are deviations to be coloured");
+    const double top = round_up(std::max(scene.reference->largest, finest_scale_mm));
+    return {.map = scene.error.map, .low = -top, .high = top};
 }
 
 render::ColorScale scallop_colors(const Scene& scene, const glm::vec3& over_limit) {

@@ -4,6 +4,7 @@
 // else w.
 #pragma once
 
+#include "core/geometry/net_symmetry.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/surface.h"
 #include "core/grid/improver.h"
@@ -11,6 +12,7 @@
 #include "core/project/evaluation.h"
 #include "core/project/opened_program.h"
 #include "core/project/plot_work.h"
+#include "core/project/reference_mesh.h"
 #include "core/project/set_up_work.h"
 #include "core/project/weight_map.h"
 #include "core/toolpath/singular_points.h"
@@ -41,6 +43,8 @@ struct Layers {
     bool surface = true;
     bool surface_lines = false;   ///< lines of constant u and v, eleven each
     bool control_net = false;     ///< with handles
+    bool reference = false;       ///< triangles of another program beside the surface
+    bool deviation = false;       ///< those that were fitted, coloured by their distance from the patch
     bool grid = false;            ///< of `shown`, or what is being adapted
     bool start_grid = false;      ///< of `start`, dim
     bool toolpath = false;        ///< the intended path
@@ -106,10 +110,24 @@ struct ErrorScale {
     friend bool operator==(const ErrorScale&, const ErrorScale&) = default;
 };
 
+enum class SurfaceToolKind { none, brush, outline };
+
+/// What the left button has in hand on the surface, in place of pointing at the path, and what is drawn over
+/// the picture for it.
+struct SurfaceTool {
+    SurfaceToolKind kind = SurfaceToolKind::none;
+    geometry::PatchId patch{0}; ///< that it works on
+    double radius_mm = 10.0;    ///< of the brush
+    std::vector<Vec2> outline;  ///< corners in the parameters, of the region or in the making
+    bool closed = true;         ///< the outline goes back to its first corner
+};
+
 /// Any part may be missing: a layer without its results draws nothing.
 struct Scene {
     Layers layers;
     std::shared_ptr<const geometry::Surface> surface;
+    std::shared_ptr<const std::vector<geometry::Trim>> trims = nullptr; ///< one a patch; null: all whole
+    std::shared_ptr<const project::ReferenceMesh> reference = nullptr;
     std::shared_ptr<const project::Workpiece> workpiece;
     std::vector<toolpath::SingularPoint> singular_points;
     /// Bodies of the workpiece's machine in place of the simple ones; null: it has none.
@@ -127,8 +145,10 @@ struct Scene {
     std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
     bool against_light = false;                                ///< the finished plot as light goes through
     std::optional<ArmScene> arm = std::nullopt;                ///< in place of everything else
+    SurfaceTool surface_tool = {};                             ///< not of the picture itself
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
+    geometry::NetSymmetry symmetry = {};  ///< of dragging them; not of the picture itself
     ErrorScale error;
 };
 
@@ -147,13 +167,18 @@ struct Scene {
 /// The same look, with the workpiece's coordinates in place of the scene's: an opened path is kept in those.
 [[nodiscard]] render::View path_view(const render::View& view, const Scene& scene);
 
-/// What gives the surface its colours: the topmost of the layers that are on and have their results.
-enum class SurfaceColors { plain, error, scallop, weight };
+/// What gives the surface its colours: the topmost of the layers that are on and have their results. The
+/// deviation colours the triangles that the surface was fitted to, which then stand in its place.
+enum class SurfaceColors { plain, error, scallop, weight, deviation };
 [[nodiscard]] SurfaceColors surface_colors(const Scene& scene);
 
 /// The colours of the weight, from its least to its largest value; another map than that of the errors.
 /// Throws Defect without a weight.
 [[nodiscard]] render::ColorScale weight_colors(const Scene& scene);
+
+/// The colours of the deviation of the reference, both ways to a round number not below the largest. Throws
+/// Defect without a reference.
+[[nodiscard]] render::ColorScale deviation_colors(const Scene& scene);
 
 /// The colours of what is left on the surface: from 0 to a round number that 95 % of it are well below; the
 /// signal colour is higher, or not cut. Throws Defect without a study of the cut.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace millwright::widgets {
@@ -15,21 +16,27 @@ constexpr float menu_width = 290.0F;
 constexpr float switches_width = 220.0F;
 constexpr float mark_width = 30.0F; // left of the words: a tick or an eye
 
-/// Moves the list that was just begun up as far as its last rows need. ImGui knows its height before it is
-/// seen.
-void keep_on_screen(const Ui& ui) {
-    const ImVec2 corner = ImGui::GetWindowPos();
-    const float lowest = ImGui::GetIO().DisplaySize.y - ui.px(gaps::tiny) - ImGui::GetWindowSize().y;
-    if (corner.y > lowest) {
-        ImGui::SetWindowPos({corner.x, std::max(lowest, 0.0F)});
-    }
+/// `corner`, moved up as far as the last rows of a list of this height need.
+ImVec2 on_screen(const Ui& ui, const ImVec2& corner, float height) {
+    const float lowest = ImGui::GetIO().DisplaySize.y - ui.px(gaps::tiny) - height;
+    return {corner.x, std::min(corner.y, std::max(lowest, 0.0F))};
 }
 
 enum class Stay { open, close };
 
-Guard begin_list(
-    Ui& ui, std::string_view id, const std::string& popup, float width = menu_width, Stay stay = Stay::open) {
+/// At `corner`, else where the mouse was. A list is not seen in its first frame, in which ImGui measures it.
+Guard begin_list(Ui& ui,
+                 std::string_view id,
+                 const std::string& popup,
+                 const std::optional<ImVec2>& corner,
+                 float width = menu_width,
+                 Stay stay = Stay::open) {
     const float pad = ui.px(gaps::tiny);
+    ImGuiStorage& heights = *ImGui::GetStateStorage();
+    const ImGuiID height = ImGui::GetID((popup + "@height").c_str());
+    if (corner && ImGui::IsPopupOpen(popup.c_str())) {
+        ImGui::SetNextWindowPos(on_screen(ui, *corner, heights.GetFloat(height)));
+    }
     ImGui::SetNextWindowSize({ui.px(width), 0.0F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});
@@ -42,7 +49,9 @@ Guard begin_list(
     if (stay == Stay::close || ui.escape_pressed()) {
         ImGui::CloseCurrentPopup();
     }
-    keep_on_screen(ui);
+    // Seen for the first time it stands where a list without rows would.
+    ImGui::SetWindowPos(on_screen(ui, ImGui::GetWindowPos(), ImGui::GetWindowSize().y));
+    heights.SetFloat(height, ImGui::GetWindowSize().y);
     return {ui, [](Ui& with) {
                 ImGui::EndPopup();
                 ImGui::PopStyleVar(2);
@@ -73,10 +82,7 @@ Guard menu(Ui& ui, std::string_view id, std::string_view label) {
             ui.state().open_menu_frame = ImGui::GetFrameCount();
         }
     }
-    if (ImGui::IsPopupOpen(popup.c_str())) {
-        ImGui::SetNextWindowPos({place.x, place.bottom() + ui.px(2.0F)});
-    }
-    return begin_list(ui, id, popup);
+    return begin_list(ui, id, popup, ImVec2(place.x, place.bottom() + ui.px(2.0F)));
 }
 
 Guard submenu(Ui& ui, std::string_view id, std::string_view label) {
@@ -101,10 +107,14 @@ Guard submenu(Ui& ui, std::string_view id, std::string_view label) {
             ImGui::OpenPopup(popup.c_str());
         }
     }
-    ImGui::SetNextWindowPos({corner.x + size.x, row.y - ui.px(gaps::tiny)});
     const bool in_menu = ImGui::IsMouseHoveringRect(corner, {corner.x + size.x, corner.y + size.y}, false);
     const bool on_row = ImGui::IsMouseHoveringRect(upper_left(row), lower_right(row), false);
-    return begin_list(ui, id, popup, switches_width, in_menu && !on_row ? Stay::close : Stay::open);
+    return begin_list(ui,
+                      id,
+                      popup,
+                      ImVec2(corner.x + size.x, row.y - ui.px(gaps::tiny)),
+                      switches_width,
+                      in_menu && !on_row ? Stay::close : Stay::open);
 }
 
 Guard menu_button(Ui& ui, std::string_view id, std::string_view icon, std::string_view tip) {
@@ -114,8 +124,8 @@ Guard menu_button(Ui& ui, std::string_view id, std::string_view icon, std::strin
     if (ui.icon_button(id, icon, tip, {}, open)) {
         ImGui::OpenPopup(popup.c_str());
     }
-    ImGui::SetNextWindowPos({corner.x - ui.px(switches_width + gaps::tiny), corner.y});
-    return begin_list(ui, id, popup, switches_width);
+    return begin_list(
+        ui, id, popup, ImVec2(corner.x - ui.px(switches_width + gaps::tiny), corner.y), switches_width);
 }
 
 Guard context_menu(Ui& ui, std::string_view id, const Rect& place) {
@@ -124,7 +134,7 @@ Guard context_menu(Ui& ui, std::string_view id, const Rect& place) {
         ImGui::IsMouseHoveringRect(upper_left(place), lower_right(place))) {
         ImGui::OpenPopup(popup.c_str());
     }
-    return begin_list(ui, id, popup);
+    return begin_list(ui, id, popup, std::nullopt);
 }
 
 bool menu_item(Ui& ui,

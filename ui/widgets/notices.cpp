@@ -2,10 +2,12 @@
 
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace millwright::widgets {
@@ -111,6 +113,36 @@ bool draw_notice(Ui& ui, const std::string& path, const Rect& box, const Notice&
     return now.clicked;
 }
 
+bool overlap(const Rect& a, const Rect& b) {
+    return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+/// The lower right corner of `area`, or another of the window where nothing of an open dialog is covered.
+Rect place_of_stack(const Rect& area, float width, float height, float gap) {
+    const auto in_corner = [&](const Rect& of, bool right, bool lower) {
+        return Rect{right ? of.right() - width - gap : of.x + gap,
+                    lower ? of.bottom() - height - gap : of.y + gap,
+                    width,
+                    height};
+    };
+    const Rect wanted = in_corner(area, true, true);
+    const std::optional<Rect> dialog = dialog_place();
+    if (!dialog || !overlap(wanted, *dialog)) {
+        return wanted;
+    }
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const Rect window{0.0F, 0.0F, display.x, display.y};
+    for (const bool lower : {true, false}) {
+        for (const bool right : {true, false}) {
+            const Rect place = in_corner(window, right, lower);
+            if (!overlap(place, *dialog)) {
+                return place;
+            }
+        }
+    }
+    return in_corner(window, true, true);
+}
+
 } // namespace
 
 bool banner(Ui& ui, std::string_view id, const Notice& notice, bool can_close) {
@@ -146,12 +178,17 @@ void Toasts::draw(Ui& ui, std::string_view id, const Rect& area) {
     const auto scope = ui.scope(id);
     const float gap = ui.px(gaps::small);
     const float width = std::min(ui.px(toast_width), area.w - 2.0F * gap);
-    float bottom = area.bottom() - gap;
+    float whole = -gap;
+    for (const Shown& shown : shown_) {
+        whole += layout(ui, shown.notice, width, true).height + gap;
+    }
+    const Rect stack = place_of_stack(area, width, whole, gap);
+    float bottom = stack.bottom();
     int closed = 0;
     for (auto shown = shown_.rbegin(); shown != shown_.rend(); ++shown) {
         const std::string own = ui.path(std::to_string(shown->number));
         const float height = layout(ui, shown->notice, width, true).height;
-        const Rect box{area.right() - width - gap, bottom - height, width, height};
+        const Rect box{stack.x, bottom - height, width, height};
         ImGui::SetNextWindowPos(upper_left(box));
         ImGui::SetNextWindowSize({box.w, box.h});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});

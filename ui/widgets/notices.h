@@ -25,7 +25,8 @@ class Toasts {
 public:
     /// The same notice again only makes the one on show start anew.
     void push(Notice notice);
-    /// Into the lower right corner of `area`, newest below. Paths: `id`/1 ... in order of coming; `/close`.
+    /// Into the lower right corner of `area`, newest below; into another corner of the window where that
+    /// would cover a dialog. Paths: `id`/1 ... in order of coming; `/close`.
     void draw(Ui& ui, std::string_view id, const Rect& area);
 
     [[nodiscard]] bool is_empty() const { return shown_.empty(); }

@@ -36,7 +36,7 @@ struct Rect {
 struct Seen {
     Rect rect;
     bool enabled = true;
-    bool visible = true; ///< false when scrolled or clipped away
+    bool visible = true; ///< false when its middle is scrolled or clipped away
     std::string reason;  ///< why it is greyed out, or why what was typed was refused; else empty
 
     friend bool operator==(const Seen&, const Seen&) = default;

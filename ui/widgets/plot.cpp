@@ -1,6 +1,7 @@
 #include "ui/widgets/plot.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "ui/widgets/internal/curve.h"
 #include "ui/widgets/ticks.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr float least_height = 80.0F;
 constexpr float line_width = 1.6F;
+constexpr float zeros_height = 22.0F; // the strip of the zeros of a logarithmic plot
 
 Colour series_colour(const Palette& colours, std::span<const Series> series, std::size_t index) {
     const Colour own = series[index].colour;
@@ -42,6 +44,22 @@ struct Range {
     }
 };
 
+/// A value that a logarithmic axis has no place for, though it is the best that there is.
+bool is_zero_on_log(const PlotView& view, double x, double y) {
+    return view.y_is_log && std::isfinite(x) && exactly_equal(y, 0.0);
+}
+
+bool has_zeros(const PlotView& view) {
+    for (const Series& series : view.series) {
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+            if (is_zero_on_log(view, series.x[i], series.y[i])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Empty when no point has a place.
 std::optional<Mapping> mapping_of(const PlotView& view) {
     Mapping mapping;
@@ -54,11 +72,16 @@ std::optional<Mapping> mapping_of(const PlotView& view) {
             if (mapping.has_place(series.x[i], series.y[i])) {
                 x.add(series.x[i]);
                 y.add(series.y[i]);
+            } else if (is_zero_on_log(view, series.x[i], series.y[i])) {
+                x.add(series.x[i]);
             }
         }
     }
-    if (y.is_empty()) {
+    if (x.is_empty()) {
         return std::nullopt;
+    }
+    if (y.is_empty()) { // nothing but zeros
+        y.add(1.0);
     }
     if (view.limit_y && mapping.has_place(0.0, *view.limit_y)) {
         y.add(*view.limit_y);
@@ -101,16 +124,27 @@ std::vector<std::pair<double, std::string>> log_ticks(const Mapping& mapping, in
     return found;
 }
 
-std::vector<std::pair<double, std::string>> y_ticks(const Mapping& mapping, int at_most) {
+using TextTicks = std::vector<std::pair<double, std::string>>;
+
+TextTicks y_ticks(const Mapping& mapping, int at_most) {
     if (mapping.y_is_log) {
         return log_ticks(mapping, at_most);
     }
     const Ticks found = ticks(mapping.y_low, mapping.y_high, at_most);
-    std::vector<std::pair<double, std::string>> texts;
+    TextTicks texts;
     for (const double value : found.values) {
         texts.emplace_back(value, tick_text(value, found));
     }
     return texts;
+}
+
+/// Left of the plot: as wide as its longest number, but plots of usual numbers stand below each other.
+float gutter_of(const Ui& ui, const TextTicks& ticks) {
+    float width = ui.px(52.0F);
+    for (const auto& [value, text] : ticks) {
+        width = std::max(width, text_width(ui.look().fonts.small, text) + ui.px(8.0F));
+    }
+    return width;
 }
 
 /// Title at the left, the series and their colours at the right, of the line above the plot.
@@ -132,12 +166,14 @@ void draw_key(Ui& ui, const Rect& line, const PlotView& view) {
     }
 }
 
-void draw_axes(Ui& ui, const Mapping& mapping, float left, const PlotView& view) {
+/// `bottom`: where x is told, below everything.
+void draw_axes(
+    Ui& ui, const Mapping& mapping, const TextTicks& rows, float left, float bottom, const PlotView& view) {
     const ImFont* font = ui.look().fonts.small;
     const Palette& colours = ui.colours();
     const Rect& box = mapping.box;
     const float line = font->FontSize;
-    for (const auto& [value, text] : y_ticks(mapping, std::max(2, static_cast<int>(box.h / (2.2F * line))))) {
+    for (const auto& [value, text] : rows) {
         const float y = std::round(mapping.pixel_y(value));
         fill({box.x, y, box.w, 1.0F}, faded(colours.line, 0.5));
         const float right = box.x - ui.px(6.0F);
@@ -151,14 +187,14 @@ void draw_axes(Ui& ui, const Mapping& mapping, float left, const PlotView& view)
         const std::string text = tick_text(value, found);
         const float half = 0.5F * text_width(font, text);
         const float x = mapping.pixel_x(value);
-        fill({std::round(x), box.bottom(), 1.0F, ui.px(4.0F)}, colours.line);
+        fill({std::round(x), bottom, 1.0F, ui.px(4.0F)}, colours.line);
         if (x + half < title_x - ui.px(8.0F)) {
-            const Rect place{x - half, box.bottom() + ui.px(5.0F), 2.0F * half + 1.0F, line};
+            const Rect place{x - half, bottom + ui.px(5.0F), 2.0F * half + 1.0F, line};
             draw_text(ui, font, place, colours.muted, text, Align::centre);
         }
     }
-    fill({box.x, box.bottom(), box.w, 1.0F}, colours.line);
-    const Rect place{title_x, box.bottom() + ui.px(5.0F), box.right() - title_x + 1.0F, line};
+    fill({box.x, bottom, box.w, 1.0F}, colours.line);
+    const Rect place{title_x, bottom + ui.px(5.0F), box.right() - title_x + 1.0F, line};
     draw_text(ui, font, place, colours.muted, title, Align::right);
 }
 
@@ -186,6 +222,29 @@ void draw_series(Ui& ui, const Mapping& mapping, const PlotView& view) {
         fill({x - 0.5F, mapping.box.y, ui.px(1.5F), mapping.box.h}, ui.colours().accent);
     }
     ImGui::PopClipRect();
+}
+
+/// A cross for each zero of a logarithmic plot, in `strip` below its curves.
+void draw_zeros(Ui& ui, const Mapping& mapping, const Rect& strip, float left, const PlotView& view) {
+    const ImFont* font = ui.look().fonts.small;
+    const float right = strip.x - ui.px(6.0F);
+    draw_text(ui, font, {left, strip.y, right - left, strip.h}, ui.colours().muted, "0", Align::right);
+    const float middle = strip.centre().y;
+    const float arm = ui.px(3.0F);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        const Series& series = view.series[i];
+        const Colour colour = series_colour(ui.colours(), view.series, i);
+        float last = -std::numeric_limits<float>::infinity();
+        for (std::size_t n = 0; n < series.x.size(); ++n) {
+            const float x = mapping.pixel_x(series.x[n]);
+            if (is_zero_on_log(view, series.x[n], series.y[n]) && x - last >= 1.0F) { // one a column
+                list.AddLine({x - arm, middle - arm}, {x + arm, middle + arm}, colour, ui.px(line_width));
+                list.AddLine({x - arm, middle + arm}, {x + arm, middle - arm}, colour, ui.px(line_width));
+                last = x;
+            }
+        }
+    }
 }
 
 /// The values nearest in x, as a tip beside the mouse.
@@ -225,14 +284,23 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
         return std::nullopt;
     }
     const float line = ui.look().fonts.small->FontSize;
-    const float left = ui.px(52.0F);
     draw_key(ui, {all.x, all.y, all.w, line}, view);
     const float top = line + ui.px(6.0F);
-    const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
+    const float inside = all.h - top - line - ui.px(6.0F);
+    const float strip = has_zeros(view) ? ui.px(zeros_height) : 0.0F;
+    const TextTicks rows = y_ticks(*mapping, std::max(2, static_cast<int>((inside - strip) / (2.2F * line))));
+    const float left = gutter_of(ui, rows);
+    const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), inside};
     fill(box, ui.colours().field, ui.px(2.0F));
     const Press now = press(ui, own, box);
     mapping->box = box;
-    draw_axes(ui, *mapping, all.x, view);
+    mapping->box.h -= strip;
+    draw_axes(ui, *mapping, rows, all.x, box.bottom(), view);
+    if (strip > 0.0F) {
+        const Rect zeros{box.x, mapping->box.bottom(), box.w, strip};
+        draw_zeros(ui, *mapping, zeros, all.x, view);
+        record_at(ui, own + "/zeros", zeros);
+    }
     draw_series(ui, *mapping, view);
     if (now.hovered) {
         read_out(ui, own, *mapping, view);

@@ -25,7 +25,7 @@ struct PlotView {
     std::span<const Series> series = {};
     std::optional<double> cursor_x = {}; ///< where the machine stands: an upright line
     std::optional<double> limit_y = {};  ///< a dashed line, such as the tolerance
-    bool y_is_log = false;               ///< values of zero or less leave a gap
+    bool y_is_log = false;               ///< zeros are marked below the curves, what is less leaves a gap
     bool y_from_zero = true;             ///< else from the least value
     float height = 0.0F;                 ///< 0: all that is left, at least 80 px at scale 1
     std::string_view when_empty = "Nothing to plot yet.";

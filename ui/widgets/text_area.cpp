@@ -98,7 +98,9 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
                                       &caret);
         answer.left = ImGui::IsItemDeactivated();
         const bool typing = ImGui::IsItemActive();
-        if (changed && text != view.text) {
+        // ImGui takes all back that was typed since the field was entered; here it stays.
+        const bool taken_back = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+        if (changed && !taken_back && text != view.text) {
             answer.text = std::move(text);
         }
         if (typing && caret.line >= 0 && answer.text) {

@@ -127,7 +127,8 @@ void Ui::end_frame() {
     if (tip.frame == ImGui::GetFrameCount() && (tip.at_once || !ImGui::IsAnyMouseDown())) {
         const double rested = tip.at_once ? tip_after : ImGui::GetTime() - tip.since;
         if (rested >= tip_after) {
-            record("tip", draw_box(*this, *state_, {tip.rect, tip.text, colours().line, colours().text}));
+            const Rect box = draw_box(*this, *state_, {tip.rect, tip.text, colours().line, colours().text});
+            state_->places.record(path("tip"), {box, true, true, {}}); // above all panes
         } else {
             change_in(tip_after - rested);
         }
@@ -174,6 +175,15 @@ void Ui::focus_pane(std::string_view path) {
     ImGui::SetWindowFocus(std::string(path).c_str());
 }
 
+void Ui::focus_field(std::string_view path) {
+    constexpr int soon = 5; // frames: its pane may have to come first
+    state_->edit = {.path = std::string(path),
+                    .text = {},
+                    .initial = {},
+                    .called = true,
+                    .kept_until = ImGui::GetFrameCount() + soon};
+}
+
 Guard Ui::scope(std::string_view id) {
     state_->places.enter(id);
     return {*this, [](Ui& ui) { ui.state_->places.leave(); }};
@@ -184,7 +194,7 @@ std::string Ui::path(std::string_view id) const {
 }
 
 void Ui::record(std::string_view id, const Rect& rect, bool enabled, std::string reason) {
-    state_->places.record(path(id), {rect, enabled, true, std::move(reason)});
+    record_at(*this, path(id), rect, enabled, std::move(reason));
 }
 
 std::optional<Rect> Ui::place(std::string_view path) const {

@@ -121,6 +121,9 @@ public:
     [[nodiscard]] bool enter_pressed() const;
     /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
     void focus_pane(std::string_view path);
+    /// Gives the keyboard to the field of that path when it is drawn next, soon; until then letters are meant
+    /// for it.
+    void focus_field(std::string_view path);
 
     // ---- panes and order (panes.cpp)
     /// A fixed part of the window with its own scroll bar; enters the scope `id`. `title` may be empty.

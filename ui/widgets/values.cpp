@@ -101,7 +101,9 @@ bool Ui::progress(std::string_view id, std::string_view text, double fraction, c
     const Rect& all = slot.rect();
     const float cancel_width = px(76.0F);
     const Rect place{all.x, all.y, all.w - cancel_width - px(gaps::small), all.h};
-    const std::string percent = fraction < 0.0 ? "" : fixed(100.0 * std::min(fraction, 1.0), 0) + " %";
+    // Cut, not rounded: only what is done is at 100 %.
+    const std::string percent =
+        fraction < 0.0 ? "" : fixed(std::floor(100.0 * std::min(fraction, 1.0)), 0) + " %";
     const float percent_width = px(44.0F);
     const Rect words{place.x, place.y, place.w - percent_width, place.h - px(7.0F)};
     const bool cut = draw_text(*this, look_.fonts.text, words, colours().text, text);

@@ -352,10 +352,9 @@ private:
         }
         const int third = plane_axes(program_.axes, arc.plane).third;
         const double rise = third < 0 ? 0.0 : end.to[third] - begin.from[third];
-        const auto length = [&](const FittedArc& way) {
-            return std::hypot(way.radius * way.sweep, rise) / format_.length_unit();
-        };
-        compare_feed({length(read), step.value}, {length(arc), duration});
+        const double meant = length_of_feeds(program_, wording_, arc) / format_.length_unit();
+        const double way = std::hypot(read.radius * read.sweep, rise) / format_.length_unit();
+        compare_feed({way, step.value}, {meant, duration});
     }
 };
 

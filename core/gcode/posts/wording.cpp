@@ -59,6 +59,15 @@ FeedWay feed_way(const std::vector<ProgramAxis>& axes,
     return {distance(axes, from, to, "ABC"), true};
 }
 
+double length_of_feeds(const Program& program, const Wording& wording, const FittedArc& arc) {
+    double length = 0.0;
+    for (int n = arc.first; n <= arc.last; ++n) {
+        const BlockWords& words = wording.blocks[static_cast<std::size_t>(n)];
+        length += feed_way(program.axes, words.from, words.to).length;
+    }
+    return length;
+}
+
 PlaneAxes plane_axes(const std::vector<ProgramAxis>& axes, Plane plane) {
     expects(plane == Plane::xy || plane == Plane::xz || plane == Plane::yz, "an arc is of X, Y and Z");
     const std::string_view letters = plane == Plane::xy ? "XYZ" : plane == Plane::xz ? "ZXY" : "YZX";

@@ -47,6 +47,10 @@ struct FeedWay {
                                const kinematics::AxisPositions& from,
                                const kinematics::AxisPositions& to);
 
+/// Of the feeds that an arc stands for, mm: the speed of the arc is theirs along it. The arc itself is longer
+/// by a hair.
+[[nodiscard]] double length_of_feeds(const Program& program, const Wording& wording, const FittedArc& arc);
+
 /// The indices of the plane's first, second and third axis among `axes`; -1 where there is none.
 struct PlaneAxes {
     int first = -1, second = -1, third = -1;

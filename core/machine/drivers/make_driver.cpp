@@ -4,6 +4,7 @@
 #include "core/machine/drivers/cordic/cordic_driver.h"
 #include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/linuxcnc/linuxcnc_driver.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_driver.h"
 #include "core/machine/drivers/records/records_driver.h"
 #include "core/machine/drivers/stream/stream_driver.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace millwright::machine {
 
@@ -33,7 +35,19 @@ std::unique_ptr<Driver> make_stream(const DriverChoice& choice, const MovedAxes&
         clock,
         axes.model,
         axes.position,
-        StreamOptions{.period = choice.period, .paced = !to_file, .record = choice.record});
+        StreamOptions{
+            .period = choice.period, .paced = !to_file, .record = choice.record, .known = axes.known});
+}
+
+/// A busy computer may be late with an answer. Meanwhile no sign of life is sent, and the card stops its
+/// motors by itself, so that nothing depends on how long that is waited for.
+std::unique_ptr<Driver> make_pmac(const DriverChoice& choice, const MovedAxes& axes, const Clock& clock) {
+    if (!axes.arm) {
+        throw Error("there is no arm whose joints the card would move");
+    }
+    PmacSettings settings = within_limits(arm_settings_of(choice.axes), *axes.arm);
+    settings.patience = 3.0; // s
+    return std::make_unique<PmacDriver>(make_link(choice.address), clock, std::move(settings));
 }
 
 } // namespace
@@ -63,7 +77,7 @@ std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const MovedAxes&
         return std::make_unique<LinuxCncDriver>(make_link(choice.address), clock, wanted);
     }
     case DriverKind::pmac:
-        return std::make_unique<PmacDriver>(make_link(choice.address), clock);
+        return make_pmac(choice, axes, clock);
     case DriverKind::stream:
         require_model(axes);
         return make_stream(choice, axes, clock);
@@ -74,7 +88,7 @@ std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const MovedAxes&
             clock,
             axes.model,
             axes.position,
-            RecordsOptions{.format = choice.record.value_or(RecordFormat())});
+            RecordsOptions{.format = choice.record.value_or(RecordFormat()), .known = axes.known});
     case DriverKind::cordic:
         require_model(axes);
         return std::make_unique<CordicDriver>(axes.position, VirtualSpeed{axes.speed}, clock, axes.model);

@@ -2,6 +2,7 @@
 // workbench offer the same.
 #pragma once
 
+#include "core/kinematics/arm_model.h"
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
 #include "core/machine/drivers/stream/record_format.h"
@@ -25,7 +26,7 @@ enum class DriverKind { virtual_machine, grbl, linuxcnc, stream, cordic, records
 struct DriverChoice {
     DriverKind kind = DriverKind::virtual_machine;
     std::string address;      ///< as make_link() takes it; those inside this program need none
-    std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions
+    std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions; of a PMAC: axis 5 is one if B is
     bool one_by_one = false;  ///< Grbl: each line waits for the answer to the last
     double period = 0.01;     ///< of a coordinate stream: s between samples
     /// Of a coordinate stream: records in place of its own lines. Of a table that takes one record a move:
@@ -40,11 +41,15 @@ struct MovedAxes {
     std::shared_ptr<const kinematics::MachineModel> model;
     kinematics::AxisPositions position; ///< where it stands
     double speed = 1.0;                 ///< of those inside this program, see VirtualSpeed
+    /// Of a PMAC: whose joints its axes are, in order; none leaves its limits.
+    std::shared_ptr<const kinematics::ArmModel> arm = nullptr;
+    bool known = true; ///< `position`, by a person; else it is assumed, of a stream and of records
 };
 
 /// Disconnected; nothing moves. `axes` is for the virtual machine, the CORDIC processor, the coordinate
-/// stream and records alone, `clock` must outlive the driver. A stream into a file goes as fast as it can.
-/// Throws Error for what was chosen wrongly: no address, no model, a value out of range.
+/// stream and records alone, its arm for a PMAC; `clock` must outlive the driver. A stream into a file goes
+/// as fast as it can. Throws Error for what was chosen wrongly: no address, no model, no arm, a value out of
+/// range.
 [[nodiscard]] std::unique_ptr<Driver>
 make_driver(const DriverChoice& choice, const MovedAxes& axes, Clock& clock);
 

@@ -19,7 +19,7 @@ using internal::ControllerSession;
 struct SessionDriver::Body {
     std::unique_ptr<Link> link;
     const Clock& clock;
-    mutable std::mutex mutex; ///< guards the session and the tap
+    mutable FairMutex mutex; ///< guards the session and the tap
     std::unique_ptr<ControllerSession> session;
     Console console;
     internal::ConsoleTap tap;
@@ -34,6 +34,7 @@ struct SessionDriver::Body {
     void send() {
         const std::string bytes = session->take_output();
         tap.sent(bytes, clock.now());
+        tap.told(session->take_console(), clock.now());
         link->write(bytes);
     }
 
@@ -147,7 +148,7 @@ ControllerSession& SessionDriver::session() const {
     return *body_->session;
 }
 
-std::mutex& SessionDriver::session_mutex() const {
+FairMutex& SessionDriver::session_mutex() const {
     return body_->mutex;
 }
 
@@ -180,6 +181,11 @@ void SessionDriver::resume() {
 void SessionDriver::stop() {
     const Turn turn(*this);
     session().stop(turn.now());
+}
+
+void SessionDriver::break_off(std::string why) {
+    const Turn turn(*this);
+    session().break_off(std::move(why), turn.now());
 }
 
 void SessionDriver::emergency_stop() {

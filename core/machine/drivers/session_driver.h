@@ -2,6 +2,7 @@
 // link, and a thread that carries bytes between the two.
 #pragma once
 
+#include "core/base/fair_mutex.h"
 #include "core/machine/clock.h"
 #include "core/machine/console.h"
 #include "core/machine/driver.h"
@@ -31,6 +32,7 @@ public:
     void hold() override;
     void resume() override;
     void stop() override;
+    void break_off(std::string why) override;
     void emergency_stop() override;
     /// Makes a lost link again; throws Error as connect() does, and is disconnected then.
     void reset() override;
@@ -63,13 +65,13 @@ protected:
 
     private:
         SessionDriver& driver_;
-        std::scoped_lock<std::mutex> lock_;
+        std::scoped_lock<FairMutex> lock_;
         double now_;
     };
 
     [[nodiscard]] internal::ControllerSession& session() const;
     /// For who looks at the session and changes nothing.
-    [[nodiscard]] std::mutex& session_mutex() const;
+    [[nodiscard]] FairMutex& session_mutex() const;
 
 private:
     void leave();

@@ -2,6 +2,7 @@
 // thread of its own.
 #pragma once
 
+#include "core/base/fair_mutex.h"
 #include "core/machine/clock.h"
 #include "core/machine/emulators/emulator.h"
 #include "core/machine/links/faults.h"
@@ -51,8 +52,8 @@ private:
     const Clock& clock_;
     double speed_;
     FaultSpec faults_;
-    std::int64_t passed_ = 0;  ///< bytes
-    mutable std::mutex mutex_; ///< guards what follows
+    std::int64_t passed_ = 0; ///< bytes
+    mutable FairMutex mutex_; ///< guards what follows
     std::unique_ptr<Emulator> emulator_;
     std::string failure_;
     std::optional<double> longest_silence_; ///< of the controller's time

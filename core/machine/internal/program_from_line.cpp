@@ -204,13 +204,25 @@ private:
     }
 };
 
+/// The words of the approach alone, a line each: what stands on top of every program would take the room.
+Listing words_of(const Program& approach) {
+    Listing words = gcode::write_gcode(approach, {});
+    const int head = words.line_of_block.front() - 1;
+    words.text.erase(0, words.line_starts[static_cast<std::size_t>(head)]);
+    for (int& line : words.line_of_block) {
+        line -= head;
+    }
+    return words;
+}
+
 /// Above `line` the words of the approach, and empty lines; from there on the lines of `whole`.
 Listing joined(const Program& approach, const Listing& whole, int block) {
-    Listing words = gcode::write_gcode(approach, {});
+    Listing words = words_of(approach);
+    const auto taken = std::ranges::count(words.text, '\n');
     const int last = whole.line_of_block[static_cast<std::size_t>(block)];
-    expects(words.line_count() <= approach_lines, "an approach has its room above the line");
+    expects(taken <= approach_lines, "an approach has its room above the line");
     Listing result;
-    result.text = words.text + std::string(static_cast<std::size_t>(last - 1 - words.line_count()), '\n') +
+    result.text = words.text + std::string(static_cast<std::size_t>(last - 1 - taken), '\n') +
                   whole.text.substr(whole.line_starts[static_cast<std::size_t>(last) - 1]);
     result.line_of_block = words.line_of_block;
     result.line_of_block.insert(

@@ -27,6 +27,7 @@ int SharedLog::allow(int wanted) noexcept {
         ahead.executed_blocks = last_.executed_blocks;
         ahead.line = last_.line;
         ahead.position = last_.position;
+        ahead.position_doubt = last_.position_doubt;
         ahead.allowed_blocks = std::min(wanted + sent_soon(wanted, now), blocks_);
         log_.write(ahead);
         allowed_ = ahead.allowed_blocks;

@@ -1,6 +1,7 @@
 #include "core/machine/links/pseudo_terminal.h"
 
 #include "core/base/error.h"
+#include "core/machine/links/internal/open_files.h"
 #include "core/machine/links/internal/pump_link.h"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -11,7 +12,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -42,49 +42,10 @@ void make_raw(int handle) {
     }
 }
 
-std::string first_line(const fs::path& file) {
-    std::ifstream stream(file);
-    std::string line;
-    std::getline(stream, line);
-    return line;
-}
-
-/// Whether this is the far end of terminal `number`, by what Linux tells of an open file.
-bool is_far_end(const fs::path& descriptor, const std::string& number) {
-    std::ifstream info(descriptor.parent_path().parent_path() / "fdinfo" / descriptor.filename());
-    for (std::string key, value; info >> key >> value;) {
-        if (key == "tty-index:") {
-            return value == number;
-        }
-    }
-    return false;
-}
-
-/// Nothing of a folder that is hidden, or goes meanwhile.
-std::vector<fs::path> entries_of(const fs::path& folder) {
-    std::vector<fs::path> entries;
-    std::error_code gone;
-    for (fs::directory_iterator entry(folder, gone); entry != fs::directory_iterator() && !gone;
-         entry.increment(gone)) {
-        entries.push_back(entry->path());
-    }
-    return entries;
-}
-
-/// Of the processes that this user may look into; empty: none of them.
+/// Part of a sentence; empty: no process that this user may look into.
 std::string holder_of(const fs::path& near_end) {
-    for (const fs::path& process : entries_of("/proc")) {
-        const std::string id = process.filename().string();
-        if (id.find_first_not_of("0123456789") != std::string::npos) {
-            continue;
-        }
-        for (const fs::path& descriptor : entries_of(process / "fd")) {
-            if (is_far_end(descriptor, near_end.filename().string())) {
-                return fmt::format(", which {} (process {}) holds", first_line(process / "comm"), id);
-            }
-        }
-    }
-    return {};
+    const std::vector<std::string> holders = internal::holders_of_far_end(near_end);
+    return holders.empty() ? std::string() : fmt::format(", which {} holds", holders.front());
 }
 
 } // namespace

@@ -1,13 +1,16 @@
 #include "core/machine/links/serial_link.h"
 
 #include "core/base/error.h"
+#include "core/machine/links/internal/open_files.h"
 #include "core/machine/links/internal/pump_link.h"
 
 #include <boost/asio/serial_port.hpp>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <termios.h>
 
 #include <cerrno>
+#include <vector>
 
 namespace millwright::machine {
 
@@ -20,6 +23,16 @@ void lock(int handle) {
     if (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
         throw boost::system::system_error(boost::system::error_code(EBUSY, boost::system::system_category()));
     }
+}
+
+std::string held_sentence(const std::string& path) {
+    const std::vector<std::string> others = internal::others_with(path);
+    if (others.empty()) {
+        return "the serial port is held already, and the system does not tell by whom";
+    }
+    return fmt::format("{} the serial port: {}",
+                       others.size() == 1 ? "another program holds" : "one of these programs holds",
+                       fmt::join(others, ", "));
 }
 
 } // namespace
@@ -45,8 +58,7 @@ void SerialLink::open() {
         });
     } catch (const boost::system::system_error& failure) {
         const bool held = failure.code() == boost::system::errc::device_or_resource_busy;
-        throw Error(held ? "another program holds the serial port"
-                         : "cannot open the serial port: " + failure.code().message(),
+        throw Error(held ? held_sentence(path_) : "cannot open the serial port: " + failure.code().message(),
                     path_,
                     held ? "end that first" : "is it plugged in, and may you use it (group dialout)?");
     }

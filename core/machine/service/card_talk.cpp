@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace millwright::machine {
 
@@ -37,6 +38,20 @@ double motor_variable(const CardTalk& card, int motor, int number) {
 
 void set_motor_variable(const CardTalk& card, int motor, int number, double value) {
     card.ask(fmt::format("I{}{:02}={}", motor, number, shortest(value)));
+}
+
+MotorState motor_state(const CardTalk& card, int motor) {
+    constexpr std::size_t digits = 12; // of two words of 24 bits
+    constexpr int hexadecimal = 16, amplifier_enabled = 14, velocity_zero = 13 + 24;
+    const std::string line = fmt::format("#{}?", motor);
+    const std::string words = card.ask(line);
+    std::uint64_t bits = 0;
+    const char* const end = words.data() + words.size();
+    const auto read = std::from_chars(words.data(), end, bits, hexadecimal);
+    if (words.size() != digits || read.ec != std::errc{} || read.ptr != end) {
+        throw Error(fmt::format("the card answers '{}' to {}, and not two status words", words, line));
+    }
+    return {.powered = (bits >> amplifier_enabled & 1U) != 0, .standing = (bits >> velocity_zero & 1U) != 0};
 }
 
 double motor_position(const CardTalk& card, int motor) {

@@ -18,6 +18,13 @@ struct CardTalk {
 /// I-variable `number` of a motor, as 29 for Ix29. Throws Error where the answer is no number.
 [[nodiscard]] double motor_variable(const CardTalk& card, int motor, int number);
 void set_motor_variable(const CardTalk& card, int motor, int number, double value);
+/// What a motor's status words tell.
+struct MotorState {
+    bool powered = false;
+    bool standing = false; ///< its commanded velocity is zero
+};
+/// #n?. Throws Error where the answer is no two words.
+[[nodiscard]] MotorState motor_state(const CardTalk& card, int motor);
 /// #nP, counts.
 [[nodiscard]] double motor_position(const CardTalk& card, int motor);
 /// `line` has to be answered by so many numbers. Throws Error for anything else.

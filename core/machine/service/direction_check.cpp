@@ -6,7 +6,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <string_view>
 
 namespace millwright::machine {
 
@@ -16,17 +16,10 @@ constexpr int jog_speed = 22; // of Ixnn
 constexpr double per_ms = 1000.0;
 
 void require_power(const CardTalk& card, int motor) {
-    constexpr std::size_t half = 6; // of the twelve digits of both words
-    constexpr int hexadecimal = 16, amplifier = 14;
-    const std::string words = card.ask(fmt::format("#{}?", motor));
-    std::uint32_t second = 0;
-    if (words.size() == 2 * half) {
-        std::from_chars(words.data() + half, words.data() + words.size(), second, hexadecimal);
-    }
-    if ((second >> amplifier & 1U) == 0) { // a jog would give it power
+    if (!motor_state(card, motor).powered) { // a jog would give it power
         throw Error(fmt::format("motor {} has no power", motor),
                     {},
-                    "look at the arm, then close its loop: #1J/ for motor 1");
+                    "look at the arm, then --power closes the loops of its motors");
     }
 }
 
@@ -45,12 +38,30 @@ void read_axis(const CardTalk& card, int motor, DirectionFound& found) {
     found.axis = *read.ptr;
 }
 
+/// Returns when the card commands no more motion and the motor keeps its place.
+void wait_until_it_stands(const CardTalk& card, int motor) {
+    constexpr double glance = 0.02, patience = 60.0; // s
+    constexpr int long_enough = 10;                  // glances
+    double place = motor_position(card, motor);
+    int still = 0;
+    for (double waited = 0.0; waited < patience; waited += glance) {
+        card.wait(glance);
+        const double now = motor_position(card, motor);
+        const bool rests = motor_state(card, motor).standing && std::abs(now - place) < 1.0;
+        still = rests ? still + 1 : 0;
+        place = now;
+        if (still >= long_enough) {
+            return;
+        }
+    }
+    throw Error(fmt::format("motor {} does not come to rest in {} s", motor, patience));
+}
+
 /// Counts that it went.
-double moved(const CardTalk& card, int motor, const std::string& line, double duration) {
-    constexpr double settling = 1.0; // s
+double moved(const CardTalk& card, int motor, const std::string& line) {
     const double before = motor_position(card, motor);
     card.ask(line);
-    card.wait(duration + settling);
+    wait_until_it_stands(card, motor);
     return motor_position(card, motor) - before;
 }
 
@@ -58,8 +69,8 @@ double by_jogs(const CardTalk& card, int motor, double counts, double duration) 
     const double speed = motor_variable(card, motor, jog_speed);
     set_motor_variable(card, motor, jog_speed, counts / duration / per_ms);
     try {
-        const double way = moved(card, motor, fmt::format("#{}J:{:.0f}", motor, counts), duration);
-        (void)moved(card, motor, fmt::format("#{}J:{:.0f}", motor, -counts), duration);
+        const double way = moved(card, motor, fmt::format("#{}J:{:.0f}", motor, counts));
+        (void)moved(card, motor, fmt::format("#{}J:{:.0f}", motor, -counts));
         set_motor_variable(card, motor, jog_speed, speed);
         return way;
     } catch (...) {
@@ -76,7 +87,7 @@ double by_program(const CardTalk& card, int motor, char axis, const DirectionChe
                         check.duration * per_ms,
                         axis,
                         way));
-        return moved(card, motor, "&1B999R", check.duration);
+        return moved(card, motor, "&1B999R");
     };
     const double way = run(check.way);
     (void)run(-check.way);

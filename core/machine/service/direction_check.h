@@ -23,7 +23,8 @@ struct DirectionFound {
 };
 
 /// The motor goes there and back twice, and is where it was. Uses the card's PROG 999, and Ix22 for the time.
-/// Throws Error where the motor has no power, is no axis, or the card refuses.
+/// Throws Error where the motor has no power, is no axis, does not come to rest, or the card refuses: a
+/// program needs power on every motor of coordinate system 1.
 [[nodiscard]] DirectionFound
 direction_check(const CardTalk& card, int motor, const DirectionCheck& check = {});
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace millwright::machine {
 
@@ -89,6 +90,7 @@ private:
             seen = now - start >= search_.creep ? 1 : start - now >= search_.creep ? -1 : 0;
         }
         borrowed_.kill();
+        await_rest();
         if (farthest_ > search_.most_way) {
             throw Error(fmt::format("motor {} went {:.0f} counts, and {:.0f} were allowed",
                                     motor_,
@@ -98,6 +100,20 @@ private:
                         "begin with an offset nearer to standstill, or allow a longer way");
         }
         return seen;
+    }
+
+    /// Without power it coasts.
+    void await_rest() {
+        constexpr double pause = 0.05, patience = 2.0; // s
+        double before = motor_position(card_, motor_);
+        for (double time = 0.0; time < patience; time += pause) {
+            card_.wait(pause);
+            const double now = motor_position(card_, motor_);
+            farthest_ = std::max(farthest_, std::abs(now - begin_));
+            if (std::abs(now - std::exchange(before, now)) < 1.0) {
+                return;
+            }
+        }
     }
 
     /// From `offset` on in growing steps, one at which the motor goes to `sense`.

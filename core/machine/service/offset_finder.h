@@ -14,7 +14,8 @@ struct OffsetSearch {
     double creep = 20.0;       ///< counts after which a direction is seen, > 0
     double look = 0.5;         ///< s after which a motor stands still, > 0
     double glance = 0.005;     ///< s between two looks, > 0
-    double most_way = 20000.0; ///< counts from where it began, beyond which the search is given up
+    double most_way =
+        10000.0; ///< counts from where it began, with what it coasts, beyond which the search is given up
 };
 
 struct OffsetFound {

@@ -50,6 +50,15 @@ void restore(const CardTalk& card, int motor, const std::map<int, double>& varia
     }
 }
 
+/// A driver in an alarm has done it, and takes no order.
+void kill(const CardTalk& card, int motor) {
+    try {
+        card.ask(fmt::format("#{}K", motor));
+    } catch (const Error&) {
+        // What is wrong is about to be told by the one who calls.
+    }
+}
+
 void make_a_step_of_jogs(const CardTalk& card, int motor) {
     constexpr double most = 1000.0; // counts/ms and counts/ms^2: more than any loop follows
     set_motor_variable(card, motor, acceleration, most);
@@ -88,6 +97,24 @@ private:
     double period_ = 0.0; ///< of the servo, s
 };
 
+/// Throws Error for a motor that goes where no overshoot would take it.
+void stop_a_runaway(int motor, double size, double position) {
+    constexpr double backward = -1.5, forward = 4.0; // steps
+    const double reached = position / size;
+    if (reached < backward) {
+        throw Error(
+            fmt::format("motor {} ran {:.0f} counts the wrong way and was killed", motor, std::abs(position)),
+            {},
+            fmt::format("its encoder counts the other way than its amplifier turns: I{}, or swap two wires",
+                        900 + 5 * (motor - 1)));
+    }
+    if (reached > forward) {
+        throw Error(fmt::format("motor {} ran {:.0f} counts and was killed", motor, std::abs(position)),
+                    {},
+                    fmt::format("lower I{}30 first", motor));
+    }
+}
+
 std::vector<StepReading> readings_of(const CardTalk& card, int motor, const StepTest& test) {
     const ServoClock clock(card);
     const double begin = motor_position(card, motor);
@@ -97,6 +124,7 @@ std::vector<StepReading> readings_of(const CardTalk& card, int motor, const Step
         card.wait(test.glance);
         const auto now = numbers_for(card, fmt::format("#{}P M1023", motor), 2);
         readings.push_back({clock.between(start, now[1]), now[0] - begin});
+        stop_a_runaway(motor, test.size, readings.back().position);
     } while (readings.back().time < test.duration);
     return readings;
 }
@@ -143,7 +171,7 @@ StepResponse step_test(const CardTalk& card, int motor, const StepTest& test) {
         response.variables = std::move(variables);
         return response;
     } catch (...) {
-        card.ask(fmt::format("#{}K", motor));
+        kill(card, motor);
         restore(card, motor, variables);
         throw;
     }

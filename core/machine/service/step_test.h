@@ -37,7 +37,7 @@ struct StepResponse {
 [[nodiscard]] StepResponse judge(double size, std::vector<StepReading> readings, double settled);
 
 /// The motor has to be closed and at rest. All variables are as they were afterwards. Throws Error where
-/// the card refuses; the motor then has no power.
+/// the card refuses and for a motor that runs away; the motor then has no power.
 [[nodiscard]] StepResponse step_test(const CardTalk& card, int motor, const StepTest& test = {});
 
 } // namespace millwright::machine

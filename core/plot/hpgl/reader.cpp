@@ -1,12 +1,16 @@
 #include "core/plot/hpgl/reader.h"
 
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/plot/hpgl/internal/commands.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace millwright::plot {
@@ -154,6 +158,12 @@ private:
 } // namespace internal
 
 Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings) {
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+        // Each letter has a zero byte beside it, which would end every number after its first digit.
+        throw Error({.place = {.file = file, .byte = 0},
+                     .message = "the file is text in UTF-16, a plot file is plain text",
+                     .hint = "save it as ASCII or UTF-8"});
+    }
     return internal::Reading(bytes, file, settings).read();
 }
 
@@ -174,6 +184,13 @@ std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& f
 }
 
 Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings) {
+    constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U; // plots of a million commands take 10 MB
+    std::error_code none;                                           // of a pipe, whose size nobody knows
+    if (const std::uintmax_t size = std::filesystem::file_size(file, none); !none && size > most_bytes) {
+        throw Error(fmt::format("the file has {:.1f} GB; plots are read up to 1 GiB",
+                                1e-9 * static_cast<double>(size)),
+                    file);
+    }
     return read_hpgl(read_file(file), file, settings);
 }
 

@@ -55,7 +55,7 @@ read_hpgl(std::string_view bytes, const std::filesystem::path& file, const Reade
 /// is, and each command that is left out, with how often and why.
 [[nodiscard]] std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file);
 
-/// Reads the file itself. Throws Error if it cannot be read, too.
+/// Reads the file itself. Throws Error if it cannot be read, or is larger than 1 GiB, too.
 [[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings = {});
 
 } // namespace millwright::plot

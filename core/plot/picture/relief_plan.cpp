@@ -1,6 +1,7 @@
 #include "core/plot/picture/relief_plan.h"
 
 #include "core/base/error.h"
+#include "core/plot/standing_tabs.h"
 
 #include <fmt/format.h>
 
@@ -11,21 +12,28 @@ namespace millwright::plot {
 
 namespace {
 
+/// How much deeper than its end a tip has its whole width: 0 for a flat one.
+double taper_of(const ToolTip& tip) {
+    return rise(tip, radius(tip));
+}
+
 CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     const ReliefSettings& relief = plan.relief;
     if (relief.tip.kind == TipKind::point) {
         throw Error("a point without a diameter cuts no frame", {}, "name the tool, as ball:1.0");
     }
     Level level;
-    level.depth = *plan.plate;
+    const double below = plan.through ? taper_of(relief.tip) : 0.0;
+    level.depth = *plan.plate + below;
     const double per_pass = relief.roughing ? relief.roughing->depth_per_pass : relief.tip.diameter / 2.0;
     constexpr double most_passes = 1e4;
     level.passes = static_cast<int>(std::clamp(std::ceil(level.depth / per_pass), 1.0, most_passes));
     level.cutting = relief.cutting;
     level.plunging = relief.plunging;
     level.tabs = plan.tabs;
+    level.tabs.height += below; // so that they stand as high above the underside
     CutSettings settings;
-    settings.levels = {level};
+    settings.levels = with_standing_tabs({level}, relief.tip.diameter);
     settings.safe_height = relief.safe_height;
     settings.change_position.z() = std::max(settings.change_position.z(), settings.safe_height);
     return cut_path({frame(field, relief.tip.diameter, plan.frame_margin)}, settings);
@@ -65,6 +73,29 @@ CutPath relief_path(const HeightField& field, const ReliefPlan& plan, const Prog
         path.insert(path.end(), around.begin(), around.end());
     }
     return path;
+}
+
+std::optional<Diagnostic> frame_notice(const ReliefPlan& plan) {
+    const double below = plan.plate ? taper_of(plan.relief.tip) : 0.0;
+    if (!(below > 0.0)) {
+        return std::nullopt;
+    }
+    if (plan.through) {
+        return Diagnostic{
+            {},
+            fmt::format("the frame goes to {:.3f} mm, {:.3f} mm below the plate, so that the tool "
+                        "has its whole width at the underside",
+                        *plan.plate + below,
+                        below),
+            "lay something under the plate that may be cut"};
+    }
+    return Diagnostic{{},
+                      fmt::format("the tip of the tool has no width at the underside of the plate: there a "
+                                  "flange of up to {:.3f} mm stays around the part",
+                                  radius(plan.relief.tip)),
+                      fmt::format("take a flat tool, or let cuts go through the plate: {:.3f} mm deeper the "
+                                  "part is free to its full size",
+                                  below)};
 }
 
 } // namespace millwright::plot

@@ -29,6 +29,12 @@ private:
         std::shared_ptr<const Evaluation> evaluation;
         bool exact = false;
     };
+    /// The path of the strategy and what it was made from.
+    struct HeldPath {
+        std::shared_ptr<const Evaluation> evaluation;
+        std::shared_ptr<const Evaluation> over; ///< whose grid it takes
+        bool exact = false;
+    };
     using HeldGrids = std::array<Held, every_grid_method.size()>; ///< by GridMethod
     /// What a plan was made from.
     struct Source {
@@ -40,21 +46,27 @@ private:
         std::optional<Source> source; ///< nothing where the project had faults
         Plan plan;
         HeldGrids held;
+        HeldPath path;
         std::shared_ptr<const Evaluation> program_of; ///< the evaluation that the program was made from
     };
 
     void begin(const Project& project, const Folders& folders);
     void keep_grids(const State& last);
+    void keep_path(const State& last);
     void keep_weight(const State& last);
     void keep_program(const State& last);
     void coarse(const Publish& publish, const Progress& progress);
     void exact(const Publish& publish, const Progress& progress);
+    void compare(const Progress& progress);
     void carry_over(GridMethod method, const Progress& progress);
     void measure_uniform(int samples, const Progress& progress);
     void improve(GridMethod method, Effort effort, const Progress& progress);
     void add_weight(const Progress& progress);
+    void add_path(int samples, const Progress& progress);
     void add_program_of_chosen(const Progress& progress);
+    void drop_program();
     void hold(GridMethod method, Held found);
+    void hold(HeldPath found);
 
     [[nodiscard]] const Held& held(GridMethod method) const {
         return now_.held[static_cast<std::size_t>(method)];

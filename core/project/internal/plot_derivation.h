@@ -5,6 +5,7 @@
 #include "core/project/plot_work.h"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace millwright::project {
@@ -19,8 +20,12 @@ public:
     void make_path();
     /// None where nothing is cut, or where a point cuts.
     void make_look();
+    /// Notes the speeds that the machine does not reach.
+    void check_speeds();
     /// Into `folder`.
     void make_program(const std::filesystem::path& folder);
+    /// How long the drawing takes without filling, order and links; says in a notice why it cannot be run.
+    void time_as_drawn();
     [[nodiscard]] bool wants_program() const { return result_.path->size() <= most_points_at_once; }
 
 private:
@@ -29,7 +34,9 @@ private:
     void cut_strokes(const plot::Strokes& drawn, const Vec2& end);
     /// Compensated, filled, ordered and linked, for a tool that comes from the origin and goes to `end`.
     [[nodiscard]] plot::Strokes plan_strokes(const plot::Strokes& drawn, const Vec2& end);
+    [[nodiscard]] plot::CutPath placed(plot::CutPath path) const;
     void use(plot::CutPath path);
+    void note(std::optional<Diagnostic> notice);
     [[nodiscard]] plot::CutSettings cut_of(std::vector<plot::Level> levels) const;
     [[nodiscard]] std::vector<plot::Level> levels_of(const plot::Strokes& strokes) const;
 
@@ -37,6 +44,7 @@ private:
     const PlotSettings& settings_;
     const std::filesystem::path& assets_;
     const Progress& progress_;
+    plot::CutPath as_drawn_; ///< of strokes
 };
 
 } // namespace millwright::project

@@ -10,6 +10,9 @@ namespace millwright::project {
 /// The moves in the work, nothing between them, `shift` across.
 [[nodiscard]] gcode::PreviewPath cuts_of(const plot::CutPath& path, const Vec2& shift);
 
+/// Those of one tool.
+[[nodiscard]] gcode::PreviewPath cuts_with(const plot::CutPath& path, int tool);
+
 /// The moves in the air.
 [[nodiscard]] gcode::PreviewPath travel_of(const plot::CutPath& path);
 

@@ -147,5 +147,23 @@ TEST(PlotProgram, OfMorePointsThanMemoryIsKeptForIsRefused) {
     }
 }
 
+TEST(SpeedsNotReached, TellTheFirstAndHowManyThereAre) {
+    const auto machine = kinematics::read_machine("assets/machines/forming-table.json"); // 10 mm/s in X and Y
+    plot::CutPath path = square_and_hole();
+    EXPECT_FALSE(speeds_not_reached(path, machine));
+    for (plot::CutPoint& point : path) {
+        point.speed *= point.move == plot::CutMove::cut ? 2.4 : 1.0;
+    }
+    const auto found = speeds_not_reached(path, machine);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(
+        found->message,
+        "1440 mm/min is more than forming table reaches: its axis X does 600 mm/min; so it is with 7 moves "
+        "more");
+    // Along the diagonal each axis takes its part of 14 mm/s.
+    EXPECT_FALSE(speeds_not_reached({{.at = {0, 0, 0}}, {.at = {5, 5, 0}, .speed = 14.0}}, machine));
+    EXPECT_TRUE(speeds_not_reached({{.at = {0, 0, 0}}, {.at = {5, 5, 0}, .speed = 14.2}}, machine));
+}
+
 } // namespace
 } // namespace millwright::gcode

@@ -187,9 +187,32 @@ TEST(EllipticAdaptation, FollowsAWeightThatAPersonGave) {
 TEST(EllipticAdaptation, WarnsOfAWeightThatIsNotPositive) {
     const PoleErrorModel model({});
     EllipticAdaptation adaptation(model, Grid::uniform(25, 25), quick(), weight_w4());
-    EXPECT_NE(adaptation.state().note.find("not positive at 337 of 625 nodes"), std::string::npos);
+    EXPECT_NE(adaptation.state().warning.find("not positive at 337 of 625 nodes"), std::string::npos);
     adaptation.advance(Progress());
-    EXPECT_NE(adaptation.state().note.find("not positive at 337 of 625 nodes"), std::string::npos);
+    EXPECT_NE(adaptation.state().warning.find("not positive at 337 of 625 nodes"), std::string::npos);
+}
+
+/// Later rounds start from grids that a person never sees.
+TEST(EllipticAdaptation, CountsNodesOfTheStartGridInEveryRound) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.max_iterations = 5;
+    settings.max_rounds = 4;
+    EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings, expression_weight("u-0.5", 16, 16));
+    const ImproverState end = run(adaptation, Progress());
+    EXPECT_GT(end.round, 1);
+    EXPECT_NE(end.warning.find("not positive at 128 of 256 nodes of the start grid"), std::string::npos)
+        << end.warning;
+}
+
+// It stays said, whatever else there is to say of a step or the end.
+TEST(EllipticAdaptation, WarnsOfAWeightOfTheErrorThatIsNotPositive) {
+    const PoleErrorModel model({});
+    EllipticAdaptation adaptation(
+        model, Grid::uniform(25, 25), quick(), [](const WeightPtr&) { return weight_w4(); });
+    EXPECT_EQ(adaptation.state().warning, "");
+    const ImproverState end = run(adaptation, Progress());
+    EXPECT_NE(end.warning.find("not positive at"), std::string::npos) << end.note;
 }
 
 TEST(EllipticAdaptation, DoesAsManyIterationsAStepAsAskedWithTheSameResult) {

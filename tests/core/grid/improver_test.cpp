@@ -1,9 +1,16 @@
 #include "core/grid/improver.h"
 
 #include "core/base/error.h"
+#include "core/grid/chain_optimiser.h"
+#include "core/grid/elliptic_adaptation.h"
+#include "core/grid/redistribution.h"
+#include "core/grid/track_optimiser.h"
+#include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <stop_token>
 
 namespace millwright::grid {
@@ -30,6 +37,66 @@ private:
 TEST(Run, AdvancesUntilThereIsNothingMoreToDo) {
     Counting improver(5);
     EXPECT_EQ(run(improver, Progress()).round, 5);
+}
+
+/// A step tells no more than what is done after it, the whole is done at the end only. The looks at it that
+/// differ.
+std::set<double> told_by(GridImprover& improver) {
+    std::set<double> told;
+    double last = 0.0;
+    const Progress progress(
+        [&](const Progress::Report& now) {
+            EXPECT_LT(now.fraction, 1.0) << now.text;
+            told.insert(last = now.fraction);
+        },
+        {});
+    double before = 0.0;
+    while (improver.advance(progress)) {
+        EXPECT_GE(improver.state().done, before);
+        EXPECT_LT(improver.state().done, 1.0);
+        EXPECT_LE(last, improver.state().done + 1e-12) << improver.state().note;
+        before = improver.state().done;
+    }
+    EXPECT_EQ(improver.state().done, 1.0);
+    return told;
+}
+
+double largest_jump(const std::set<double>& told) {
+    double largest = 0.0;
+    double last = 0.0;
+    for (const double fraction : told) {
+        largest = std::max(largest, fraction - last);
+        last = fraction;
+    }
+    return std::max(largest, 1.0 - last);
+}
+
+const SpikeErrorModel spike({.width = 0.02});
+
+TEST(Improver, TheChainTellsTrulyHowFarItIs) {
+    ChainSettings settings;
+    settings.tracks.gap_allowance = 2.0;
+    settings.first_descent = 40;
+    settings.later_descents = 20;
+    ChainOptimiser chain(spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
+    const std::set<double> told = told_by(chain);
+    EXPECT_GT(told.size(), 100U);
+    EXPECT_LT(largest_jump(told), 0.2);
+}
+
+TEST(Improver, TheTracksTellTrulyHowFarTheyAre) {
+    TrackSettings settings;
+    settings.lattice = 60;
+    settings.gap_allowance = 2.0;
+    TrackOptimiser tracks(spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
+    EXPECT_GT(told_by(tracks).size(), 20U);
+}
+
+TEST(Improver, TheOthersTellTrulyHowFarTheyAre) {
+    EllipticAdaptation elliptic(spike, Grid::uniform(12, 12), EllipticAdaptationSettings{});
+    EXPECT_GT(told_by(elliptic).size(), 3U);
+    Redistribution shares(spike, Grid::uniform(8, 10), TrackDirection::along_v, RedistributionSettings{});
+    EXPECT_GT(told_by(shares).size(), 3U);
 }
 
 TEST(Run, EndsWhenCancelled) {

@@ -47,6 +47,7 @@ TEST_F(ArmFileTest, SaysWhereAWrongFileIsWrong) {
     EXPECT_THAT(reason("\"a\": 650", "\"b\": 650"), HasSubstr("arm.json:"));
     EXPECT_THAT(reason("[-200, 60]", "[60, -200]"), HasSubstr("lower limit is not below"));
     EXPECT_THAT(reason("millwright-arm", "something"), HasSubstr("not an arm file"));
+    EXPECT_THAT(reason("\"name\": \"2\"", "\"name\": \"1\""), HasSubstr("another joint is called so"));
     EXPECT_THAT(reason("revolute", "round"), HasSubstr("neither \"revolute\" nor \"prismatic\""));
     EXPECT_THAT(reason("\"beta\": 250", "\"beta\": -1"), HasSubstr("sides longer than 0"));
     EXPECT_THAT(reason("\"scale\": 0.01", "\"scale\": 0"), HasSubstr("drive 2 needs a finite scale"));

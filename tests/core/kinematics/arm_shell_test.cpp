@@ -1,6 +1,7 @@
 #include "core/kinematics/arm_shell.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
 #include "tests/support/arms.h"
 
@@ -80,6 +81,77 @@ TEST(ReachShell, ItsBorderIsBetweenReachedAndNotReached) {
 
 TEST(ReachShell, IsForArmsOfThatKind) {
     EXPECT_THROW((void)reach_shell(test::arm("scara")), Defect);
+}
+
+struct Extent {
+    Vec2 low = Vec2::Constant(1e9), high = Vec2::Constant(-1e9);
+};
+
+Extent extent_of(const ReachShell& shell) {
+    Extent extent;
+    for (const auto& border : shell.border) {
+        for (const Vec2& point : border) {
+            extent.low = extent.low.cwiseMin(point);
+            extent.high = extent.high.cwiseMax(point);
+        }
+    }
+    return extent;
+}
+
+TEST(SampledShell, OfAScaraIsItsRing) {
+    const ArmModel arm = test::arm("scara");
+    const auto shell = sampled_shell(arm);
+    ASSERT_TRUE(shell.has_value());
+    ASSERT_EQ(shell->border.size(), 1U);
+    const double folded = 145.0 * pi / 180.0;
+    const double nearest = std::sqrt(325.0 * 325.0 + 275.0 * 275.0 + 2.0 * 325.0 * 275.0 * std::cos(folded));
+    const Extent extent = extent_of(*shell);
+    EXPECT_NEAR(extent.low.x(), nearest, 6.0);
+    EXPECT_NEAR(extent.high.x(), 600.0, 6.0);
+    EXPECT_NEAR(extent.low.y(), 150.0, 6.0);
+    EXPECT_NEAR(extent.high.y(), 350.0, 6.0);
+    EXPECT_DOUBLE_EQ(shell->first, arm.joint(0).min);
+    EXPECT_DOUBLE_EQ(shell->last, arm.joint(0).max);
+    EXPECT_EQ(shell->border.front().front(), shell->border.front().back()); // closed
+}
+
+TEST(SampledShell, OfAnArmWithAClosedFormIsThatOneNearly) {
+    const ArmModel arm = test::arm("motoman-l3");
+    const auto sampled = sampled_shell(arm);
+    ASSERT_TRUE(sampled.has_value());
+    const Extent one = extent_of(*sampled), other = extent_of(reach_shell(arm));
+    EXPECT_LT((one.low - other.low).cwiseAbs().maxCoeff(), 30.0);
+    EXPECT_LT((one.high - other.high).cwiseAbs().maxCoeff(), 30.0);
+    int near = 0, all = 0;
+    for (const auto& border : sampled->border) {
+        for (const Vec2& point : border) {
+            const auto reached = [&](double x, double y) { return wrist_reaches(arm, point + Vec2(x, y)); };
+            const bool in =
+                reached(30.0, 0.0) || reached(-30.0, 0.0) || reached(0.0, 30.0) || reached(0.0, -30.0);
+            const bool out =
+                !(reached(30.0, 0.0) && reached(-30.0, 0.0) && reached(0.0, 30.0) && reached(0.0, -30.0));
+            near += in && out ? 1 : 0;
+            ++all;
+        }
+    }
+    EXPECT_GT(near, 0.98 * all); // the true border is within 30 of 3,000 mm
+}
+
+TEST(SampledShell, HoldsTheWristOfAnArmWithSixAxes) {
+    const ArmModel arm = test::arm("six-axis");
+    const auto shell = sampled_shell(arm);
+    ASSERT_TRUE(shell.has_value());
+    const Extent extent = extent_of(*shell);
+    std::mt19937 random(5);
+    for (int n = 0; n < 2000; ++n) {
+        JointPositions q = test::random_joints(random, arm);
+        q[0] = 0.0;
+        const Vec3 wrist = base_T_joints(arm, q).back().translation();
+        const double slack = 0.02 * (extent.high - extent.low).maxCoeff();
+        EXPECT_GT(wrist.z(), extent.low.y() - slack);
+        EXPECT_LT(wrist.z(), extent.high.y() + slack);
+        EXPECT_LT(std::hypot(wrist.x(), wrist.y()), std::max(extent.high.x(), -extent.low.x()) + slack);
+    }
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "core/gcode/posts/release.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/job_log.h"
+#include "core/machine/run_from_line.h"
 #include "tests/core/machine/drivers/grbl/wire_driver.h"
 #include "tests/support/jobs.h"
 
@@ -251,6 +252,22 @@ TEST(Dispatcher, RunsAJobAgainFromWhereTheMachineWasStopped) {
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {});
     EXPECT_EQ(outcome.end, JobEnd::done);
     EXPECT_EQ(outcome.log_file.filename(), "test-0002.jsonl");
+}
+
+TEST(Dispatcher, LogsTheLineThatAnApproachLeadsTo) {
+    Bench bench;
+    constexpr int from = 40;
+    const Job rest = job_from_line(bench.job, from, {});
+    VirtualMachine machine(rest.program->start, {}, bench.clock);
+    const ReadLog log =
+        read_job_log(Dispatcher(machine, bench.clock, bench.folder.path() / "logs").run(rest, {}).log_file);
+    ASSERT_GT(log.records.size(), 10U);
+    int before = from;
+    for (const LogRecord& record : log.records) {
+        EXPECT_GE(record.line, before);
+        before = record.line;
+    }
+    EXPECT_GT(before, from);
 }
 
 TEST(Dispatcher, MovesNothingIfTheLogFolderCannotBeMade) {

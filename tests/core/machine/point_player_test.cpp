@@ -34,8 +34,11 @@ public:
         std::vector<double> times;
         std::string says;
         std::optional<std::string> lost;
+        std::string answer{};       ///< to each record; empty: none
+        double answers_after = 0.0; ///< s
+        std::size_t refused = 0;    ///< the record that is not obeyed, from 1
     };
-    KeptLink(Kept& kept, const Clock& clock) : kept_(kept), clock_(clock) {}
+    KeptLink(Kept& kept, Clock& clock) : kept_(kept), clock_(clock) {}
 
     [[nodiscard]] std::string name() const override { return "kept"; }
     void open() override {}
@@ -43,14 +46,23 @@ public:
         kept_.records.emplace_back(bytes);
         kept_.times.push_back(clock_.now());
     }
-    [[nodiscard]] std::string read() override { return std::exchange(kept_.says, {}); }
-    void wait(double /*seconds*/) override {}
+    [[nodiscard]] std::string read() override {
+        const bool due = !kept_.records.empty() && answered_ < kept_.records.size() &&
+                         clock_.now() >= kept_.times.back() + kept_.answers_after;
+        if (due && !kept_.answer.empty()) {
+            answered_ = kept_.records.size();
+            kept_.says += answered_ == kept_.refused ? "no\n" : kept_.answer + "\n";
+        }
+        return std::exchange(kept_.says, {});
+    }
+    void wait(double seconds) override { clock_.wait(std::min(seconds, 0.001)); }
     [[nodiscard]] std::optional<std::string> lost() const override { return kept_.lost; }
     void close() noexcept override {}
 
 private:
     Kept& kept_;
-    const Clock& clock_;
+    Clock& clock_;
+    std::size_t answered_ = 0;
 };
 
 /// The points of the thesis: 36 from (0, 0) to (10, 10).
@@ -149,6 +161,70 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
     });
     EXPECT_EQ(goes.kept.records.size(), 7U);
     EXPECT_THAT(gone.sentence, HasSubstr("the link was lost: unplugged"));
+}
+
+TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
+    const PlayerOptions asks = {.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok"}};
+    Bench slow(asks);
+    slow.kept.answer = "ok";
+    slow.kept.answers_after = 0.3;
+    const PlayStatus status = slow.player.play({});
+    EXPECT_EQ(status.state, PlayState::done) << status.sentence;
+    EXPECT_EQ(status.points, 36);
+    ASSERT_EQ(slow.kept.times.size(), 36U);
+    for (std::size_t n = 1; n < slow.kept.times.size(); ++n) {
+        EXPECT_GE(slow.kept.times[n] - slow.kept.times[n - 1], 0.3);
+    }
+    EXPECT_GT(status.jitter.most, 0.2);
+
+    Bench quick(asks);
+    quick.kept.answer = "ok";
+    quick.kept.answers_after = 0.01;
+    EXPECT_EQ(quick.player.play({}).state, PlayState::done);
+    EXPECT_NEAR(quick.kept.times.back() - quick.kept.times.front(), 1.4, 1e-9); // in its own time
+}
+
+TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
+    Bench silent({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
+    const PlayStatus status = silent.player.play({});
+    EXPECT_EQ(status.state, PlayState::emergency_stop);
+    EXPECT_EQ(status.sentence, "the table did not answer point 1 within 1 s");
+    EXPECT_EQ(silent.kept.records.size(), 1U);
+    EXPECT_EQ(status.sent, 1);
+    EXPECT_EQ(status.points, 0);
+
+    Bench single({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
+    single.kept.answer = "ok";
+    single.kept.answers_after = 0.01;
+    bool said = false;
+    const PlayStatus twice = single.player.play({}, [&](const PlayStatus& now) {
+        if (now.points >= 7 && !std::exchange(said, true)) {
+            single.kept.says = "ok\n";
+        }
+    });
+    EXPECT_EQ(twice.sentence, "the table answered a point that it was not sent");
+}
+
+TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
+    Bench bench({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok"}});
+    bench.kept.answer = "ok";
+    bench.kept.refused = 20;
+    const PlayStatus status = bench.player.play({});
+    EXPECT_EQ(status.sentence, "the table said 'no'");
+    EXPECT_EQ(status.sent, 20);
+    EXPECT_EQ(status.points, 19);
+    EXPECT_NEAR(status.position.x(), 18.0 * 10.0 / 35.0, 1e-12);
+}
+
+// Z stays 0 in these points, so that a record may leave it out; Y changes.
+TEST(PointPlayer, RefusesRecordsThatLeaveOutWhatChanges) {
+    EXPECT_NO_THROW(Bench({.period = 0.04, .format = {.pattern = "{X} {Y}"}}));
+    try {
+        const Bench bench({.period = 0.04, .format = {.pattern = "{X} {Z}"}});
+        ADD_FAILURE() << "it is taken";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("does not tell Y, which the points change"));
+    }
 }
 
 TEST(PointPlayer, PlaysForTheEyesWithoutALink) {

@@ -63,6 +63,19 @@ TEST(Recovery, TellsARunningJobFromOneWhoseProgramWasKilled) {
                           "next 48 nobody knows; the others were never sent"));
 }
 
+TEST(Recovery, AJobThatEndedInItsApproachGoesOnFromItsLine) {
+    test::ScratchFolder folder;
+    LogStart start = start_of(100);
+    start.from_line = 30;
+    JobLog log(folder / "logs", "part");
+    log.write(start);
+    log.write(record(LogEvent::ahead, 0, 1, 7));
+    log.write(record(LogEvent::executed, 3, 4));
+    EXPECT_EQ(job_story(log.file()).next_line, 30);
+    log.write(record(LogEvent::executed, 9, 33));
+    EXPECT_EQ(job_story(log.file()).next_line, 33);
+}
+
 TEST(Recovery, RemembersThatAPersonHasSeenWhatBecameOfAJob) {
     Bench bench;
     bench.log.reset();

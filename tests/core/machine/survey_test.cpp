@@ -56,6 +56,30 @@ TEST(Survey, SaysWhatStandsAgainstAProgram) {
     EXPECT_TRUE(faults_of(found, {}, "a.ngc").empty());
 }
 
+/// A controller without homing tells how long its axes are, not where they begin.
+TEST(Survey, SaysWhatIsLongerThanATravelWithoutAnOrigin) {
+    MachineLimits limits;
+    limits.axes = {{.letter = 'X', .min = {}, .max = {}, .speed = {}, .travel = 200.0}};
+    const auto faults = [&limits](std::string_view text, double start) {
+        kinematics::AxisPositions at = kinematics::AxisPositions::Zero(3);
+        at[0] = start;
+        return faults_of(survey(text, "a.ngc", {Dialect::grbl, xyz, at, {}}), limits, "a.ngc");
+    };
+    const auto far = faults("G21\nG0 X99999\nM2\n", 0.0);
+    ASSERT_EQ(far.size(), 1U);
+    EXPECT_EQ(far[0].place.line, 2);
+    EXPECT_THAT(far[0].message,
+                HasSubstr("axis X would go from 0.000 mm to 99999.000 mm in machine coordinates, "
+                          "99999.000 mm, and its whole travel is 200.000 mm"));
+    const auto back = faults("G21\nG0 X150\nG0 Y1\nG0 X-50.01\nM2\n", 0.0);
+    ASSERT_EQ(back.size(), 1U);
+    EXPECT_EQ(back[0].place.line, 4);
+    EXPECT_THAT(back[0].message, HasSubstr("from 150.000 mm to -50.010 mm"));
+    EXPECT_TRUE(faults("G21\nG0 X150\nG0 X-50\nM2\n", 0.0).empty());
+    EXPECT_TRUE(faults("G21\nG0 X1150\nG0 X950\nM2\n", 1000.0).empty());
+    EXPECT_EQ(faults("G21\nG0 X1150\nG0 X950\nM2\n", 1150.1).size(), 1U);
+}
+
 TEST(Survey, SaysWhatAPersonShouldKnow) {
     MachineLimits limits;
     limits.axes = {{'X', {}, {}, 50.0}};

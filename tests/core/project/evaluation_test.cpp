@@ -107,7 +107,7 @@ TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
     net.point(1, 1) = {30, 20, 0};
     const Workpiece sheet{geometry::BezierPatch(net), test::machine("ac-table")};
     const Evaluation found = evaluate(sheet, uniform(7, 3), 4, Progress());
-    EXPECT_NEAR(found.track_gap, 10.0, 1e-9);
+    EXPECT_NEAR(found.track_gap.value(), 10.0, 1e-9);
     EXPECT_NEAR(found.path_length, 7 * 40.0 + 6 * 10.0, 1e-9);
     EXPECT_NEAR(found.closest.max, 0.0, 1e-9);
 }

@@ -1,6 +1,7 @@
 #include "core/project/kinematic_study.h"
 
 #include "core/base/error.h"
+#include "core/project/internal/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +20,13 @@ constexpr double rounded_up = 1.0 + 1e-9; // of sums whose order differs
 
 const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
     return *std::ranges::find(rows, method, &StudyRow::method);
+}
+
+TEST(Sentences, StandApart) {
+    EXPECT_EQ(with_sentence("", "Second."), "Second.");
+    EXPECT_EQ(with_sentence("All nodes at once, iteration 150", "Second."),
+              "All nodes at once, iteration 150. Second.");
+    EXPECT_EQ(with_sentence("First.", "Second."), "First. Second.");
 }
 
 TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {

@@ -1,6 +1,7 @@
 #include "core/project/pipeline.h"
 
 #include "core/base/error.h"
+#include "core/project/cut_study.h"
 #include "core/project/project_file.h"
 
 #include <gmock/gmock.h>
@@ -168,6 +169,53 @@ TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {
     pipeline.request(project);
     pipeline.wait_idle();
     EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST_F(PipelineTest, AFaultOfAGridThatIsOnlyComparedLeavesTheProgram) {
+    Project project = sample("dome", 5);
+    project.grid.method = GridMethod::tracks;
+    project.grid.elliptic.weight = WeightSource::expression;
+    project.grid.elliptic.expression = "1/(u-u)";
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    ASSERT_TRUE(published->failure);
+    EXPECT_NE(published->plan.program, nullptr);
+    EXPECT_EQ(published->plan.weight, nullptr);
+    EXPECT_TRUE(published->plan.failure(GridMethod::elliptic));
+    EXPECT_EQ(published->plan.elliptic, nullptr);
+    project.grid.method = GridMethod::uniform; // the other compared grid is made all the same
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_NE(pipeline.latest()->plan.optimised, nullptr);
+    EXPECT_TRUE(pipeline.latest()->plan.failure(GridMethod::elliptic));
+}
+
+// What a comparison marks on another grid is what the cutter would do if that were the program's.
+TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
+    Project project = sample("dome", 6);
+    project.grid.method = GridMethod::tracks;
+    project.tool.cutter = toolpath::CutterKind::ball;
+    project.tool.diameter_mm = 40.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    ASSERT_TRUE(published->exact);
+    const Plan& plan = published->plan;
+    EXPECT_EQ(plan.cut_of(project, plan.optimised.get()), plan.cut);
+    const auto beside = plan.cut_of(project, plan.uniform.get());
+    ASSERT_NE(beside, nullptr);
+    EXPECT_NE(plan.cut_of(project, plan.elliptic.get()), nullptr);
+    project.grid.method = GridMethod::uniform;
+    Plan uniform = make_plan(project, folders, Progress(), Scope::program);
+    add_cut_study(uniform, project, Progress());
+    EXPECT_EQ(beside->deepest, uniform.cut->deepest);
+    ASSERT_EQ(beside->bites.size(), uniform.cut->bites.size());
+    EXPECT_GT(beside->bites.size(), 0U);
+    for (std::size_t n = 0; n < beside->bites.size(); ++n) {
+        EXPECT_EQ(beside->bites[n].bite.depth, uniform.cut->bites[n].bite.depth);
+        EXPECT_EQ(beside->bites[n].line, 0);
+    }
 }
 
 TEST_F(PipelineTest, AFaultyFieldStillShowsTheSurface) {

@@ -1,6 +1,7 @@
 #include "core/project/plan.h"
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/project/project_file.h"
 #include "core/project/report.h"
@@ -65,6 +66,19 @@ TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
     EXPECT_GT(by_uniform.trajectory->duration(), 0.0);
 }
 
+// Neither way of two bells gains on a grid that has 15 degrees a move at the most: nothing was placed,
+// nothing is told.
+TEST(Plan, TheNoteOfAKeptGridTellsOfNoAddedPoints) {
+    Project project = sample("two-bell", 8);
+    project.sequencing.largest_step_deg = 15.0;
+    const Plan plan = make_plan(project, folders, Progress());
+    for (const auto& found : {plan.elliptic, plan.optimised}) {
+        ASSERT_EQ(found->outcome.status, grid::ImproverStatus::no_gain);
+        EXPECT_GT(std::ssize(found->toolpath.points), 64);
+        EXPECT_THAT(found->outcome.note, testing::Not(HasSubstr("sequencing added")));
+    }
+}
+
 TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
     Project project = sample("two-bell", 8);
     EXPECT_EQ(make_plan(project, folders, Progress()).chain, nullptr);
@@ -73,10 +87,62 @@ TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
     const Plan plan = make_plan(project, folders, Progress());
     ASSERT_NE(plan.chain, nullptr);
     EXPECT_LT(plan.chain->closest.mean, plan.optimised->closest.mean);
-    EXPECT_LE(plan.chain->track_gap, 1.15 * plan.uniform->track_gap);
+    EXPECT_LE(plan.chain->track_gap.value(), 1.15 * plan.uniform->track_gap.value());
     EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Whole chain"));
     const auto report = nlohmann::json::parse(report_text(project, plan));
     EXPECT_NEAR(report.at("error").at("chain").at("closest").at("mean"), plan.chain->closest.mean, 1e-6);
+}
+
+// What is wrong with a grid that is only compared is its own.
+TEST(Plan, AComparedGridThatFailsLeavesTheProgram) {
+    Project project = sample("dome", 6);
+    project.grid.method = GridMethod::tracks;
+    project.grid.elliptic.weight = WeightSource::expression;
+    project.grid.elliptic.expression = "1/(u-u)";
+    const Plan plan = make_plan(project, folders, Progress());
+    EXPECT_NE(plan.program, nullptr);
+    EXPECT_EQ(plan.elliptic, nullptr);
+    EXPECT_EQ(plan.weight, nullptr);
+    ASSERT_TRUE(plan.failure(GridMethod::elliptic));
+    EXPECT_FALSE(plan.failure(GridMethod::tracks));
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    EXPECT_EQ(report.at("error").at("adapted").at("failed"), to_text(*plan.failure(GridMethod::elliptic)));
+    EXPECT_GT(report.at("error").at("optimised").at("points"), 0);
+    project.grid.method = GridMethod::elliptic; // now the program needs it
+    EXPECT_NE(failure_of(project), "no failure");
+}
+
+// Said wherever the grid is, also where the uniform one was kept.
+TEST(Plan, AWeightThatIsNotPositiveIsToldWithTheGrid) {
+    Project project = sample("dome", 8);
+    for (const char* formula : {"u - 0.5", "0*err - 1"}) {
+        project.grid.elliptic.weight = WeightSource::expression;
+        project.grid.elliptic.expression = formula;
+        const Plan plan = make_plan(project, folders, Progress());
+        ASSERT_NE(plan.elliptic, nullptr) << formula;
+        EXPECT_THAT(plan.elliptic->outcome.warning, HasSubstr("not positive at")) << formula;
+        EXPECT_EQ(plan.optimised->outcome.warning, "");
+        const auto report = nlohmann::json::parse(report_text(project, plan));
+        EXPECT_EQ(report.at("error").at("adapted").at("warning"), plan.elliptic->outcome.warning);
+    }
+}
+
+TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
+    GridInput input = sample("dome", 1000).grid;
+    constexpr std::size_t plenty = 64'000'000'000;
+    constexpr std::size_t little = 100'000'000;
+    EXPECT_FALSE(memory_fault(GridMethod::elliptic, input, plenty));
+    EXPECT_FALSE(memory_fault(GridMethod::elliptic, input, std::nullopt));
+    EXPECT_FALSE(memory_fault(GridMethod::tracks, input, little));
+    for (const GridMethod method : {GridMethod::elliptic, GridMethod::harmonic}) {
+        const auto fault = memory_fault(method, input, little);
+        ASSERT_TRUE(fault);
+        EXPECT_THAT(fault->message, HasSubstr("more than half of the 100 MB that are free"));
+        EXPECT_THAT(fault->hint, HasSubstr("--any-memory"));
+    }
+    const auto free = free_memory();
+    ASSERT_TRUE(free);
+    EXPECT_GT(*free, 1'000'000U);
 }
 
 TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {

@@ -279,5 +279,28 @@ TEST(PlotWork, WhatCannotBeCutIsAFailureWithItsReason) {
     EXPECT_TRUE(made->program.empty());
 }
 
+TEST(PlotWork, SpeedsThatTheMachineDoesNotReachAreANotice) {
+    PlotInput hard{everyday, {}};
+    const std::size_t of_the_reader = derived(hard)->notices.size();
+    hard.settings.level.cutting = 24.0; // 1440 mm/min, of a chart for hardwood
+    const auto made = derived(hard);
+    ASSERT_EQ(made->notices.size(), of_the_reader + 1);
+    EXPECT_THAT(to_text(made->notices.back()),
+                HasSubstr("1440 mm/min is more than forming table reaches: its axis"));
+    hard.settings.machine = "router-xyz";
+    EXPECT_EQ(derived(hard)->notices.size(), of_the_reader);
+}
+
+TEST(PlotWork, WhatTheSettingsLeaveOpenIsTold) {
+    PlotInput relief = picture_input(PictureUse::relief);
+    relief.settings.size = {.width = 40.0};
+    relief.settings.tip = {.kind = plot::TipKind::ball, .diameter = 2.0};
+    relief.settings.step_over.reset();
+    const auto made = derived(relief);
+    EXPECT_NEAR(made->picture_size.x(), 40.0, 1e-9);
+    EXPECT_GT(made->picture_size.y(), 10.0);
+    EXPECT_NEAR(made->step_over, 0.2, 1e-12);
+}
+
 } // namespace
 } // namespace millwright::project

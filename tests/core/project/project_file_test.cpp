@@ -59,6 +59,7 @@ TEST(ProjectFile, WhatIsWrittenIsRead) {
     project.grid.elliptic.weight = WeightSource::expression;
     project.grid.elliptic.expression = "1 + u*v";
     project.grid.elliptic.sliding_boundary = false;
+    project.grid.elliptic.any_memory = true;
     project.grid.elliptic.mix = {.error = 0.5,
                                  .curvature = 2.0,
                                  .painted = 3.0,
@@ -190,6 +191,23 @@ TEST(ProjectFile, NetsMustBeRectangularAndFinite) {
         HasSubstr("surface: a surface needs"));
 }
 
+TEST(ProjectFile, ARegionOfAdaptationComesBackAndAFaultyOneIsRefused) {
+    Project project = project_from_preset("dome");
+    project.grid.elliptic.region = {{{0.1, 0.2}, {0.9, 0.25}, {0.5, 0.75}}, 7.5};
+    EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
+    project.grid.elliptic.region.outline.pop_back();
+    EXPECT_THROW((void)project_text(project), Error) << "two corners";
+    const auto with = [](const std::string& region) {
+        return R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
+        "surface": {"preset": "dome"}, "grid": {"elliptic": {"region": )" +
+               region + "}}}";
+    };
+    EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1]]})")), HasSubstr("3 to 200 corners"));
+    EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1], [2, 0]]})")), HasSubstr("outline[2]"));
+    EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1], [1, 0]], "border_mm": -1})")),
+                HasSubstr("border_mm"));
+}
+
 TEST(ProjectFile, AMissingFileIsNamed) {
     try {
         (void)read_project("no/such.json");
@@ -210,6 +228,33 @@ TEST(ProjectFile, AFaultyProjectIsNotWrittenAndTheOldFileStays) {
     project.name = "\xff";
     EXPECT_THROW(write_project(project, scratch / "part.json"), Error);
     EXPECT_EQ(read_file(scratch / "part.json"), before);
+}
+
+TEST(ProjectFile, OutlinesOfTrimmedPatchesAreKept) {
+    Project project = project_from_preset("dome");
+    project.surface.patches.push_back(project.surface.patches.front());
+    project.surface.trims = {{},
+                             {{{{0.1, 0.2}, {0.9, 0.2}, {0.5, 0.75}}, {{0.4, 0.3}, {0.5, 0.3}, {0.5, 0.4}}}}};
+    const std::string text = project_text(project);
+    EXPECT_EQ(project_from_text(text, "part.json").surface, project.surface);
+    EXPECT_EQ(project_text(project_from_text(text, "part.json")), text);
+    EXPECT_EQ(project_text(project_from_preset("dome")).find("trim"), std::string::npos)
+        << "files without outlines look as before";
+}
+
+TEST(ProjectFile, RefusesOutlinesThatAreNone) {
+    const auto fault_of_trim = [](const std::string& trim) {
+        return fault_in("{\"format\": \"millwright-project\", \"version\": 1, \"name\": \"a\", \"machine\": "
+                        "{\"file\": \"ac-table\"}, \"surface\": {\"patches\": [{\"points\": "
+                        "[[[0,0,0],[0,9,0]],[[9,0,0],[9,9,0]]], \"trim\": " +
+                        trim + "}]}}");
+    };
+    EXPECT_EQ(fault_of_trim("[[[0,0],[1,0],[1,1]]]"), "no fault");
+    EXPECT_EQ(fault_of_trim("[]"), "no fault");
+    EXPECT_THAT(fault_of_trim("[[[0,0],[1,0]]]"), HasSubstr("three corners"));
+    EXPECT_THAT(fault_of_trim("[[[0,0],[1.5,0],[1,1]]]"), HasSubstr("part.json:1:"));
+    EXPECT_THAT(fault_of_trim("[[[0,0],[1,0],[1]]]"), HasSubstr("part.json:1:"));
+    EXPECT_THAT(fault_of_trim("[[[0,0],[1,0],[1,1]], [[0,0]]]"), HasSubstr("three corners"));
 }
 
 } // namespace

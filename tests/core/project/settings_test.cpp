@@ -31,7 +31,10 @@ template <class Owner> void expect_sound(std::span<const NumberSetting<Owner>> s
 
 TEST(Settings, EveryNumberHasARangeThatHoldsItsDefault) {
     expect_sound(grid_numbers());
+    expect_sound(redistribution_numbers());
     expect_sound(elliptic_numbers());
+    expect_sound(region_numbers());
+    expect_sound(toolpath_numbers());
     expect_sound(tracks_numbers());
     expect_sound(chain_numbers());
     expect_sound(sequencing_numbers());

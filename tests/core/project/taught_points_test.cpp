@@ -54,7 +54,7 @@ TEST(TaughtPointsC6, WhatIsWrongIsToldWithItsPlace) {
     EXPECT_EQ(refusal(head + point("A", sound) + "]}"), "");
     EXPECT_THAT(refusal(head + point("A", sound) + "," + point("A", sound) + "]}"),
                 HasSubstr("points.json:4:"));
-    EXPECT_THAT(refusal(head + point("", sound) + "]}"), HasSubstr("no name of its own"));
+    EXPECT_THAT(refusal(head + point("", sound) + "]}"), HasSubstr("has no name"));
     EXPECT_THAT(
         refusal(head + point("A", "\"joints_deg\": [], \"straight\": false, \"speed_percent\": 50") + "]}"),
         HasSubstr("no sound joints"));

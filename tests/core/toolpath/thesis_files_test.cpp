@@ -1,6 +1,7 @@
 // The listing's result files (Parasilmongkol 1997), computed with an independent program.
 #include "core/toolpath/thesis_files.h"
 
+#include "core/base/error.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST(ObliqueView, HasTheScaleOfTheListing) {
     EXPECT_NEAR(ObliqueView(listing_samples(test::patch("dome"), 20)).scale(), 2.944258501924, 1e-9);
+}
+
+TEST(ObliqueView, HasNoScaleForPointsOnTheWrongSide) {
+    EXPECT_THROW(ObliqueView({Vec3::Zero()}), Error);
+    EXPECT_THROW(ObliqueView({Vec3(10.0, 0.0, -20.0)}), Error);
+    EXPECT_THROW(ObliqueView({Vec3(-10.0, 0.0, 20.0)}), Error);
 }
 
 TEST(SurfaceDat, HasTheReferenceRecords) {

@@ -87,6 +87,34 @@ TEST_F(ArmBenchTest, AJogThatIsNotWantedAnyMoreStops) {
     EXPECT_NEAR(bench_.joints()[0], 0.05, 1e-12);
 }
 
+TEST_F(ArmBenchTest, AHeldLineIsStraightHoweverSlowTheFramesAre) {
+    bench_.set_joints((kinematics::JointPositions(5) << 0.2, -1.2, 1.0, 0.3, 0.0).finished());
+    for (const Vec3& velocity : {Vec3(0.0, 0.0, -100.0), Vec3(100.0, 0.0, 0.0), Vec3(0.0, -100.0, 0.0)}) {
+        const Vec3 from = tip(), along = velocity.normalized();
+        for (int n = 0; n < 20; ++n) {
+            bench_.hold_line(velocity);
+            ASSERT_TRUE(bench_.advance(0.1)) << bench_.refusal();
+        }
+        EXPECT_NEAR(along.dot(tip() - from), 200.0, 1e-6) << bench_.refusal();
+        EXPECT_LT((tip() - from).cross(along).norm(), 1e-6);
+        EXPECT_FALSE(bench_.advance(0.1)); // it is wanted no more
+        bench_.move_tip_by(10.0 * along);
+        EXPECT_NEAR(along.dot(tip() - from), 210.0, 1e-6);
+        EXPECT_LT((tip() - from).cross(along).norm(), 1e-6);
+    }
+}
+
+TEST_F(ArmBenchTest, AHeldLineEndsAtTheBorderOfTheReachAndLeavesItNot) {
+    const Vec3 from = tip();
+    for (int n = 0; n < 100; ++n) {
+        bench_.hold_line(Vec3(100.0, 0.0, 0.0));
+        (void)bench_.advance(0.1);
+    }
+    EXPECT_FALSE(bench_.refusal().empty());
+    EXPECT_NEAR(tip().y(), from.y(), 1e-6);
+    EXPECT_NEAR(tip().z(), from.z(), 1e-6);
+}
+
 TEST_F(ArmBenchTest, StaysInsideTheLimitsAndSaysSo) {
     bench_.set_joint(0, 10.0);
     EXPECT_DOUBLE_EQ(bench_.joints()[0], bench_.arm().joint(0).max);

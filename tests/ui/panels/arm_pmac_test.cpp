@@ -3,6 +3,7 @@
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,6 +26,8 @@ TEST(ArmAtPmacU2, NothingMovesAndNoMotorHasPowerByConnecting) {
 TEST(ArmAtPmacU2, AJogGivesNoPower) {
     Bench bench;
     bench.connect();
+    EXPECT_EQ(bench.person.refusal("hand/jog/plus_1"), "The motors have no power.");
+    EXPECT_EQ(bench.person.refusal("hand/power/machine_home"), "The motors have no power.");
     bench.point_at("hand/jog/plus_1");
     bench.person.hold_button(true);
     bench.person.frames(30);
@@ -88,13 +91,110 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     EXPECT_TRUE(bench.is(DriverState::idle)) << status().message;
     EXPECT_NEAR(bench.pmac.degrees(2), -4.0, 0.1);
 
-    bench.person.press_key(Key::i);
-    EXPECT_TRUE(bench.person.sees("dialogs/files/open"));
-    bench.person.press_key(Key::escape);
+    bench.person.press_key(Key::i); // a wrong gain would move them
+    EXPECT_FALSE(bench.person.sees("dialogs/files/open"));
     bench.person.press_key(Key::k);
     EXPECT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
     EXPECT_TRUE(bench.person.sees("hand/messages/message"));
+    EXPECT_EQ(bench.person.refusal("hand/power/machine_home"),
+              "There is an alarm: look at the arm, then unlock it first.");
+    bench.person.click("hand/connection/machine_reset");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
+    bench.person.press_key(Key::i);
+    EXPECT_TRUE(bench.person.sees("dialogs/files/open"));
+    bench.person.press_key(Key::escape);
+}
+
+TEST(ArmAtPmacU2, ATipThatIsDraggedStaysAndSaysWhy) {
+    Bench bench({1600, 1000});
+    bench.connect();
+    const Vec3 before = bench.person.workshop().arm().tool().translation();
+    const widgets::Point tip = bench.person.place("view/tip").centre();
+    bench.person.drag(tip, {tip.x + 60.0F, tip.y + 40.0F});
+    bench.person.frames(2);
+    EXPECT_LT((bench.person.workshop().arm().tool().translation() - before).norm(), 1e-9);
+    EXPECT_NE(bench.person.workshop().session().log.back().find("follows the connected arm"),
+              std::string::npos);
+    bench.person.keep("arm-dragged-connected");
+}
+
+TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
+    using render::Key;
+    Bench bench;
+    bench.connect();
+    bench.give_power();
+    bench.person.click("lower/tabs/program");
+    bench.person.click("hand/jog/keys");
+    bench.person.press_key(Key::semicolon, false, true);
+    for (const auto& [key, letter] :
+         {std::pair(Key::digit_1, "#"), std::pair(Key::h, "h"), std::pair(Key::s, "s")}) {
+        bench.person.type(letter);
+        bench.person.press_key(key, false, letter[0] == '#');
+    }
+    bench.person.type("1P");
+    bench.person.live_until([] { return false; }, 0.3);
+    EXPECT_LT(bench.pmac.last_motion(), 0.0);
+    EXPECT_TRUE(bench.is(DriverState::idle));
+    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 0);
+    bench.person.keep("arm-terminal");
+    for (int n = 0; n < 4; ++n) {
+        bench.person.press_key(Key::backspace);
+    }
+    bench.person.type("1P");
+    const int before = bench.person.workshop().look().controller.status.answer.number;
+    bench.person.press_key(Key::enter);
+    ASSERT_TRUE(bench.person.live_until([&] {
+        const auto& answer = bench.person.workshop().look().controller.status.answer;
+        return answer.number > before && answer.state == machine::CommandAnswer::State::done;
+    }));
+    EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
+}
+
+TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
+    using render::Key;
+    Bench bench;
+    bench.connect();
+    bench.give_power();
+    bench.person.click("hand/jog/keys");
+    bench.person.press_key(Key::digit_3);
+    bench.person.hold_keys({Key::minus});
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.pmac.degrees(3) < -0.1; }));
+    bench.person.hold_keys({Key::minus, Key::digit_2});
+    bench.person.frames(2);
+    bench.person.hold_keys({Key::minus});
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+    bench.person.live_until([] { return false; }, 0.5);
+    EXPECT_NEAR(bench.pmac.degrees(2), 0.0, 0.05);
+    bench.person.hold_keys({});
+    bench.person.frames(2);
+    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 1);
+}
+
+TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
+    using render::Key;
+    Bench bench;
+    const auto status = [&] { return bench.person.workshop().look().controller.status; };
+    bench.connect();
+    bench.give_power();
+    bench.person.workshop().run("machine.home");
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
+    const double before = bench.pmac.last_motion();
+    bench.person.click("lower/tabs/program");
+    bench.person.click("lower/text");
+    bench.person.type("F40\nX20Y-6\nX400");
+    bench.person.click("lower/arm_run_program");
+    bench.person.frames(4);
+    bench.person.keep("arm-beyond-limits");
+    bench.person.live_until([] { return false; }, 0.5);
+    EXPECT_EQ(bench.pmac.last_motion(), before);
+    EXPECT_TRUE(bench.is(DriverState::idle));
+    bench.person.click("lower/arm_simulate");
+    ASSERT_TRUE(bench.person.live_until([&] {
+        const auto& faults = bench.person.workshop().arm().program().faults();
+        return !faults.empty() && faults.front().message.find("X leaves its limits") != std::string::npos;
+    }));
 }
 
 TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
@@ -129,6 +229,52 @@ TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     EXPECT_FALSE(bench.pmac.any_power()); // looked at, and still without
     bench.person.keep("arm-killed");
+}
+
+/// What stopped the arm is not undone by a key that nobody let go of.
+TEST(ArmAtPmacF2, AKeyThatIsHeldMovesNothingAfterAStop) {
+    using render::Key;
+    Bench bench;
+    bench.connect();
+    bench.give_power();
+    bench.person.click("hand/jog/keys");
+    bench.person.press_key(Key::digit_1);
+    const auto jog = [&] {
+        const double before = bench.pmac.degrees(1);
+        for (int n = 0; n < 20 && std::abs(bench.pmac.degrees(1) - before) < 0.3; ++n) {
+            bench.person.hold_keys({});
+            bench.person.live_until([&] { return bench.rests(); });
+            bench.person.frames(2);
+            bench.person.hold_keys({Key::equal});
+            bench.person.live_until([&] { return std::abs(bench.pmac.degrees(1) - before) > 0.3; }, 1.5);
+        }
+        EXPECT_GT(std::abs(bench.pmac.degrees(1) - before), 0.3);
+    };
+    const auto nothing_begins = [&](const char* after) {
+        const testing::ScopedTrace trace(__FILE__, __LINE__, after);
+        EXPECT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+        const double before = bench.pmac.degrees(1);
+        bench.person.live_until([] { return false; }, 1.0);
+        EXPECT_NEAR(bench.pmac.degrees(1), before, 0.02);
+    };
+    jog();
+    bench.person.hold_keys({Key::equal, Key::slash});
+    bench.person.frames(2);
+    bench.person.hold_keys({Key::equal});
+    nothing_begins("/");
+    jog();
+    bench.person.hold_keys({Key::equal, Key::k});
+    bench.person.frames(2);
+    bench.person.hold_keys({Key::equal});
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
+    bench.person.workshop().run("machine.reset");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
+    bench.person.workshop().run("arm.enable");
+    EXPECT_TRUE(bench.person.live_until([&] { return bench.pmac.powered(); }));
+    nothing_begins("a kill, and power again");
+    jog();
+    bench.person.hold_keys({});
+    EXPECT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
 }
 
 TEST(ArmAtPmacU6, APulledPlugIsToldAndJogsAreRefused) {
@@ -168,6 +314,15 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
         return bench.person.workshop().look().controller.status.answer.state ==
                machine::CommandAnswer::State::refused;
     }));
+    std::vector<machine::ConsoleLine> lines;
+    (void)bench.person.workshop().controller().driver()->console()->read(0, lines, 100'000);
+    std::vector<std::string> texts;
+    for (const machine::ConsoleLine& line : lines) {
+        texts.push_back((line.sent ? "> " : "") + line.text);
+    }
+    EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> NONSENSE"}));
+    EXPECT_THAT(texts, testing::Contains(testing::StartsWith("ERR003")));
+    bench.person.frames(2);
     bench.person.keep("arm-terminal");
 }
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace millwright::panels {
 namespace {
@@ -147,12 +148,33 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
 
     choose_file("arm_play_file", "thesis.mot");
     ASSERT_TRUE(person_.live_until([&] { return tip().x() > 900.0; }, longest_s)) << status().message;
+    person_.click("timeline/machine_hold");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::holding); }));
+    const auto let_pass = [&](double seconds) {
+        const double begin = bench_.pmac.time();
+        ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.time() > begin + seconds; }));
+    };
+    constexpr double braking = 1.0; // s: the card's I195 as it leaves the factory
+    let_pass(braking);
+    double held = bench_.pmac.degrees(2);
+    ASSERT_TRUE(person_.live_until([&] {
+        let_pass(0.1);
+        const double before = std::exchange(held, bench_.pmac.degrees(2));
+        return std::abs(held - before) < 0.1 * near_deg;
+    }));
+    keep("held");
+    let_pass(0.5);
+    EXPECT_NEAR(bench_.pmac.degrees(2), held, near_deg);
+    person_.click("timeline/machine_resume");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::running) && bench_.pmac.moving(); }));
     bench_.pmac.pull_plug();
     ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::alarm) && !bench_.pmac.moving(); }));
     EXPECT_FALSE(bench_.pmac.any_power());
     const double stopped = bench_.pmac.degrees(2);
     EXPECT_FALSE(person_.refusal("lower/arm_play_points").empty());
     EXPECT_TRUE(person_.sees("hand/messages/message"));
+    EXPECT_FALSE(status().position_known); // the arm went on for a while, and nobody saw where to
+    EXPECT_TRUE(person_.sees("inspector/joints/not_known"));
     keep("pulled");
 
     bench_.pmac.pull_plug(false);

@@ -56,13 +56,14 @@ TEST_F(ArmTeaching, PointsAreRecordedNamedOrderedAndTakenBack) {
     ASSERT_EQ(points().size(), 3U);
     EXPECT_EQ(points()[1].name, "Point 2");
     EXPECT_NEAR(points()[1].joints_deg[0], 35.0, 1e-3);
+    EXPECT_EQ(points()[1].speed_percent, 25.0); // of a first run
     person_.click("lower/points/point_3");
     person_.fill_in("lower/name", "Above the vice");
     EXPECT_EQ(points()[2].name, "Above the vice");
     person_.click("lower/way/line");
     EXPECT_TRUE(points()[2].straight);
-    person_.fill_in("lower/speed", "25");
-    EXPECT_NEAR(points()[2].speed_percent, 25.0, 1e-12);
+    person_.fill_in("lower/speed", "60");
+    EXPECT_NEAR(points()[2].speed_percent, 60.0, 1e-12);
     person_.click("lower/up");
     EXPECT_EQ(points()[1].name, "Above the vice");
     person_.keep("arm-points");

@@ -5,6 +5,7 @@
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/window.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,6 +92,44 @@ TEST(ArmWorkspace, ATipThatIsDraggedTooFarStaysWithAReason) {
     bench.person.drag(from, {from.x + 400.0F, from.y - 250.0F}, 3);
     EXPECT_FALSE(bench.arm().refusal().empty());
     EXPECT_LE(bench.tip().norm(), 1450.0 + 1e-6);
+}
+
+/// ImGui's own fields take everything back by Escape.
+TEST(ArmWorkspace, EscapeLeavesAProgramAsItWasTyped) {
+    Person person;
+    person.workshop().run("view.arm");
+    person.frames(4);
+    person.click("lower/tabs/program");
+    person.frames(2);
+    person.click("lower/text");
+    person.type("LINEAR\nX5");
+    person.press_key(render::Key::escape);
+    person.frames(3);
+    EXPECT_EQ(person.workshop().arm().program().text(), "LINEAR\nX5");
+    person.frames(60); // so that it is no double click
+    person.click("lower/text");
+    person.type("Y7");
+    EXPECT_THAT(person.workshop().arm().program().text(), testing::HasSubstr("Y7"));
+    EXPECT_THAT(person.workshop().arm().program().text(), testing::HasSubstr("LINEAR\nX5"));
+}
+
+TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
+    Person person;
+    person.workshop().run("view.arm");
+    person.frames(4);
+    actions::ArmBench& arm = person.workshop().arm();
+    arm.move_tip({900.0, 0.0, -880.0});
+    EXPECT_EQ(arm.refusal(), "");
+    arm.move_tip({900.0, 0.0, -950.0});
+    EXPECT_THAT(arm.refusal(), testing::HasSubstr("below -900 of the arm's workspace"));
+    EXPECT_NEAR(arm.tool().translation().z(), -880.0, 1e-6);
+    kinematics::JointPositions down = arm.joints();
+    down[1] += 0.2;
+    arm.set_joints(down);
+    EXPECT_THAT(arm.refusal(), testing::HasSubstr("arm's workspace"));
+    EXPECT_NEAR(arm.tool().translation().z(), -880.0, 1e-6);
+    person.frames(2);
+    person.keep("arm-floor");
 }
 
 TEST(ArmWorkspace, ALinkThatIsDraggedTurnsItsJointAlone) {

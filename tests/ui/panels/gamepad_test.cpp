@@ -47,7 +47,7 @@ protected:
     }
     void start(const Gamepad& pad) {
         person.hold_gamepad(pad);
-        ASSERT_TRUE(person.live_until([this] { return grbl.moving(); }));
+        ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
     }
     /// It comes to rest, and stays there for many frames.
     void expect_stop(const std::function<void()>& what) {
@@ -110,9 +110,9 @@ TEST_F(JogByGamepad, GoesSlowerWhereTheStickIsPushedLess) {
         return [&speed, wanted] { return std::abs(speed() - wanted) < 0.02 * wanted; };
     };
     person.hold_gamepad(pushed(1.0F, 0.0F));
-    EXPECT_TRUE(person.live_until(nearly(1200.0))) << speed();
+    EXPECT_TRUE(person.hold_until(nearly(1200.0))) << speed();
     person.hold_gamepad(pushed(0.6F, 0.0F)); // half of the way beyond the dead zone
-    EXPECT_TRUE(person.live_until(nearly(600.0))) << speed();
+    EXPECT_TRUE(person.hold_until(nearly(600.0))) << speed();
     expect_stop([this] { person.hold_gamepad(Gamepad{}); });
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
+#include "ui/panels/jog_gate.h"
 #include "ui/panels/window.h"
 
 #include <fmt/format.h>
@@ -91,13 +92,13 @@ protected:
     /// Holds X+ until the machine moves.
     void start_jog() {
         press_on("hand/jog/plus_X");
-        ASSERT_TRUE(live_until([this] { return grbl.moving(); }));
+        ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
         live(0.4);
     }
 
     /// s from now until the machine moved last, beyond the time that braking from full speed takes.
     double time_to_stop(const std::function<void()>& what) {
-        EXPECT_TRUE(live_until([this] { return grbl.moving(); })); // slow frames let its dead man in
+        EXPECT_TRUE(person.hold_until([this] { return grbl.moving(); })); // slow frames let its dead man in
         const double before = grbl.time();
         what();
         EXPECT_TRUE(live_until([this] { return !grbl.moving(); }));
@@ -181,9 +182,46 @@ TEST_F(MachineByHand, StopsWithoutTheFocusAndWaitsForAnotherPress) {
     live(0.5);
     EXPECT_FALSE(grbl.moving());
     person.hold_button(false);
-    live(0.1);
+    live(0.7);
+    person.frames(JogGate::quiet_frames + 1);
     start_jog();
     person.hold_button(false);
+}
+
+TEST_F(MachineByHand, AKeyThatIsStillHeldBeginsNothingAnew) {
+    connect();
+    person.workshop().run("machine.arm_keys");
+    const auto jog = [this] {
+        person.hold_keys({render::Key::right});
+        ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
+    };
+    const auto nothing_begins = [this](const char* after) {
+        const testing::ScopedTrace trace(__FILE__, __LINE__, after);
+        EXPECT_TRUE(live_until([this] { return !grbl.moving(); }));
+        const double before = grbl.position()[0];
+        live(1.0);
+        EXPECT_DOUBLE_EQ(grbl.position()[0], before);
+        person.hold_keys({});
+        live(0.7);
+        person.frames(JogGate::quiet_frames + 1);
+    };
+    jog();
+    person.set_focused(false);
+    person.hold_keys({}); // as GLFW tells it
+    live(0.3);
+    person.set_focused(true);
+    live(0.1);
+    person.hold_keys({render::Key::right}); // it repeats, for it is still down
+    nothing_begins("another window");
+
+    jog();
+    person.workshop().run("view.program");
+    live(0.2);
+    person.workshop().run("view.machine");
+    nothing_begins("another workspace");
+
+    jog();
+    person.hold_keys({});
 }
 
 TEST_F(MachineByHand, StopsInAnotherWorkspace) {
@@ -240,7 +278,7 @@ TEST_F(MachineByHand, JogsByArmedKeysOnly) {
     live(0.1);
     person.workshop().run("machine.arm_keys");
     person.hold_keys({render::Key::up});
-    ASSERT_TRUE(live_until([this] { return grbl.moving(); }));
+    ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
     live(0.3);
     expect_prompt(time_to_stop([this] { person.hold_keys({}); }));
     EXPECT_GT(grbl.position()[1], 0.5);
@@ -316,7 +354,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
             person.hold_keys({});
             person.hold_button(false);
             person.workshop().run("view.machine");
-            person.frames(2);
+            live(0.6); // so long it takes no keys after another window had them
         }
     }
     EXPECT_GT(moved, 2); // the sequences do move it

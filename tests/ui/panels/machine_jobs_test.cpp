@@ -141,8 +141,13 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     ASSERT_TRUE(person.live_until([&] { return !person.sees("inspector/job/begin/trust"); }));
     person.click("inspector/job/machine_run");
     double farthest = 0.0;
+    int first_line = middle;
     ASSERT_TRUE(person.live_until(
         [&] {
+            const auto shown = person.workshop().look();
+            if (shown.job.running && shown.job.report) {
+                first_line = std::min(first_line, shown.file_place().value().line);
+            }
             farthest = std::max(farthest, grbl.position()[0]);
             return person.workshop().look().job.outcome.has_value();
         },
@@ -150,6 +155,8 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     const auto job = person.workshop().look().job;
     EXPECT_EQ(job.outcome->end, machine::JobEnd::done) << job.outcome->sentence;
     EXPECT_LT(farthest, 10.0); // never where the lines before went
+    EXPECT_EQ(first_line, middle);
+    EXPECT_GE(person.workshop().look().file_place().value().line, 14);
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
     EXPECT_EQ(machine::read_job_log(job.outcome->log_file).start.from_line, middle);
     EXPECT_FALSE(person.workshop().session().begin.on); // the next job begins at its beginning
@@ -209,6 +216,25 @@ TEST_F(MachineJobs, LogTheOverridesOfAPerson) {
         std::ranges::find(log.records, machine::LogEvent::overrides, &machine::LogRecord::event);
     ASSERT_NE(entry, log.records.end());
     EXPECT_THAT(entry->text, HasSubstr("feed 200 %, rapid 50 %"));
+}
+
+TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfWithNoNoticeOverIt) {
+    const test::ScratchFolder folder;
+    const auto file = program(folder.path());
+    const auto log = broken_log(folder / "logs", file, 11);
+    Person person({1280, 800}, {}, folder / "logs");
+    person.wait_idle();
+    person.workshop().receive({file});
+    person.frames(3);
+    ASSERT_TRUE(person.sees("dialogs/broken_job/broken_job_dismiss"));
+    ASSERT_TRUE(person.sees("notices/1"));
+    person.keep("job-recovery-with-a-notice");
+    const widgets::Rect notice = person.desktop().ui().place("notices/1").value();
+    for (const char* part : {"broken_job_later", "broken_job_dismiss", "broken_job_continue", "look"}) {
+        const widgets::Rect its =
+            person.desktop().ui().place("dialogs/broken_job/" + std::string(part)).value();
+        EXPECT_TRUE(notice.y > its.bottom() || notice.x > its.right()) << part;
+    }
 }
 
 TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfAtTheStartAndGoOnFromTheirLine) {

@@ -144,6 +144,35 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
 }
 
+/// As behind a link that broke in a job: the controller goes on with what it has.
+TEST_F(MachineLink, AGrblThatStillMovesIsConnectedAndStopped) {
+    machine::SteadyClock clock;
+    auto listener = std::make_unique<machine::TcpServer>(0);
+    listener->open();
+    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(listener->port()));
+    std::vector<std::unique_ptr<machine::Link>> links;
+    links.push_back(std::move(listener));
+    machine::GrblServer server(std::move(links), clock);
+    const auto moves = [&] {
+        return server.with_controller([](machine::GrblEmulator& grbl) { return grbl.moving(); });
+    };
+    server.with_controller([](machine::GrblEmulator& grbl) { grbl.receive("$X\nG91\nG1 X-150 F100\n"); });
+    ASSERT_TRUE(person.live_until([&] { return moves(); }));
+    connect();
+    ASSERT_TRUE(is(DriverState::running));
+    person.frames(3);
+    person.keep("machine-found-moving");
+    EXPECT_FALSE(person.refusal("hand/jog/plus_X").empty());
+    EXPECT_TRUE(person.refusal("emergency/machine_emergency_stop").empty());
+    person.press_key(render::Key::f10);
+    ASSERT_TRUE(person.live_until([&] { return is(DriverState::holding) && !moves(); }));
+    person.press_key(render::Key::f11);
+    ASSERT_TRUE(person.live_until([&] { return is(DriverState::running) && moves(); }));
+    person.press_key(render::Key::f12);
+    ASSERT_TRUE(person.live_until([&] { return is(DriverState::idle); }));
+    EXPECT_FALSE(moves());
+}
+
 /// A link that is made again is a new driver, which cannot know that the old one was reset under way.
 TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     test::GrblBench grbl;

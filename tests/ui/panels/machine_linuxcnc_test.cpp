@@ -187,7 +187,7 @@ TEST_F(MachineLinuxCnc, IsJoggedByButtonAndStepAndZeroed) {
     switch_on();
     person.hover(person.place("hand/jog/plus_Y").centre());
     person.hold_button(true);
-    ASSERT_TRUE(person.live_until([this] { return linuxcnc.position(1) > 0.2; }));
+    ASSERT_TRUE(person.hold_until([this] { return linuxcnc.position(1) > 0.2; }));
     person.hold_button(false);
     person.frames(2);
     ASSERT_TRUE(person.live_until([this] { return !linuxcnc.moving(); }));

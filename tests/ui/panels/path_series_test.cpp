@@ -11,7 +11,7 @@ using toolpath::MoveKind;
 
 /// Three moves of 10, 4 and 6 mm; the second goes from track to track.
 project::Evaluation three_moves() {
-    project::Evaluation evaluation{{grid::Grid::uniform(2, 2)}, {}, {}, {}, {}, {}, {}};
+    project::Evaluation evaluation{{grid::Grid::uniform(2, 2)}, {}, {}, {}, {}, {}, {}, {}};
     evaluation.field.moves = {{.kind = MoveKind::track, .closest = 0.1, .length = 10.0},
                               {.kind = MoveKind::cross, .closest = 9.0, .length = 4.0},
                               {.kind = MoveKind::track, .closest = 0.3, .length = 6.0}};

@@ -1,6 +1,7 @@
 #include "tests/ui/panels/person.h"
 
 #include "core/base/error.h"
+#include "ui/actions/jog_hand.h"
 
 #include <unistd.h>
 
@@ -78,6 +79,35 @@ bool Person::live_until(const std::function<bool()>& done, double seconds) {
     return done();
 }
 
+bool Person::hold_until(const std::function<bool()>& done, double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto last = start;
+    while (std::chrono::duration<double>(last - start).count() < seconds) {
+        frame();
+        if (done()) {
+            return true;
+        }
+        const auto now = Clock::now();
+        if (std::chrono::duration<double>(now - std::exchange(last, now)).count() >
+            0.5 * actions::JogHand::longest_frame) {
+            press_anew();
+        }
+    }
+    return done();
+}
+
+void Person::press_anew() {
+    const render::InputState held = input_;
+    input_.buttons[0] = false;
+    input_.keys.clear();
+    if (input_.gamepad) {
+        input_.gamepad = render::Gamepad{};
+    }
+    frame();
+    input_ = held;
+}
+
 std::string Person::refusal(std::string_view path) {
     (void)place(path);
     return desktop_->ui().places().all().find(path)->second.reason;
@@ -105,12 +135,51 @@ void Person::hover(widgets::Point at) {
     frames(2);
 }
 
+void Person::bring_into_sight(std::string_view path) {
+    const auto visible = [&] { return desktop_->ui().places().find(path)->visible; };
+    constexpr int most_notches = 200;
+    for (int n = 0; n < most_notches; ++n) {
+        const widgets::Rect before = place(path);
+        if (visible()) {
+            return;
+        }
+        const widgets::Rect pane = place(path.substr(0, path.find('/')));
+        hover({pane.x + 3.0F, pane.centre().y}); // beside its widgets, some of which keep the wheel
+        input_.wheel = before.centre().y < pane.centre().y ? 1.0F : -1.0F;
+        frames(3);
+        if (place(path) == before && !visible()) {
+            break;
+        }
+    }
+    throw Error("widget '" + std::string(path) + "' cannot be scrolled into sight");
+}
+
+void Person::choose(const std::string& path, const std::string& option) {
+    const std::string chosen = path + "/" + option;
+    if (!sees(chosen)) {
+        click(path);
+    }
+    click(chosen);
+    wait_idle();
+}
+
 void Person::click(std::string_view path) {
-    click_at(place(path).centre());
+    constexpr int looks = 10;
+    bring_into_sight(path);
+    widgets::Rect there{};
+    for (int n = 0; n < looks && !(there == place(path)); ++n) { // what is worked out meanwhile may move it
+        there = place(path);
+        hover(there.centre());
+    }
+    press();
 }
 
 void Person::click_at(widgets::Point at) {
     hover(at);
+    press();
+}
+
+void Person::press() {
     input_.buttons[0] = true;
     frames(2);
     input_.buttons[0] = false;

@@ -38,6 +38,9 @@ public:
 
     /// Frames as they come, until `done` has become true and been drawn, or the time is over.
     bool live_until(const std::function<bool()>& done, double seconds = 20.0);
+    /// The same with what is held down now. After a frame in which the computer stood still, the window wants
+    /// another press (actions::JogHand::longest_frame): it gets one.
+    bool hold_until(const std::function<bool()>& done, double seconds = 20.0);
 
     /// Where a widget was in the last frame. Throws Error if it was not drawn.
     [[nodiscard]] widgets::Rect place(std::string_view path);
@@ -45,6 +48,11 @@ public:
     /// Why a widget is greyed out; empty if it is not. Throws Error if it was not drawn.
     [[nodiscard]] std::string refusal(std::string_view path);
 
+    /// Scrolls the pane of a widget until the widget's middle is in sight. Throws Error if it does not come.
+    void bring_into_sight(std::string_view path);
+    /// Of a choice at `path`, whose options come up or stand there; waits until it has had its effect.
+    void choose(const std::string& path, const std::string& option);
+    /// In the middle of a widget that is brought into sight first.
     void click(std::string_view path);
     void click_at(widgets::Point at);
     void drag(widgets::Point from, widgets::Point to, int steps = 5);
@@ -66,6 +74,8 @@ public:
 
 private:
     void frame();
+    void press_anew(); ///< what is held down
+    void press();      ///< and lets go, where the mouse is
 
     std::filesystem::path folder_;
     render::OffscreenContext context_;

@@ -1,6 +1,11 @@
 // The Plot & Picture workspace with real mouse and keys in real OpenGL.
+#include "core/machine/emulators/stream/stream_emulator.h"
+#include "core/machine/recovery.h"
+#include "core/plot/path_file.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/person.h"
+#include "tests/ui/panels/table_bench.h"
 #include "ui/panels/window.h"
 
 #include <gmock/gmock.h>
@@ -14,6 +19,8 @@
 #include <memory>
 #include <ranges>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -65,6 +72,7 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     for (const char* path : {"layers/levels",
                              "layers/level/depth_mm",
                              "layers/figures/compared/thesis",
+                             "layers/figures/compared/planner",
                              "inspector/cutter/tool_mm",
                              "inspector/fill/hatch_mm",
                              "inspector/travel/link_mm",
@@ -120,6 +128,19 @@ TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
     bench.person.click("inspector/travel/order");
     bench.settle();
     EXPECT_LT(bench.made().as_planned.seconds, linked.seconds);
+}
+
+TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    EXPECT_TRUE(bench.made().cut_as_drawn);
+    const double alone = bench.person.workshop().look().duration();
+    bench.person.fill_in("inspector/travel/link_mm", "3");
+    bench.settle();
+    EXPECT_FALSE(bench.made().cut_as_drawn);
+    ASSERT_TRUE(bench.made().drawn_seconds);
+    EXPECT_NEAR(*bench.made().drawn_seconds, alone, 3e-3 * alone); // that of the file is rounded and read
+    EXPECT_LT(bench.person.workshop().look().duration(), alone);
+    bench.person.keep("plot-planner");
 }
 
 TEST(PlotWorkspace, EachAxisHasItsUnit) {
@@ -250,6 +271,204 @@ TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
     EXPECT_TRUE(bench.person.workshop().look().opened->findings.empty());
 }
 
+/// Where samples ship nobody looks for programs, and perhaps nobody may write.
+TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    const auto programs_there = [] {
+        return std::ranges::count_if(fs::directory_iterator("assets/samples/plot"),
+                                     [](const auto& entry) { return entry.path().extension() == ".ngc"; });
+    };
+    const auto before = programs_there();
+    bench.drop(fs::absolute("assets/samples/plot/ticks.plt"));
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.person.folder() / "programs/ticks.ngc");
+    EXPECT_EQ(programs_there(), before);
+}
+
+TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.workshop().session().workspace = Workspace::machine;
+    bench.person.open("assets/projects/dome.json");
+    bench.settle();
+    bench.person.workshop().run("machine.run");
+    ASSERT_TRUE(
+        bench.person.live_until([&] { return bench.person.workshop().look().job.report.has_value(); }));
+    bench.person.workshop().session().workspace = Workspace::plot;
+    bench.person.frames(3);
+    ASSERT_TRUE(bench.person.workshop().look().job.running);
+    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job runs"));
+    bench.person.keep("plot-beside-a-job");
+    bench.person.workshop().run("machine.stop");
+    EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
+}
+
+/// Chooses a table at `port` that takes `pattern` and answers by `ok`; nothing is connected yet.
+void choose_table(Person& person,
+                  const std::string& port,
+                  const std::string& pattern = machine::RecordFormat().pattern) {
+    auto& choice = person.workshop().session().hand.choice;
+    choice.kind = machine::DriverKind::records;
+    choice.address = port;
+    choice.record.emplace();
+    choice.record->pattern = pattern;
+    choice.record->answer = "ok";
+}
+
+/// Runs what `button` begins, going on where it waits for a person, to its end.
+machine::JobOutcome outcome_of(Person& person, const std::string& button) {
+    person.frames(3);
+    EXPECT_EQ(person.refusal(button), "");
+    person.click(button);
+    EXPECT_TRUE(person.live_until(
+        [&] {
+            const actions::JobView job = person.workshop().look().job;
+            if (job.running && job.report && job.report->driver.state == machine::DriverState::holding) {
+                person.workshop().run("machine.resume");
+            }
+            return !job.running && (job.outcome || job.failure);
+        },
+        60.0));
+    const actions::JobView job = person.workshop().look().job;
+    EXPECT_FALSE(job.failure) << to_text(*job.failure);
+    return job.outcome.value_or(machine::JobOutcome());
+}
+
+/// Moves of the opened program that records can tell: from where the table stood, by a digit at least.
+std::int64_t moves_of(const gcode::Program& program, kinematics::AxisPositions at) {
+    constexpr double half_a_digit = 0.5e-4;
+    return std::ranges::count_if(program.blocks, [&](const gcode::Block& block) {
+        const kinematics::AxisPositions from = std::exchange(at, block.moves() ? block.target : at);
+        return (at - from).cwiseAbs().maxCoeff() >= half_a_digit;
+    });
+}
+
+TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
+    test::TableBench table;
+    Bench bench("assets/samples/plot/autocad-7475.plt");
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    choose_table(bench.person, table.port());
+    test::connect(bench.person);
+    const auto start = bench.person.workshop().look().controller.status.position;
+    const auto plot = bench.person.workshop().look().opened->motion->program;
+    const machine::JobOutcome sent = outcome_of(bench.person, "inspector/job/machine_run");
+    EXPECT_EQ(sent.end, machine::JobEnd::done) << sent.sentence;
+    const std::int64_t of_plot = moves_of(*plot, start);
+    EXPECT_GT(of_plot, 50);
+    EXPECT_EQ(table.records(), of_plot);
+    bench.person.keep("plot-by-records");
+
+    // The next begins where the table stands, and goes through the queue.
+    std::ofstream(bench.folder / "job.path")
+        << "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n"
+           "1,2,5,0,rapid,1\n1,2,-1,2,plunge,1\n48,2,-1,10,cut,1\n48,2,5,0,rapid,1\n";
+    bench.drop(bench.folder / "job.path");
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    bench.person.click("lower/tabs/queue");
+    bench.person.click("lower/queue/queue_add");
+    const machine::JobOutcome queued = outcome_of(bench.person, "lower/queue/queue_run_next");
+    EXPECT_EQ(queued.end, machine::JobEnd::done) << queued.sentence;
+    EXPECT_GE(table.records(), of_plot + 4);
+    EXPECT_EQ(table.bad_lines(), 0);
+    EXPECT_NEAR(table.position()[0], 48.0, 1e-9);
+    EXPECT_NEAR(table.position()[1], 2.0, 1e-9);
+}
+
+TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) {
+    test::TableBench table;
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    choose_table(bench.person, table.port(), "t {X} {Y} {a} {s}"); // Z is missing
+    test::connect(bench.person);
+    bench.person.click("inspector/job/machine_run");
+    ASSERT_TRUE(
+        bench.person.live_until([&] { return bench.person.workshop().look().job.failure.has_value(); }));
+    const std::string why = bench.person.workshop().look().job.failure->message;
+    EXPECT_THAT(why, HasSubstr("Z"));
+    EXPECT_EQ(table.records() + table.bad_lines(), 0);
+    const auto jobs = machine::read_job_folder(bench.person.folder() / "jobs");
+    EXPECT_TRUE(jobs.unreadable.empty());
+    for (const machine::JobStory& job : jobs.jobs) {
+        EXPECT_FALSE(job.broken_off()) << job.sentence;
+    }
+    Person next({1280, 800}, {}, bench.person.folder() / "jobs");
+    next.wait_idle();
+    EXPECT_FALSE(next.workshop().look().asks());
+}
+
+TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
+    auto terminal = std::make_unique<machine::PseudoTerminal>();
+    terminal->open();
+    const std::string port = terminal->path().string();
+    std::vector<std::unique_ptr<machine::Link>> links;
+    links.push_back(std::move(terminal));
+    auto emulator = std::make_unique<machine::StreamEmulator>();
+    const auto& stream = *emulator;
+    const machine::SteadyClock clock;
+    machine::EmulatorServer server(std::move(links), clock, std::move(emulator));
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    choose_table(bench.person, "");
+    bench.person.choose("inspector/connection/driver", "stream");
+    bench.person.workshop().session().hand.choice.address = port;
+    test::connect(bench.person);
+    bench.person.click("inspector/job/machine_run");
+    const auto truth = [&] {
+        return server.with_emulator([&](machine::Emulator&) { return stream.truth(); });
+    };
+    ASSERT_TRUE(bench.person.live_until([&] { return truth().samples > 50; })) << truth().first_fault;
+    EXPECT_EQ(truth().bad_lines, 0) << truth().first_fault;
+    bench.person.workshop().run("machine.stop");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
+}
+
+TEST(PlotWorkspace, ThePlotPlaysAgainWhenOneComesBackFromTheMachine) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    const double duration = bench.person.workshop().look().duration();
+    ASSERT_GT(duration, 0.0);
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    ASSERT_EQ(bench.person.workshop().look().opened->file, bench.folder / "everyday.ngc");
+    bench.person.workshop().session().workspace = Workspace::plot;
+    bench.settle();
+    EXPECT_TRUE(bench.person.sees("layers/position/gone"));
+    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.made().program);
+    EXPECT_NEAR(bench.person.workshop().look().duration(), duration, 1e-9);
+    bench.person.click("timeline/timeline/last");
+    bench.person.frames(3);
+    EXPECT_NEAR(bench.person.workshop().look().time(), duration, 1e-6);
+    bench.person.keep("plot-back");
+    bench.person.workshop().session().workspace = Workspace::machine; // has what was sent there
+    bench.settle();
+    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.folder / "everyday.ngc");
+}
+
+TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
+    Bench drawing("assets/samples/plot/hatched-sign.plt");
+    plot::CutPath path = *drawing.made().path;
+    for (std::size_t n = path.size() / 2; n < path.size(); ++n) {
+        path[n].tool = 2;
+    }
+    const fs::path file = drawing.folder / "sign.path";
+    std::ofstream(file) << plot::path_file_text(path);
+    Bench bench(file);
+    ASSERT_FALSE(bench.made().failure);
+    ASSERT_EQ(bench.made().cuts.size(), 2U);
+    const auto red = [](int r, int g, int b) { return r > g + 60 && r > b + 60; };
+    bench.person.keep("plot-path-file");
+    const int drawn = bench.pixels_like(red);
+    bench.person.workshop().session().layers_now().toolpath = false;
+    bench.person.frames(3);
+    EXPECT_GT(drawn, bench.pixels_like(red) + 1000);
+    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/travel/order"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/cutter/tool_mm"), testing::IsEmpty()); // how wide it cuts
+}
+
 TEST(PlotWorkspace, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     Bench bench("assets/samples/plot/everyday.plt");
     bench.person.click("lower/tabs/table");
@@ -265,6 +484,42 @@ TEST(PlotWorkspace, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);
     EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
+}
+
+TEST(PlotWorkspace, ATableIsLedFromWhereItStoppedWithoutAJump) {
+    test::TableBench table({.keep = true});
+    Bench bench("assets/samples/plot/moves.plt");
+    actions::TableChoice choice;
+    choice.port = table.port();
+    choice.record = {};
+    choice.record.answer = "ok";
+    bench.person.workshop().plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    const auto cuts = [&] { return table.position()[0] > 5.0 && table.position()[2] < 0.5; };
+    bench.person.frames(3);
+    ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
+    ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
+    bench.person.click("lower/plot_stop_table");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    EXPECT_EQ(bench.plot().table().view().status.state, machine::PlayState::stopped);
+    const auto first = static_cast<std::size_t>(table.records());
+    bench.person.frames(2);
+    bench.person.click("lower/plot_play_table");
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return table.records() > static_cast<std::int64_t>(first) + 100; }, 60.0));
+    bench.person.workshop().plot().table().stop();
+    const auto went = table.positions();
+    const double step = choice.decoding.velocity * choice.decoding.period;
+    for (std::size_t n = first; n < first + 100; ++n) {
+        const Vec3 before(went[n - 1][0], went[n - 1][1], went[n - 1][2]);
+        const Vec3 now(went[n][0], went[n][1], went[n][2]);
+        ASSERT_LT((now - before).norm(), 1.01 * step + 1e-3) << n - first;
+        if (n < first + 30) { // up first
+            ASSERT_LT((now - before).head<2>().norm(), 1e-6) << n - first;
+        }
+    }
 }
 
 TEST(PlotWorkspace, SaysWhatIsWrongWithAFileAndKeepsWorking) {

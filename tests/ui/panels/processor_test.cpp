@@ -1,10 +1,12 @@
 // The Processor workspace with real mouse and keys in real OpenGL: stepping the thesis's arc.
+#include "core/base/numbers.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/panels/window.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -198,6 +200,74 @@ TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {
     EXPECT_TRUE(person.sees("inspector/errors/position"));
 }
 
+TEST(ProcessorWorkspace, TellsTheWordOfItsBitsAndKeepsItAWord) {
+    Bench bench;
+    Person& person = bench.person;
+    EXPECT_FALSE(person.sees("inspector/format/word"));
+    person.click("inspector/format/kind/fixed");
+    person.frames();
+    EXPECT_TRUE(person.sees("inspector/format/word"));
+    const auto drag = [&](const std::string& slider, float share) {
+        person.bring_into_sight(slider);
+        const widgets::Rect at = person.place(slider);
+        person.drag(at.centre(), {at.x + share * at.w, at.centre().y});
+    };
+    const auto format = [&] { return bench.processor().choice().format; };
+    drag("inspector/format/integer", 0.0F);
+    EXPECT_EQ(format().integer_bits, 1);
+    drag("inspector/format/fraction", 0.0F); // to 0, were there not 8 bits at least
+    EXPECT_EQ(format().word(), cordic::least_word);
+    EXPECT_EQ(format().fraction_bits, 7);
+    drag("inspector/format/integer", 0.83F); // its end
+    EXPECT_EQ(format().integer_bits, 32);
+    drag("inspector/format/fraction", 0.83F); // to 62, were there not 64 bits at most
+    EXPECT_EQ(format().word(), cordic::largest_word);
+    EXPECT_EQ(to_text(format()), "q32.32");
+    person.keep("processor-word");
+}
+
+// In the smallest window and in a large one, without any scrolling.
+TEST(ProcessorWorkspace, HasAllRegistersInSight) {
+    for (const render::PixelSize& screen : {render::PixelSize{1280, 800}, render::PixelSize{1600, 1000}}) {
+        Bench bench(screen);
+        Person& person = bench.person;
+        for (const char* kind : {"f32", "f64", "fixed"}) {
+            person.click(std::string("inspector/format/kind/") + kind);
+            person.click("timeline/processor_set_point");
+            person.hover({5.0F, 5.0F});
+            int seen = 0;
+            for (const auto& [path, at] : person.desktop().ui().places().all()) {
+                const bool is_register =
+                    path.starts_with("inspector/registers/") && at.rect.h > 0.0F && at.visible;
+                seen += is_register ? 1 : 0;
+            }
+            EXPECT_EQ(seen, cordic::register_count) << kind;
+            const auto visible = [&](const char* path) {
+                return person.desktop().ui().places().find(path)->visible;
+            };
+            EXPECT_TRUE(visible("inspector/errors/position")) << kind; // beside what changes it
+            EXPECT_TRUE(visible("inspector/format/iterations")) << kind;
+        }
+        person.keep(screen.width == 1280 ? "processor-registers-small" : "processor-registers");
+    }
+}
+
+// In fixed point a rotation ends at exactly nothing.
+TEST(ProcessorWorkspace, MarksStepsThatLeaveNothingToTurn) {
+    Bench bench;
+    Person& person = bench.person;
+    person.click("inspector/format/kind/fixed");
+    EXPECT_FALSE(person.sees("lower/errors/zeros"));
+    person.click("timeline/processor_set_point");
+    const auto trace = bench.processor().debugger().iterations();
+    ASSERT_TRUE(std::ranges::any_of(trace.points, [](const cordic::IterationPoint& point) {
+        return !point.corrects && exactly_equal(point.angle_error, 0.0);
+    }));
+    person.frames(2);
+    EXPECT_TRUE(person.sees("lower/errors/zeros"));
+    person.keep("processor-zeros");
+}
+
 TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
     Bench bench({1600, 1000});
     Person& person = bench.person;
@@ -245,7 +315,7 @@ TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
         const auto texts = person.desktop().ui().cut_texts();
         cut.insert(texts.begin(), texts.end());
     };
-    for (const char* last : {"pipeline_line_1", "sequencer_line_2", "first_line_3", "registers_line_4"}) {
+    for (const char* last : {"pipeline_line_1", "sequencer_line_2", "first_line_3", "registers_line_6"}) {
         EXPECT_TRUE(person.sees(std::string("view/blocks/") + last)) << last;
     }
     std::set<std::uint8_t> seen;

@@ -32,14 +32,6 @@ protected:
         person_.wait_idle();
     }
 
-    void choose(const std::string& path, const std::string& option) {
-        if (!person_.sees(path + "/" + option)) {
-            person_.click(path);
-        }
-        person_.click(path + "/" + option);
-        person_.wait_idle();
-    }
-
     /// Folds sections away, or opens those that are folded, so that all of the next ones are in sight.
     void fold(std::initializer_list<const char*> sections) {
         for (const char* section : sections) {
@@ -53,10 +45,11 @@ protected:
 };
 
 TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
+    fold({"strategy"});
     EXPECT_FALSE(person_.sees("inspector/tool/diameter_mm"));
     EXPECT_FALSE(person_.sees("inspector/cut/deepest"));
     const auto point_path = person_.workshop().look().shown()->path_length;
-    choose("inspector/tool/cutter", "bull-nose");
+    person_.choose("inspector/tool/cutter", "bull-nose");
     EXPECT_EQ(person_.project().tool.cutter, CutterKind::bull_nose);
     EXPECT_TRUE(person_.sees("inspector/tool/corner_radius_mm"));
     EXPECT_FALSE(person_.sees("inspector/tool/half_angle_deg"));
@@ -79,7 +72,7 @@ TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
 }
 
 TEST_F(ToolpathWorkspace, AShapeThatCannotBeIsRefusedWithItsReason) {
-    choose("inspector/tool/cutter", "bull-nose");
+    person_.choose("inspector/tool/cutter", "bull-nose");
     const auto before = plan().cut;
     ASSERT_NE(before, nullptr);
     person_.fill_in("inspector/tool/corner_radius_mm", "4");
@@ -92,7 +85,7 @@ TEST_F(ToolpathWorkspace, AShapeThatCannotBeIsRefusedWithItsReason) {
 
 /// A cutter in its true size, in the part and at the machine.
 TEST_F(ToolpathWorkspace, TheToolIsDrawnAsItIs) {
-    choose("inspector/tool/cutter", "ball");
+    person_.choose("inspector/tool/cutter", "ball");
     person_.fill_in("inspector/tool/diameter_mm", "14");
     person_.fill_in("inspector/tool/holder_diameter_mm", "30");
     person_.wait_idle();
@@ -111,9 +104,9 @@ TEST_F(ToolpathWorkspace, TheToolIsDrawnAsItIs) {
 }
 
 TEST_F(ToolpathWorkspace, MorePointsAreAddedWhereTheAxesTurnFast) {
-    fold({"error", "tool"});
+    fold({"error", "strategy", "tool"});
     const std::size_t before = person_.workshop().look().shown()->toolpath.points.size();
-    choose("inspector/sequencing/goal", "error");
+    person_.choose("inspector/sequencing/goal", "error");
     EXPECT_EQ(person_.project().sequencing.goal, toolpath::SequencingGoal::error);
     person_.fill_in("inspector/sequencing/largest_step_deg", "10");
     person_.wait_idle();
@@ -153,7 +146,7 @@ TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
 }
 
 TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
-    fold({"error", "tool", "setup", "set_up_search"});
+    fold({"error", "strategy", "tool", "setup", "set_up_search"});
     EXPECT_FALSE(person_.refusal("inspector/set_up_search/set_up_accept").empty());
     person_.fill_in("inspector/set_up_search/places", "5");
     person_.workshop().session().set_up.settings.nodes = 6;
@@ -173,7 +166,7 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
 }
 
 TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
-    fold({"error", "tool", "setup", "set_up_search"});
+    fold({"error", "strategy", "tool", "setup", "set_up_search"});
     person_.workshop().session().set_up.settings.nodes = 5;
     person_.workshop().session().set_up.settings.places = 5;
     person_.click("inspector/set_up_search/set_up_search");
@@ -188,8 +181,31 @@ TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
     EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(marked.head<3>()));
 }
 
+TEST_F(ToolpathWorkspace, BothResultsOfAComparisonHaveTheirMarks) {
+    person_.workshop().edit("Change the tool",
+                            [](project::Project& p) {
+                                p.tool.cutter = CutterKind::ball;
+                                p.tool.diameter_mm = 60.0;
+                            },
+                            {});
+    person_.wait_idle();
+    person_.choose("inspector/error/beside", "uniform");
+    const auto look = [&] { return person_.workshop().look(); };
+    const auto right = plan().cut_of(look().project, look().shown().get());
+    const auto left = plan().cut_of(look().project, plan().uniform.get());
+    ASSERT_TRUE(left && right);
+    EXPECT_NE(left, right);
+    EXPECT_FALSE(left->bites.empty());
+    EXPECT_FALSE(right->bites.empty());
+    person_.keep("toolpath-beside-gouges");
+    const render::Picture with = person_.picture();
+    person_.workshop().run("view.layer_gouges");
+    person_.frames(3);
+    EXPECT_NE(person_.picture(), with);
+}
+
 TEST_F(ToolpathWorkspace, AnyTwoResultsStandBesideEachOtherInTheSameColours) {
-    choose("inspector/error/beside", "uniform");
+    person_.choose("inspector/error/beside", "uniform");
     EXPECT_TRUE(person_.sees("view/left/left"));
     EXPECT_TRUE(person_.sees("view/right/right"));
     person_.keep("toolpath-beside");
@@ -203,7 +219,7 @@ TEST_F(ToolpathWorkspace, AnyTwoResultsStandBesideEachOtherInTheSameColours) {
     EXPECT_EQ(person_.workshop().session().kept->evaluation, kept);
     EXPECT_NE(person_.workshop().look().shown(), kept);
     person_.keep("toolpath-beside-machines");
-    choose("inspector/error/beside", "nothing");
+    person_.choose("inspector/error/beside", "nothing");
     EXPECT_FALSE(person_.sees("view/left/left"));
 }
 

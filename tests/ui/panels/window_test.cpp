@@ -167,6 +167,7 @@ TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
     person.frames();
     person.fill_in("inspector/grid/nu", "8");
     person.fill_in("inspector/grid/nv", "8");
+    person.wait_idle();
     person.click("inspector/watch/grid_chain");
     person.wait_idle();
     const auto watched = person.workshop().look().watched;
@@ -174,8 +175,17 @@ TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
     EXPECT_EQ(watched->method, GridMethod::chain);
     EXPECT_LT(watched->state->of_best.mean, watched->state->start.mean);
     EXPECT_FALSE(person.sees("outline/stages/chain"));
-    person.workshop().run("grid.use_chain");
+    person.keep("whole-chain-watched");
+    person.press_key(render::Key::f4);
+    person.frames();
+    EXPECT_EQ(person.workshop().look().shown_name(), "Track optimiser") << "the chain is only watched";
+    person.press_key(render::Key::f3);
+    person.frames();
+    person.click("inspector/watch/grid_use_chain");
     person.wait_idle();
+    EXPECT_EQ(person.project().grid.method, GridMethod::chain);
+    EXPECT_EQ(person.workshop().look().shown_name(), "Whole chain");
+    EXPECT_FALSE(person.sees("inspector/watch/grid_use_chain"));
     EXPECT_TRUE(person.sees("outline/stages/chain"));
     const auto now = person.workshop().look();
     ASSERT_NE(now.evaluation(GridMethod::chain), nullptr);

@@ -148,6 +148,24 @@ TEST(MeshDrawer, ShowsTheOtherSideInItsOwnColour) {
     EXPECT_EQ(back.at(10, 10), (Pixel{0, 0, 255, 255}));
 }
 
+TEST(MeshDrawer, LeavesOutTheInsideOfAClosedBodyUnlessItIsSeenThrough) {
+    Canvas canvas({20, 20});
+    const auto middle = [&](const glm::vec4& color, bool turned) {
+        MeshStyle style = plain(color);
+        style.closed = true;
+        if (turned) {
+            style.model[2][2] = style.model[1][1] = -1.0F;
+            style.model[3][1] = 20.0F;
+        }
+        return canvas
+            .picture([&](const Painter& painter) { painter.mesh(square(0, 20, 0.0F), style, canvas.flat()); })
+            .at(10, 10);
+    };
+    EXPECT_EQ(middle(red, false), red_pixel);
+    EXPECT_EQ(middle(red, true), Canvas::ground_pixel);
+    EXPECT_NE(middle(glm::vec4(1.0F, 0.0F, 0.0F, 0.5F), true), Canvas::ground_pixel);
+}
+
 TEST(MeshDrawer, IsPlacedByItsModelMatrix) {
     Canvas canvas({40, 40});
     MeshStyle style = plain(red);

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "tests/ui/render/file_manager.h"
+#include "tests/ui/render/task_manager.h"
 #include "ui/render/camera.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
@@ -157,6 +158,29 @@ TEST_F(WithDisplay, FilesOfAnotherProgramAreDroppedOnIt) {
     }
     EXPECT_EQ(dropped, (std::vector<std::filesystem::path>{"/tmp/a plot.plt", "/tmp/\xE0\xB8\xAB.png"}));
     EXPECT_TRUE(drawn); // what they are is seen
+}
+
+/// As a task manager does it, or the display that ends.
+[[noreturn]] void lose_display_and_wait() {
+    WindowContext window({.title = "to be killed"});
+    bool told = false;
+    window.on_display_lost([&told] {
+        told = true;
+        constexpr int as_wanted = 7;
+        std::_Exit(as_wanted);
+    });
+    test::end_program_of(window.handle());
+    for (int frame = 0; frame < 200 && !told; ++frame) {
+        window.begin();
+        window.present();
+        (void)window.wait(0.02);
+    }
+    std::_Exit(1);
+}
+
+TEST(WindowContext, TellsThatItsDisplayIsLost) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(lose_display_and_wait(), testing::ExitedWithCode(7), "");
 }
 
 } // namespace

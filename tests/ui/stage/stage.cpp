@@ -1,7 +1,5 @@
 #include "tests/ui/stage/stage.h"
 
-#include "tests/ui/stage/software_renderer.h"
-
 #include <imgui.h>
 
 #include <array>
@@ -170,8 +168,12 @@ void Stage::fill_in(std::string_view path, std::string_view text) {
     type(text); // the whole old text is selected on a click
 }
 
+Picture Stage::picture() {
+    return render(*ImGui::GetDrawData(), widgets::palette(screen_.theme).window);
+}
+
 void Stage::save_picture(const std::filesystem::path& png) {
-    save_png(render(*ImGui::GetDrawData(), widgets::palette(screen_.theme).window), png);
+    save_png(picture(), png);
 }
 
 } // namespace millwright::test

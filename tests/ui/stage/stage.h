@@ -2,6 +2,7 @@
 // and keys. Widgets are found by their path. A frame can be painted into a PNG by a small software renderer.
 #pragma once
 
+#include "tests/ui/stage/software_renderer.h"
 #include "ui/widgets/ui.h"
 
 #include <filesystem>
@@ -59,7 +60,9 @@ public:
     /// Clicks a field, replaces its text, does not commit.
     void fill_in(std::string_view path, std::string_view text);
 
-    /// Paints the last frame. Throws Error if the file cannot be written.
+    /// Paints the last frame.
+    [[nodiscard]] Picture picture();
+    /// The same into a file. Throws Error if it cannot be written.
     void save_picture(const std::filesystem::path& png);
 
 private:

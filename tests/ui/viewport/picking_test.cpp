@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace millwright::viewport {
 namespace {
 
@@ -109,6 +111,35 @@ TEST(SurfacePicker, MeetsNothingBesideTheSurfaceOrWithoutOne) {
     EXPECT_FALSE(picker.hit(render::ray(view, pixel_of(view, {103.0, 50.0, 0.0})), Frame::Identity()));
     picker.follow(nullptr);
     EXPECT_FALSE(picker.hit(through, Frame::Identity()));
+}
+
+/// Two triangles over the sheet's corner at different heights, of the faces 3 and 7.
+project::ReferenceMesh two_faces() {
+    project::ReferenceMesh reference;
+    reference.rest.points = {{0, 0, 10}, {60, 0, 10}, {0, 60, 10}, {0, 0, 30}, {30, 0, 30}, {0, 30, 30}};
+    reference.rest.triangles = {{0, 1, 2}, {3, 4, 5}};
+    reference.faces = {3, 7};
+    return reference;
+}
+
+TEST(PickFace, FindsTheNearestAndNoneBehindTheSurfaceOrBeside) {
+    const render::View view = from_above();
+    const Frame here = Frame::Identity();
+    constexpr double any = std::numeric_limits<double>::infinity();
+    const auto at = [&](const Vec3& place, double farthest) {
+        return pick_face(two_faces(), render::ray(view, pixel_of(view, place)), here, farthest);
+    };
+    EXPECT_EQ(at({10.0, 10.0, 30.0}, any), 7);
+    EXPECT_EQ(at({35.0, 15.0, 10.0}, any), 3);
+    EXPECT_EQ(at({80.0, 80.0, 10.0}, any), std::nullopt);
+    EXPECT_EQ(at({10.0, 10.0, 30.0}, 100.0), std::nullopt) << "a surface lies before it";
+    Frame moved = Frame::Identity();
+    moved.translation() = Vec3(40.0, 40.0, 0.0);
+    EXPECT_EQ(pick_face(two_faces(), render::ray(view, pixel_of(view, {50.0, 50.0, 30.0})), moved, any), 7);
+    project::ReferenceMesh mesh = two_faces();
+    mesh.faces.clear();
+    EXPECT_EQ(pick_face(mesh, render::ray(view, pixel_of(view, {10.0, 10.0, 30.0})), here, any),
+              std::nullopt);
 }
 
 TEST(PickMove, FindsEachMoveAtItsMiddle) {

@@ -22,7 +22,7 @@ TEST(PictureFacts, PutTheErrorsBeforeAndAfterBelowEachOther) {
                                                fixed(after.closest.lmean, 4),
                                                fixed(after.closest.p95, 4),
                                                fixed(to_degrees(after.closest.axis_max), 2),
-                                               fixed(after.track_gap, 2)};
+                                               fixed(after.track_gap.value(), 2)};
     EXPECT_EQ(facts.rows[1], expected);
     EXPECT_EQ(facts.rows[0][0], "uniform");
     EXPECT_EQ(facts.rows[0][1], fixed(dome.plan.uniform->closest.max, 3));

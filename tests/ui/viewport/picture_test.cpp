@@ -1,6 +1,7 @@
 #include "ui/viewport/picture.h"
 
 #include "core/base/error.h"
+#include "core/kinematics/machine_solids.h"
 #include "tests/ui/viewport/plans.h"
 #include "tests/ui/viewport/studio.h"
 
@@ -52,6 +53,18 @@ TEST(RenderView, DrawsTheSameBytesTwice) {
         EXPECT_EQ(render_view(bells.project, bells.plan, kind, small, Theme::light), once) << id(kind);
         test::keep(once, "picture-small-" + std::string(id(kind)));
     }
+}
+
+TEST(RenderView, TheMachineHasTheBodiesOfItsFile) {
+    const auto dome = test::planned({"dome", "ac-table", 20});
+    const auto solids =
+        kinematics::read_machine_solids("assets/machines/ac-table.json", dome.plan.workpiece->machine);
+    ASSERT_TRUE(solids && !solids->empty());
+    const Picture boxes = render_view(dome.project, dome.plan, ViewKind::machine, usual, Theme::dark);
+    const Picture bodies =
+        render_view(dome.project, dome.plan, ViewKind::machine, usual, Theme::dark, solids);
+    EXPECT_GT(render::difference(boxes, bodies, 8).fraction, 0.02);
+    test::keep(bodies, "picture-machine-bodies");
 }
 
 TEST(RenderView, ShowsTheColoursOfErrorsWithTheirLegend) {

@@ -66,6 +66,30 @@ TEST_F(Plot, ValuesThatAreNotNumbersLeaveGaps) {
     EXPECT_NO_THROW(stage.frames(2));
 }
 
+TEST_F(Plot, ZerosOfALogarithmicPlotAreMarkedBelowItsCurves) {
+    y = {1.0, 0.0, 1e-3, 0.0, 1e-6};
+    stage.frames(2);
+    EXPECT_EQ(stage.ui().places().find("plots/error/zeros"), nullptr); // a linear axis has a place for them
+    is_log = true;
+    stage.frames(2);
+    const Rect box = stage.place("plots/error");
+    const Rect zeros = stage.place("plots/error/zeros");
+    EXPECT_FLOAT_EQ(zeros.bottom(), box.bottom());
+    EXPECT_LT(zeros.h, 0.2F * box.h);
+    const test::Picture picture = stage.picture();
+    const auto pixel = [&](double share) {
+        const auto row = static_cast<std::size_t>(zeros.centre().y);
+        const auto column = static_cast<std::size_t>(zeros.x + static_cast<float>(share) * zeros.w);
+        return picture.pixels[row * static_cast<std::size_t>(picture.width) + column];
+    };
+    EXPECT_NE(pixel(0.25), pixel(0.4)); // at x = 1
+    EXPECT_NE(pixel(0.75), pixel(0.4)); // at x = 3
+    EXPECT_EQ(pixel(0.5), pixel(0.4));  // at x = 2
+    y = {0.0, 0.0, 0.0, 0.0, 0.0};
+    stage.frames(2);
+    EXPECT_NO_THROW((void)stage.place("plots/error/zeros"));
+}
+
 TEST_F(Plot, WithoutPointsItHasNoAxes) {
     stage.frames(2);
     const Rect with_axes = stage.place("plots/error");

@@ -51,5 +51,28 @@ TEST(Toasts, AFloodKeepsTheDanger) {
     EXPECT_TRUE(stage.ui().place("notices/1").has_value());
 }
 
+TEST(Toasts, CoverNothingOfADialog) {
+    Toasts toasts;
+    toasts.push({Severity::info, "part.ngc is opened when the question is answered.", ""});
+    constexpr Rect middle{200.0F, 100.0F, 400.0F, 250.0F}; // a drawing between panes
+    bool asks = false;
+    Stage stage([&](Ui& ui) {
+        if (asks) {
+            const auto dialog = ui.dialog("question", "A job was broken off", 420.0F);
+            ui.text("Look at the machine and the part before anything else.");
+            (void)ui.button("answer", "Dismiss");
+        }
+        toasts.draw(ui, "notices", middle);
+    });
+    stage.frames(2);
+    const Rect before = stage.ui().place("notices/1").value();
+    EXPECT_EQ(before.bottom(), middle.bottom() - stage.ui().px(gaps::small));
+    asks = true;
+    stage.frames(3);
+    const Rect button = stage.ui().place("question/answer").value();
+    const Rect notice = stage.ui().place("notices/1").value();
+    EXPECT_GT(notice.y, button.bottom());
+}
+
 } // namespace
 } // namespace millwright::widgets

@@ -47,6 +47,8 @@ inline void add(Actions& actions,
 }
 
 void add_file_actions(Actions& actions);
+void add_import_actions(Actions& actions);
+void add_quit_action(Actions& actions);
 void add_edit_actions(Actions& actions);
 void add_view_actions(Actions& actions);
 void add_layer_actions(Actions& actions);

@@ -50,7 +50,8 @@ void ArmBuffers::draw(const Canvas& canvas,
                                 {.coloring = {.color = with_opacity(color, tint.opacity)},
                                  .model = glm::mat4(render::to_glm(places[n])),
                                  .back_color = {},
-                                 .depth = tint.depth},
+                                 .depth = tint.depth,
+                                 .closed = parts_[n].meshes[m].closed},
                                 canvas.view);
         }
     }

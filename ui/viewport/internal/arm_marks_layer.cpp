@@ -7,6 +7,7 @@
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
+#include "ui/viewport/internal/thin_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -42,25 +43,61 @@ std::vector<Vec3> circle(const Vec2& place, double first, double last) {
     return points;
 }
 
-render::LineBuffer shell_lines(const ArmLook& look) {
+/// Meridians and parallels of the reach.
+std::vector<std::vector<Vec3>> shell_curves(const ArmLook& look) {
     const kinematics::ReachShell& shell = *look.shell;
-    std::vector<render::LineVertex> lines;
+    std::vector<std::vector<Vec3>> curves;
     const auto meridians =
         std::max(1, static_cast<int>(std::round((shell.last - shell.first) / meridian_step)));
     for (const auto& border : shell.border) {
         for (int n = 0; n <= meridians; ++n) {
-            append(lines, turned(border, shell.first + (shell.last - shell.first) * n / meridians));
+            curves.push_back(turned(border, shell.first + (shell.last - shell.first) * n / meridians));
         }
         double since = 0.0;
         for (std::size_t n = 1; n < border.size(); ++n) {
             since += (border[n] - border[n - 1]).norm();
             if (since > parallel_spacing * look.reach) {
-                append(lines, circle(border[n], shell.first, shell.last));
+                curves.push_back(circle(border[n], shell.first, shell.last));
                 since = 0.0;
             }
         }
     }
-    return {lines, render::LineTopology::segments};
+    return curves;
+}
+
+enum Kind { nothing, plain, troubled };
+
+/// Smooth for a picture that rests, thin for one that moves. More pieces than `most_smooth` are always thin:
+/// without a graphics card a picture with 10,000 smooth ones takes half a second.
+struct Drawn {
+    render::LineBuffer smooth;
+    ThinLines thin;
+};
+constexpr std::size_t most_smooth = 4000;
+
+bool drawn_thin(const Canvas& canvas, const render::LineBuffer& smooth) {
+    return canvas.edges == render::Edges::rough || smooth.segment_count() == 0;
+}
+
+render::LineBuffer smooth_lines(const std::vector<render::LineVertex>& lines) {
+    return lines.size() <= 2 * most_smooth ? render::LineBuffer(lines, render::LineTopology::segments)
+                                           : render::LineBuffer();
+}
+
+Drawn drawn(const std::vector<std::vector<Vec3>>& curves) {
+    std::vector<render::LineVertex> lines;
+    std::vector<Vec3> points;
+    std::vector<int> kinds;
+    for (const std::vector<Vec3>& curve : curves) {
+        if (curve.empty()) {
+            continue;
+        }
+        append(lines, curve);
+        points.insert(points.end(), curve.begin(), curve.end());
+        kinds.resize(points.size(), plain);
+        kinds[points.size() - curve.size()] = nothing; // the way from one curve to the next
+    }
+    return {smooth_lines(lines), ThinLines(points, [&](std::size_t n) { return kinds[n]; })};
 }
 
 render::LineBuffer track_lines(const ArmTrack& track, const render::ViewColors& colors) {
@@ -71,13 +108,7 @@ render::LineBuffer track_lines(const ArmTrack& track, const render::ViewColors& 
                std::array{track.tips[n - 1], track.tips[n]},
                with_opacity(free ? colors.good : colors.danger, 1.0F));
     }
-    return {lines, render::LineTopology::segments};
-}
-
-render::LineBuffer strip(const std::vector<Vec3>& points) {
-    std::vector<render::LineVertex> lines;
-    append(lines, points);
-    return {lines, render::LineTopology::segments};
+    return smooth_lines(lines);
 }
 
 class ArmMarksLayer final : public Layer {
@@ -89,14 +120,22 @@ public:
         ghost_.follow(scene.arm->look);
         if (scene.arm->look != look_) {
             look_ = scene.arm->look;
-            shell_ = look_->shell ? shell_lines(*look_) : render::LineBuffer();
+            shell_ = look_->shell ? drawn(shell_curves(*look_)) : Drawn();
         }
         if (scene.arm->trace != trace_of_) {
             trace_of_ = scene.arm->trace;
-            trace_ = trace_of_ ? strip(*trace_of_) : render::LineBuffer();
+            trace_ = trace_of_ && !trace_of_->empty() ? drawn({*trace_of_}) : Drawn();
         }
         if (scene.arm->track != track_of_) {
             track_of_ = scene.arm->track;
+            thin_track_ = track_of_
+                              ? ThinLines(track_of_->tips,
+                                          [this](std::size_t n) {
+                                              return track_of_->troubles[n] == kinematics::ArmTrouble::none
+                                                         ? plain
+                                                         : troubled;
+                                          })
+                              : ThinLines();
             for (const auto theme : {render::Theme::dark, render::Theme::light}) {
                 tracks_[static_cast<std::size_t>(theme)] =
                     track_of_ ? track_lines(*track_of_, render::view_colors(theme)) : render::LineBuffer();
@@ -150,11 +189,15 @@ public:
 
 private:
     void draw_shell(const Canvas& canvas, const JointPositions& joints) const {
-        canvas.painter.lines(shell_,
-                             {.coloring = {.color = with_opacity(canvas.colors.rapid, 0.22F)},
-                              .width_px = 1.0F,
-                              .depth = render::Depth::ghost},
-                             canvas.view);
+        const glm::vec4 faint = with_opacity(canvas.colors.rapid, 0.22F);
+        if (drawn_thin(canvas, shell_.smooth)) {
+            shell_.thin.draw(canvas, {glm::vec4(0.0F), faint});
+        } else {
+            canvas.painter.lines(
+                shell_.smooth,
+                {.coloring = {.color = faint}, .width_px = 1.0F, .depth = render::Depth::ghost},
+                canvas.view);
+        }
         if (!look_->shell) {
             return;
         }
@@ -216,17 +259,31 @@ private:
 
     void draw_paths(const Scene& scene, const Canvas& canvas) const {
         if (scene.layers.trace) {
-            draw_seamed(canvas,
-                        trace_,
-                        {.coloring = {.color = with_opacity(canvas.colors.selected, 1.0F)}, .width_px = 2.0F},
-                        canvas.view);
+            draw_trace(canvas);
         }
         if (scene.layers.toolpath) {
-            draw_seamed(canvas,
-                        tracks_[static_cast<std::size_t>(canvas.colors.theme)],
-                        {.coloring = {.from = render::ColorFrom::vertex}, .width_px = 2.0F},
-                        canvas.view);
+            draw_track(canvas);
         }
+    }
+
+    void draw_trace(const Canvas& canvas) const {
+        const glm::vec4 color = with_opacity(canvas.colors.selected, 1.0F);
+        if (drawn_thin(canvas, trace_.smooth)) {
+            return trace_.thin.draw(canvas, {glm::vec4(0.0F), color});
+        }
+        draw_seamed(canvas, trace_.smooth, {.coloring = {.color = color}, .width_px = 2.0F}, canvas.view);
+    }
+
+    void draw_track(const Canvas& canvas) const {
+        const render::LineBuffer& smooth = tracks_[static_cast<std::size_t>(canvas.colors.theme)];
+        if (drawn_thin(canvas, smooth)) {
+            return thin_track_.draw(canvas,
+                                    {glm::vec4(0.0F),
+                                     with_opacity(canvas.colors.good, 1.0F),
+                                     with_opacity(canvas.colors.danger, 1.0F)});
+        }
+        draw_seamed(
+            canvas, smooth, {.coloring = {.from = render::ColorFrom::vertex}, .width_px = 2.0F}, canvas.view);
     }
 
     void draw_frame(const Canvas& canvas, const Frame& frame, bool held) const {
@@ -251,7 +308,8 @@ private:
     std::shared_ptr<const ArmLook> look_;
     std::shared_ptr<const std::vector<Vec3>> trace_of_;
     std::shared_ptr<const ArmTrack> track_of_;
-    render::LineBuffer shell_, trace_;
+    Drawn shell_, trace_;
+    ThinLines thin_track_;
     std::array<render::LineBuffer, 2> tracks_; ///< by theme
 };
 

@@ -30,7 +30,7 @@ std::vector<double> node_errors(const project::Evaluation& shown) {
 } // namespace
 
 render::MeshBuffer error_surface(const project::Workpiece& workpiece, const project::Evaluation& shown) {
-    return value_surface(workpiece.patch, shown.outcome.grid.array(), node_errors(shown));
+    return value_surface(workpiece.patch, workpiece.trim, shown.outcome.grid.array(), node_errors(shown));
 }
 
 } // namespace millwright::viewport

@@ -13,6 +13,7 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_machine_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_fixture_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_surface_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_reference_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_grid_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_toolpath_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_error_layer();

@@ -139,11 +139,13 @@ private:
             const std::optional<std::size_t> cutter = cutter_among(carrier);
             for (std::size_t m = 0; m < meshes_[n].size(); ++m) {
                 if (m != cutter) {
-                    const auto& [mesh, color] = meshes_[n][m];
-                    canvas.painter.mesh(
-                        mesh,
-                        {.coloring = {.color = with_opacity(color, 1.0F)}, .model = model, .back_color = {}},
-                        canvas.view);
+                    const auto& [mesh, color, closed] = meshes_[n][m];
+                    canvas.painter.mesh(mesh,
+                                        {.coloring = {.color = with_opacity(color, 1.0F)},
+                                         .model = model,
+                                         .back_color = {},
+                                         .closed = closed},
+                                        canvas.view);
                 }
             }
         }

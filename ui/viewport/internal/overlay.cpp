@@ -145,6 +145,14 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "What the path costs with the part there: its mean error, or the machine's travel.",
                          set_up_colors(scene)});
     }
+    if (surface == SurfaceColors::deviation) {
+        found.push_back({"deviation_legend",
+                         "Deviation",
+                         "mm",
+                         "Distance of the imported triangles from the patch; above zero on the side of its "
+                         "normal.",
+                         deviation_colors(scene)});
+    }
     if (surface == SurfaceColors::weight) {
         found.push_back({"weight_legend",
                          "Weight",

@@ -41,6 +41,13 @@ void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text);
 
 void draw_box(const Pane& pane, const Hand::Box& box);
 
+/// The ring of the brush, and the outline with its corners, recorded as `corner(k)`.
+void draw_surface_tool(widgets::Ui& ui,
+                       const Pane& pane,
+                       const Scene& scene,
+                       const SurfacePicker& picker,
+                       const SurfaceHand& hand);
+
 /// What is being dragged or pointed at, beside it.
 void draw_hint(widgets::Ui& ui, const Pane& pane, const Scene& scene, const Hand& hand);
 

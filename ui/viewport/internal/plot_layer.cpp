@@ -109,7 +109,7 @@ public:
         if (scene.layers.surface && look_) {
             draw_look(scene, canvas);
         }
-        const bool rows = scene.plot->levels.empty(); // of a picture: they would hide what they leave
+        const bool rows = scene.plot->picture && scene.plot->levels.empty(); // would hide what they leave
         if (scene.layers.toolpath && !(rows && scene.layers.surface && look_)) {
             draw_paths(scene, canvas);
         }

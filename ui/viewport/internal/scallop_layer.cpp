@@ -27,7 +27,8 @@ public:
         for (const double height : swept.heights) {
             heights.push_back(std::isfinite(height) ? std::max(height, 0.0) : not_cut);
         }
-        surface_ = value_surface(workpiece_->patch, grid::Grid::uniform(swept.nu, swept.nv).array(), heights);
+        surface_ = value_surface(
+            workpiece_->patch, workpiece_->trim, grid::Grid::uniform(swept.nu, swept.nv).array(), heights);
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {

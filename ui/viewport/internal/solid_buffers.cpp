@@ -1,5 +1,6 @@
 #include "ui/viewport/internal/solid_buffers.h"
 
+#include "core/geometry/closed_solid.h"
 #include "ui/render/convert.h"
 
 namespace millwright::viewport {
@@ -28,7 +29,7 @@ render::MeshBuffer buffer_of(const geometry::SolidMesh& mesh) {
 std::vector<ColoredMesh> buffers_of(const geometry::SolidBody& body) {
     std::vector<ColoredMesh> meshes;
     for (const geometry::SolidMesh& mesh : body.meshes) {
-        meshes.push_back({buffer_of(mesh), render::to_float(mesh.color)});
+        meshes.push_back({buffer_of(mesh), render::to_float(mesh.color), geometry::is_closed(mesh)});
     }
     return meshes;
 }

@@ -13,6 +13,7 @@ namespace millwright::viewport {
 struct ColoredMesh {
     render::MeshBuffer mesh;
     glm::vec3 color{};
+    bool closed = false; ///< geometry::is_closed
 };
 
 /// Each of the body's meshes, in their order.

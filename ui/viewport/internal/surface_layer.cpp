@@ -12,7 +12,9 @@ namespace millwright::viewport {
 namespace {
 
 constexpr std::size_t outline_stride = 7; // of the mesh's points: the view need not be fitted to all of them
-constexpr int iso_lines = 10;             // intervals between lines of constant u and v
+constexpr int cells_of_trimmed = 200;     // of the mesh: its edge is covered by the drawn outline
+constexpr double lift = 0.004; // of the content's radius: outlines over the surface that they lie on
+constexpr int iso_lines = 10;  // intervals between lines of constant u and v
 
 /// Cells of the mesh along a direction of that degree: a multiple of the intervals between lines, so that the
 /// lines lie on edges of the mesh.
@@ -25,14 +27,20 @@ render::MeshVertex vertex(const geometry::Mesh& mesh, std::size_t k, bool flippe
             .normal = (flipped ? -1.0F : 1.0F) * render::to_float(mesh.normals[k])};
 }
 
+/// What belongs to the design, and what its trimmed patches have besides.
+struct Triangles {
+    std::vector<std::uint32_t> inside, outside;
+};
+
 class SurfaceLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
         const bool flipped = scene.workpiece && scene.workpiece->flipped;
-        if (scene.surface == surface_ && flipped == flipped_) {
+        if (scene.surface == surface_ && scene.trims == trims_ && flipped == flipped_) {
             return;
         }
         surface_ = scene.surface;
+        trims_ = scene.trims;
         flipped_ = flipped;
         rebuild();
     }
@@ -48,13 +56,27 @@ public:
         if (surface_colors(scene) == SurfaceColors::plain) {
             canvas.painter.mesh(mesh_, style, canvas.view);
         }
+        if (outside_.index_count() > 0) {
+            render::MeshStyle faint = style;
+            faint.coloring.opacity = 0.12F;
+            faint.depth = render::Depth::ghost;
+            canvas.painter.mesh(outside_, faint, canvas.view);
+        }
         render::LineStyle line = {
             .coloring = {.color = with_opacity(colors.wire, 0.8F)}, .model = canvas.s_T_w, .width_px = 1.6F};
         canvas.painter.lines(border_, line, canvas.view);
+        if (loops_.segment_count() > 0) {
+            line.coloring.color = with_opacity(colors.accent, 1.0F);
+            line.width_px = 2.2F;
+            draw_seamed(canvas, loops_, line, nearer(canvas, lift * radius(canvas.content)));
+            line.coloring.color = with_opacity(colors.wire, 0.8F);
+        }
         if (scene.layers.surface_lines) {
             line.coloring.color = with_opacity(colors.wire, 0.35F);
             line.width_px = 1.0F;
-            canvas.painter.lines(iso_, line, canvas.view);
+            const bool under_mesh = surface_colors(scene) == SurfaceColors::deviation;
+            canvas.painter.lines(
+                iso_, line, under_mesh ? nearer(canvas, lift * radius(canvas.content)) : canvas.view);
         }
     }
 
@@ -66,26 +88,36 @@ public:
 private:
     void rebuild() {
         std::vector<render::MeshVertex> vertices;
-        std::vector<std::uint32_t> triangles;
+        Triangles triangles;
         std::vector<render::LineVertex> border;
         std::vector<render::LineVertex> iso;
+        std::vector<render::LineVertex> loops;
         outline_.clear();
-        if (surface_) {
-            for (const geometry::BezierPatch& patch : surface_->patches()) {
-                append_mesh(patch, vertices, triangles);
-                append_lines(patch, border, iso);
-            }
+        const std::size_t patches = surface_ ? surface_->patches().size() : 0;
+        for (std::size_t n = 0; n < patches; ++n) {
+            const geometry::BezierPatch& patch = surface_->patches()[n];
+            const geometry::Trim trim = trims_ && n < trims_->size() ? (*trims_)[n] : geometry::Trim{};
+            append_mesh(patch, trim, vertices, triangles);
+            append_lines(patch, border, iso);
+            append_loops(patch, trim, loops);
         }
-        mesh_ = render::MeshBuffer(vertices, triangles);
+        mesh_ = render::MeshBuffer(vertices, triangles.inside);
+        outside_ = triangles.outside.empty() ? render::MeshBuffer()
+                                             : render::MeshBuffer(vertices, triangles.outside);
+        loops_ = render::LineBuffer(loops, render::LineTopology::segments);
         border_ = render::LineBuffer(border, render::LineTopology::segments);
         iso_ = render::LineBuffer(iso, render::LineTopology::segments);
     }
 
     void append_mesh(const geometry::BezierPatch& patch,
+                     const geometry::Trim& trim,
                      std::vector<render::MeshVertex>& vertices,
-                     std::vector<std::uint32_t>& triangles) {
+                     Triangles& triangles) {
+        const auto cells_for = [&](int degree) {
+            return trim.everything() ? cells(degree) : std::max(cells(degree), cells_of_trimmed);
+        };
         const geometry::Mesh mesh =
-            geometry::tessellate(patch, cells(patch.degree_u()), cells(patch.degree_v()));
+            geometry::tessellate(patch, cells_for(patch.degree_u()), cells_for(patch.degree_v()));
         const auto base = static_cast<std::uint32_t>(vertices.size());
         for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(vertex(mesh, k, flipped_));
@@ -94,9 +126,25 @@ private:
             }
         }
         for (const auto& [a, b, c] : mesh.triangles) {
-            triangles.push_back(base + static_cast<std::uint32_t>(a));
-            triangles.push_back(base + static_cast<std::uint32_t>(flipped_ ? c : b));
-            triangles.push_back(base + static_cast<std::uint32_t>(flipped_ ? b : c));
+            const auto place = [&](int k) { return mesh.parameters[static_cast<std::size_t>(k)]; };
+            const Vec2 middle = (place(a) + place(b) + place(c)) / 3.0;
+            auto& those = trim.contains(middle) ? triangles.inside : triangles.outside;
+            those.push_back(base + static_cast<std::uint32_t>(a));
+            those.push_back(base + static_cast<std::uint32_t>(flipped_ ? c : b));
+            those.push_back(base + static_cast<std::uint32_t>(flipped_ ? b : c));
+        }
+    }
+
+    static void append_loops(const geometry::BezierPatch& patch,
+                             const geometry::Trim& trim,
+                             std::vector<render::LineVertex>& lines) {
+        for (const geometry::Trim::Loop& loop : trim.loops) {
+            for (std::size_t n = 0; n < loop.size(); ++n) {
+                const Vec2& a = loop[n];
+                const Vec2& b = loop[n + 1 == loop.size() ? 0 : n + 1];
+                const int steps = 1 + static_cast<int>(cells_of_trimmed * (b - a).norm());
+                append(lines, on_surface(patch, a, b, steps));
+            }
         }
     }
 
@@ -112,8 +160,10 @@ private:
     }
 
     std::shared_ptr<const geometry::Surface> surface_;
+    std::shared_ptr<const std::vector<geometry::Trim>> trims_;
     bool flipped_ = false;
-    render::MeshBuffer mesh_;
+    render::MeshBuffer mesh_, outside_;
+    render::LineBuffer loops_;
     render::LineBuffer border_;
     render::LineBuffer iso_;
     std::vector<Vec3> outline_;

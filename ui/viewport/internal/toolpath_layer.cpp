@@ -57,13 +57,14 @@ void append_arrow(std::vector<render::LineVertex>& lines,
 
 /// At most `most_arrows`, on tracks at equal steps.
 std::vector<render::LineVertex> arrows(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
-    const auto tracks = 1 + std::ranges::count(path.points, MoveKind::cross, &PathPoint::reached_by);
+    const auto points = std::ssize(path.points);
+    const auto tracks = points - std::ranges::count(path.points, MoveKind::track, &PathPoint::reached_by);
     const auto each = (tracks + most_arrows - 1) / most_arrows;
     std::vector<render::LineVertex> lines;
     int first = 0;
     std::ptrdiff_t track = 0;
     for (int move = 0; move <= move_count(path); ++move) {
-        const bool ends = move == move_count(path) || end_of(path, move).reached_by == MoveKind::cross;
+        const bool ends = move == move_count(path) || end_of(path, move).reached_by != MoveKind::track;
         if (ends && move > first && track++ % each == 0) {
             const auto middle = static_cast<std::size_t>((first + move) / 2);
             append_arrow(lines, patch, path.points[middle], path.points[middle + 1]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
+#include "core/geometry/trim.h"
 #include "core/grid/node_array.h"
 #include "ui/render/mesh_drawer.h"
 
@@ -10,8 +11,9 @@
 namespace millwright::viewport {
 
 /// Between nodes parameters and `values` ([rows x columns] of `nodes`) are blended; the cells of the mesh
-/// divide those of the net.
+/// divide those of the net. Triangles whose middle lies outside of `trim` are left out.
 [[nodiscard]] render::MeshBuffer value_surface(const geometry::BezierPatch& patch,
+                                               const geometry::Trim& trim,
                                                const grid::NodeArray& nodes,
                                                std::span<const double> values);
 

@@ -179,6 +179,7 @@ void ViewPane::paint(const Frame3D& frame, const render::View& view, render::Edg
 void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     const std::vector<Label> labels = visible_labels(frame.view, frame.scene, frame.picker, pane);
     draw_labels(frame.ui, pane, labels);
+    draw_surface_tool(frame.ui, pane, frame.scene, frame.picker, hand_.surface());
     draw_hint(frame.ui, pane, frame.scene, hand_);
     if (hand_.box()) {
         draw_box(pane, *hand_.box());

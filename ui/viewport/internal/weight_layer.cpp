@@ -18,7 +18,7 @@ public:
         weight_ = scene.weight;
         workpiece_ = scene.workpiece;
         const grid::Grid raster = grid::Grid::uniform(weight_->rows, weight_->columns);
-        surface_ = value_surface(workpiece_->patch, raster.array(), weight_->values);
+        surface_ = value_surface(workpiece_->patch, workpiece_->trim, raster.array(), weight_->values);
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {

@@ -51,7 +51,8 @@ Slot::~Slot() {
 }
 
 void record_at(Ui& ui, const std::string& path, const Rect& rect, bool enabled, std::string reason) {
-    const bool visible = ImGui::IsRectVisible(upper_left(rect), lower_right(rect));
+    const Point middle = rect.centre();
+    const bool visible = ImGui::IsRectVisible({middle.x, middle.y}, {middle.x + 1.0F, middle.y + 1.0F});
     ui.state().places.record(path, {rect, enabled, visible, std::move(reason)});
 }
 

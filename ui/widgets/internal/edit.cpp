@@ -80,6 +80,15 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
         callback = on_key;
     }
     Typed typed;
+    Ui::State::Edit& edit = ui.state().edit;
+    if (edit.called && edit.path == box.path) {
+        edit = {.path = box.path,
+                .text = text,
+                .initial = text,
+                .called = false,
+                .kept_until = ImGui::GetFrameCount() + frames_to_refocus};
+        ImGui::SetKeyboardFocusHere();
+    }
     const std::string id = "##" + box.path;
     typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &answering);
     typed.activated = ImGui::IsItemActivated();

@@ -30,6 +30,14 @@ void keep_wheel() {
     ImGui::SetItemUsingMouseWheel();
 }
 
+std::optional<Rect> dialog_place() {
+    const ImGuiWindow* dialog = ImGui::GetTopMostPopupModal();
+    if (dialog == nullptr) {
+        return std::nullopt;
+    }
+    return Rect{dialog->Pos.x, dialog->Pos.y, dialog->Size.x, dialog->Size.y};
+}
+
 bool text_field_active() {
     const ImGuiContext& g = *ImGui::GetCurrentContext();
     return g.ActiveId != 0 && g.ActiveId == g.InputTextState.ID;

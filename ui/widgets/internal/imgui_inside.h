@@ -2,6 +2,10 @@
 // themselves; whoever moves to one looks here.
 #pragma once
 
+#include "ui/widgets/places.h"
+
+#include <optional>
+
 namespace millwright::widgets {
 
 /// Whether Tab stops at the item submitted while this lives. (1.86 stops at text fields alone.)
@@ -18,6 +22,9 @@ void show_keyboard_on_tab();
 
 /// A text field has the keyboard now. (WantTextInput says what was so a frame ago.)
 [[nodiscard]] bool text_field_active();
+
+/// Where the dialog stands that is open, as far as it is known a frame after it opened; nothing without one.
+[[nodiscard]] std::optional<Rect> dialog_place();
 
 /// The wheel over the last item is the item's own: the pane behind does not scroll.
 void keep_wheel();

@@ -15,6 +15,7 @@ struct Ui::State {
         std::string path;    ///< of the one field being typed into; empty: none
         std::string text;    ///< as typed
         std::string initial; ///< as it was before
+        bool called = false; ///< it takes the keyboard when it is drawn next
         int kept_until = -1; ///< ImGui's frame: behind Enter the field takes the keyboard again until then
     };
     struct Refusal {

@@ -267,6 +267,7 @@ OWord ControlFlow::skip_to(const std::string& label,
                            std::initializer_list<OWord> words,
                            Cursor* cursor,
                            SourcePlace opened) {
+    const bool defines = std::ranges::find(words, OWord::endsub) != words.end();
     std::string_view text;
     while (files_.next(text)) {
         Cursor here(text);
@@ -277,6 +278,9 @@ OWord ControlFlow::skip_to(const std::string& label,
                 *cursor = here;
             }
             return head->word;
+        }
+        if (head && head->word == OWord::sub && defines) {
+            refuse(1, "a subroutine is defined inside of a subroutine");
         }
     }
     refuse(1, fmt::format("O{} of line {} is not closed", label, opened.line));

@@ -109,7 +109,7 @@ private:
     void go_to_subroutine(const std::string& name, OWord head);
 
     /// Reads on to the line of `label` that has one of `words`, and past it. Throws Refusal at the end of the
-    /// text. If it is asked for, `cursor` is behind the word.
+    /// text, and for a subroutine in one that is skipped. If it is asked for, `cursor` is behind the word.
     OWord
     skip_to(const std::string& label, std::initializer_list<OWord> words, Cursor* cursor, SourcePlace opened);
     void go_round(const Open& open);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace millwright::gcode::internal {
 
@@ -255,6 +256,18 @@ Hole hole_of(Run& run, const PlaneAxes& axes, double initial) {
     return hole;
 }
 
+/// At most, with the way to the hole and down to R.
+double moves_of_a_hole(const Hole& hole, int motion) {
+    constexpr double to_the_hole = 2.0;
+    const bool pecks = motion == 730 || motion == 830;
+    if (pecks) {
+        const double of_a_peck = motion == 730 ? 2.0 : 3.0;
+        return to_the_hole + of_a_peck * std::ceil((hole.r - hole.bottom) / hole.q) + 2.0;
+    }
+    const double down_and_up = motion == 870 ? 8.0 : motion == 850 ? 3.0 : motion == 880 ? 1.0 : 2.0;
+    return to_the_hole + down_and_up;
+}
+
 void repeat(const Hole& hole, const Block& block, int motion) {
     ModalState& s = hole.run.state;
     const int count = static_cast<int>(block.value_or('L', 1.0));
@@ -296,6 +309,8 @@ void make_cycle(Run& run, Block& block, int motion) {
         refuse(block.column_of('Q'), fmt::format("Q of {} is more than 0", g_name(motion)));
     }
     check_spindle(s, motion, column);
+    constexpr double up_to_r = 1.0;
+    run.out.expect_room_for(up_to_r + std::floor(block.value_or('L', 1.0)) * moves_of_a_hole(hole, motion));
     if (memory.initial_level < hole.r) {
         s.position[axes.third] = hole.r;
         hole.rapid(hole.r);

@@ -19,11 +19,28 @@ void Outbox::count_move() {
         return;
     }
     if (moves_ > most_moves_) {
-        refuse(1, fmt::format("a line makes at most {} moves", most_moves_));
+        refuse_line();
     }
     if (++further_moves_ > most_further_moves) {
-        refuse(1, fmt::format("canned cycles make at most {} moves", most_further_moves));
+        refuse_program();
     }
+}
+
+void Outbox::expect_room_for(double count) const {
+    if (count > most_moves_ - moves_) {
+        refuse_line();
+    }
+    if (count - few_moves > most_further_moves - further_moves_) {
+        refuse_program();
+    }
+}
+
+void Outbox::refuse_line() const {
+    refuse(1, fmt::format("a line makes at most {} moves", most_moves_));
+}
+
+void Outbox::refuse_program() {
+    refuse(1, fmt::format("canned cycles make at most {} moves", most_further_moves));
 }
 
 void Outbox::send(const Move& move) {

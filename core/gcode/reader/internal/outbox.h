@@ -31,6 +31,10 @@ public:
     }
     [[nodiscard]] SourcePlace place() const { return now_.place; }
 
+    /// Before the first of the many moves of a cycle, so that a line that is refused moves nothing. Throws
+    /// Refusal if up to `count` more are too many for a line, or for the cycles of a program.
+    void expect_room_for(double count) const;
+
     /// A move that this line asks for.
     [[nodiscard]] Move new_move(MoveKind kind) const {
         Move move;
@@ -55,6 +59,8 @@ public:
 
 private:
     void count_move();
+    [[noreturn]] void refuse_line() const;
+    [[noreturn]] static void refuse_program();
 
     CanonSink* sink_;
     SourceLine now_;

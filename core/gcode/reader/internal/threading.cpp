@@ -137,6 +137,9 @@ void make_threading(Run& run, const Block& block) {
     const Thread t = thread_of(run, block, end);
     const double degression = std::max(1.0, block.value_or('R', 1.0));
     const double deepest = t.full_depth + t.peak;
+    constexpr double moves_of_a_pass = 5.0;
+    const double passes = std::ceil(std::pow(t.full_depth / t.first_cut, degression));
+    run.out.expect_room_for((passes + block.value_or('H', 0.0) + 1.0) * moves_of_a_pass);
     double depth = t.peak + t.first_cut;
     for (int pass = 2; depth < deepest; ++pass) {
         cut_pass(t, depth);

@@ -92,6 +92,8 @@ MachineLimits GrblDriver::limits() const {
         if (travel && setting(22).value_or(0.0) > 0.0) {
             axis.min = -*travel;
             axis.max = 0.0;
+        } else {
+            axis.travel = travel;
         }
         limits.axes.push_back(axis);
     }

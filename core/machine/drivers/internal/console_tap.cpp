@@ -23,6 +23,9 @@ std::string readable(std::string_view line) {
 } // namespace
 
 void ConsoleTap::add(char byte, bool sent, double now) {
+    if (words_.kind_of == nullptr) {
+        return;
+    }
     std::string& open = sent ? sent_ : received_;
     if (byte != '\n') {
         if (byte != '\r' && open.size() < longest) {
@@ -51,6 +54,12 @@ void ConsoleTap::sent(std::string_view bytes, double now) {
 void ConsoleTap::received(std::string_view bytes, double now) {
     for (const char c : bytes) {
         add(c, false, now);
+    }
+}
+
+void ConsoleTap::told(const std::vector<ConsoleLine>& lines, double now) {
+    for (const ConsoleLine& line : lines) {
+        console_->add(now, line.sent, line.kind, readable(line.text));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::machine::internal {
 
@@ -15,6 +16,7 @@ struct ConsoleWords {
         ConsoleKind kind = ConsoleKind::realtime;
         std::string text;
     };
+    /// Null: the session tells its lines itself.
     ConsoleKind (*kind_of)(std::string_view line, bool sent) = nullptr;
     /// Of a byte that is sent outside of lines; may be null: there are none.
     std::optional<Named> (*realtime)(unsigned char byte) = nullptr;
@@ -27,6 +29,8 @@ public:
 
     void sent(std::string_view bytes, double now);
     void received(std::string_view bytes, double now);
+    /// Lines that the session tells.
+    void told(const std::vector<ConsoleLine>& lines, double now);
     /// Something about the link itself.
     void note(std::string text, double now);
 

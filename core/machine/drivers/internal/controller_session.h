@@ -3,11 +3,13 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/machine/console.h"
 #include "core/machine/driver.h"
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::machine::internal {
 
@@ -25,6 +27,9 @@ public:
     virtual void tick(double now) = 0;
     /// Takes the bytes that shall be sent.
     [[nodiscard]] virtual std::string take_output() = 0;
+    /// Takes what a person shall read of the conversation where bytes alone do not say it; number and time of
+    /// the lines do not count.
+    [[nodiscard]] virtual std::vector<ConsoleLine> take_console() { return {}; }
 
     // What it knows.
     [[nodiscard]] virtual DriverStatus status() const = 0;
@@ -42,12 +47,14 @@ public:
     virtual void hold(double now) = 0;
     virtual void resume(double now) = 0;
     virtual void stop(double now) = 0;
+    virtual void break_off(std::string, double now) { stop(now); }
     virtual void emergency_stop(double now) = 0;
     /// Before the link is dropped: stops what was begun here.
     virtual void leave(double now) { stop(now); }
     virtual void reset(double now) = 0;
     virtual void trust_position() {}
     virtual void doubt_position(std::string) {}
+    virtual void stands_at(const kinematics::AxisPositions&) {} ///< asked where the driver can be told alone
     virtual void home(double now) = 0;
     virtual void jog(const Jog& jog, double now) = 0;
     virtual void stop_jog(double now) = 0;

@@ -1,7 +1,8 @@
 #include "core/machine/drivers/pmac/pmac_driver.h"
 
 #include "core/base/error.h"
-#include "core/machine/drivers/pmac/internal/console_words.h"
+#include "core/machine/drivers/internal/console_tap.h"
+#include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ std::vector<std::string> lines_of(std::string_view text) {
 
 PmacDriver::PmacDriver(std::unique_ptr<Link> link, const Clock& clock, PmacSettings settings)
     : SessionDriver(
-          std::move(link), clock, std::make_unique<PmacSession>(checked(settings)), pmac::console_words()),
+          std::move(link), clock, std::make_unique<PmacSession>(checked(settings)), internal::ConsoleWords()),
       settings_(std::move(settings)) {}
 
 PmacDriver::~PmacDriver() {
@@ -101,9 +102,17 @@ int PmacDriver::command(const std::string& lines) {
     return talk().command(lines_of(lines), false);
 }
 
+bool PmacDriver::needs_rest(const std::string& lines) {
+    const std::vector<std::string> all = lines_of(lines);
+    return !std::all_of(all.begin(), all.end(), pmac::only_asks) &&
+           !std::all_of(all.begin(), all.end(), [](const std::string& line) {
+               return pmac::only_stops(line) || pmac::only_kills(line);
+           });
+}
+
 int PmacDriver::load(const std::vector<std::string>& lines) {
     const Turn turn(*this);
-    return talk().command(lines, true);
+    return talk().load(lines);
 }
 
 void PmacDriver::enable() {

@@ -33,8 +33,11 @@ public:
     [[nodiscard]] MachineLimits limits() const override;
     /// The listing's lines are those of a motion program, without OPEN and CLOSE.
     void start(Work work) override;
-    /// On-line commands, and buffers from OPEN to CLOSE.
+    /// On-line commands, and buffers from OPEN to CLOSE. Throws Error for jogs without an end (J+), and while
+    /// motors move for lines that need rest.
     int command(const std::string& lines) override;
+    /// Whether `lines` are more than questions and stops.
+    [[nodiscard]] static bool needs_rest(const std::string& lines);
     int load(const std::vector<std::string>& lines) override;
     /// Closes the loops of all motors where they stand. Throws Error unless at rest.
     void enable() override;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <regex>
 
 namespace millwright::machine {
 
@@ -79,7 +80,7 @@ struct Final {
 
 class Reader {
 public:
-    explicit Reader(const std::filesystem::path& file) : file_(file) {}
+    Reader(const std::filesystem::path& file, bool program) : file_(file), program_(program) {}
 
     void take(std::string_view raw, int line) {
         const std::string text = bare(raw);
@@ -100,7 +101,14 @@ public:
         }
         const auto setting = setting_of(tight);
         if (setting && is_handshake(setting->variable)) {
-            warn(line, fmt::format("{} is left out: the hand-shake is the driver's", text), {});
+            omit(line, fmt::format("{} is left out: the hand-shake is the driver's", text), {});
+            return;
+        }
+        if (!sets_something(tight)) {
+            ++result_.left_out;
+            omit(line,
+                 fmt::format("{} is left out: it sets nothing", text),
+                 "a file of settings moves no motor");
             return;
         }
         if (setting) {
@@ -123,14 +131,42 @@ private:
     const std::filesystem::path& file_;
     PmacFile result_;
     std::map<int, Final> values_;
+    bool program_;      ///< all lines are one's
+    bool open_ = false; ///< a buffer
 
+    /// Between OPEN and CLOSE everything is the program's.
+    bool sets_something(const std::string& tight) {
+        if (program_) {
+            return true;
+        }
+        if (open_) {
+            open_ = !tight.starts_with("CLOSE");
+            return true;
+        }
+        open_ = tight.starts_with("OPEN");
+        static const std::regex settings(
+            "[IPQM][0-9]+(\\.\\.[0-9]+)?=.+|M[0-9]+(\\.\\.[0-9]+)?->.*|(&[0-9]+)?#[0-9]+->.*|[&#][0-9]+|"
+            "(&[0-9]+)?(%[0-9.]+|ABS.*|INC.*|FRAX.*|UNDEFINE.*)|OPEN.+|CLOSE|CLEAR|DELETE.+|"
+            "(ENABLE|DISABLE)PLC.+|W(X|Y|L|D|DP|F|HX|HY):?[$0-9].*|SAVE|ENDGATHER|ENDTRACE|TYPE|VERSION|"
+            "SIZE");
+        return std::regex_match(tight, settings);
+    }
     static bool is_handshake(int variable) {
         return variable == 1 || variable == 3 || variable == 4 || variable == 6 || variable == 9;
     }
     void warn(int line, std::string message, std::string hint) {
         result_.warnings.push_back({{file_, line, 1}, std::move(message), std::move(hint)});
     }
+    void omit(int line, std::string message, std::string hint) {
+        result_.omissions.push_back({{file_, line, 1}, std::move(message), std::move(hint)});
+    }
     void note(const Setting& setting, int line, const std::string& text) {
+        constexpr double beyond_words = 1 << 24; // of the card
+        if (!(std::abs(setting.value) < beyond_words)) {
+            throw Error(Diagnostic{{file_, line, 1},
+                                   fmt::format("'{}': no setting of the card has more than 24 bits", text),
+                                   "is there a digit too many?"});
+        }
         const double range = range_of(setting.variable);
         if (range > 0.0 && !(setting.value >= 0.0 && setting.value < range)) {
             warn(line,
@@ -150,6 +186,12 @@ private:
                  fmt::format("I{}=0: motor {} is not stopped by a following error", variable, motor),
                  "32000 are 2000 counts");
         }
+        const bool limit = variable % hundred == 13 || variable % hundred == 14;
+        if (limit && !(std::abs(last.value) > 0.0)) {
+            warn(last.line,
+                 fmt::format("I{}=0: the card keeps motor {} within no position limit", variable, motor),
+                 "counts of the joint's limit");
+        }
         if (variable % hundred != 25) {
             return;
         }
@@ -157,10 +199,6 @@ private:
             {{16, "its amplifier is never disabled"},
              {17, "its limit switches are not looked at"},
              {20, "a fault of its amplifier is not looked at"}}};
-        constexpr double beyond_words = 1 << 24; // of the card
-        if (!(std::abs(last.value) < beyond_words)) {
-            return warn(last.line, fmt::format("I{}: the value has more than 24 bits", variable), {});
-        }
         const auto bits = static_cast<std::int64_t>(last.value);
         for (const auto& [bit, what] : parts) {
             if ((bits >> bit & 1) != 0) {
@@ -172,14 +210,25 @@ private:
 
 } // namespace
 
-PmacFile read_pmac_file(std::string_view text, const std::filesystem::path& file) {
-    Reader reader(file);
+namespace {
+
+PmacFile read(std::string_view text, Reader reader) {
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.take(text.substr(0, end), line);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return reader.finish();
+}
+
+} // namespace
+
+PmacFile read_pmac_file(std::string_view text, const std::filesystem::path& file) {
+    return read(text, Reader(file, false));
+}
+
+std::vector<PmacFile::Line> read_pmac_program(std::string_view text, const std::filesystem::path& file) {
+    return read(text, Reader(file, true)).lines;
 }
 
 std::string_view pmac_error(int number) {

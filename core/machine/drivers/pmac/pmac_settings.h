@@ -2,10 +2,18 @@
 // words of the card's files.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+namespace millwright::kinematics {
+class ArmModel;
+} // namespace millwright::kinematics
+
 namespace millwright::machine {
+
+/// A typed way up to this goes at the card's own speed, as a test of a loop needs it; degrees.
+inline constexpr double pmac_step_deg = 2.0;
 
 struct PmacAxis {
     char letter = 'X';
@@ -17,6 +25,8 @@ struct PmacAxis {
 
 struct PmacSettings {
     std::vector<PmacAxis> axes;
+    /// Whose joints the axes are: its zone is kept, too. None: there is no zone.
+    std::shared_ptr<const kinematics::ArmModel> arm{};
     int system = 1;            ///< coordinate system
     int program = 1;           ///< motion program that start() writes
     double abort_after = 0.05; ///< without a sign of life the card stops its motors, s

@@ -40,7 +40,7 @@ RecordSession& RecordsDriver::talk() const {
 
 Capabilities RecordsDriver::capabilities() const {
     Capabilities able;
-    able.plans = able.overrides = able.single_block = able.optional_stop = able.piecewise = true;
+    able.overrides = able.single_block = able.optional_stop = able.piecewise = able.told_place = true;
     return able;
 }
 
@@ -52,6 +52,11 @@ void RecordsDriver::start(Work work) {
 void RecordsDriver::set_optional_stop(bool on) {
     const Turn turn(*this);
     talk().set_optional_stop(on);
+}
+
+void RecordsDriver::stands_at(const kinematics::AxisPositions& position) {
+    const Turn turn(*this);
+    talk().stands_at(position);
 }
 
 void RecordsDriver::set_single_block(bool on) {

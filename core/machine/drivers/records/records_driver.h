@@ -18,6 +18,7 @@ class RecordSession;
 struct RecordsOptions {
     RecordFormat format = {}; ///< {s} is the speed of the move, {a} its acceleration
     int decimals = 4;         ///< of everything, 0 to 9
+    bool known = true;        ///< where the table stands; else that is assumed until it went somewhere
 };
 
 /// One record is under way at a time, so hold and stop are obeyed where it ends. What is claimed to be
@@ -42,6 +43,8 @@ public:
     void start(Work work) override;
     void set_optional_stop(bool on) override;
     void set_single_block(bool on) override;
+    /// Also in an alarm, after which nothing begins before it.
+    void stands_at(const kinematics::AxisPositions& position) override;
 
 private:
     [[nodiscard]] records::RecordSession& talk() const;

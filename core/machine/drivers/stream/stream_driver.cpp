@@ -22,6 +22,7 @@ StreamDriver::StreamDriver(std::unique_ptr<Link> link,
     : link_(std::move(link)), clock_(clock), model_(std::move(model)), options_(options),
       machine_(std::move(position), {1.0}, stream_clock_, model_),
       record_path_(options_.record && options_.record->relative, options_.period, options_.decimals) {
+    known_ = options.known;
     constexpr double shortest = 0.0005;
     constexpr double longest = 1.0;
     constexpr int most_decimals = 9;
@@ -49,9 +50,16 @@ std::string StreamDriver::lost() const {
     return lost_;
 }
 
+Capabilities StreamDriver::capabilities() const {
+    Capabilities able = machine_.capabilities();
+    able.told_place = true;
+    return able;
+}
+
 DriverStatus StreamDriver::status() const {
     const std::scoped_lock lock(mutex_);
     DriverStatus status = in_flight_ ? proven_ : machine_.status();
+    status.position_known = known_;
     if (!lost_.empty() && status.state != DriverState::disconnected) {
         status.state = DriverState::alarm;
         status.activity = Activity::none;
@@ -102,11 +110,17 @@ void StreamDriver::connect() {
 /// Over a link that was just opened.
 void StreamDriver::begin() {
     inbox_.clear();
+    if (!record_text_) {
+        link_->write(heading());
+    }
+    follow();
+}
+
+/// From where it stands.
+void StreamDriver::follow() {
     const AxisPositions position = machine_.status().position;
     if (record_text_) { // it stands there already
         record_path_.begin(as_written(position));
-    } else {
-        link_->write(heading());
     }
     {
         const std::scoped_lock lock(mutex_);
@@ -196,6 +210,7 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
         return false;
     }
     last_line_ = std::move(here);
+    known_ = known_ || !options_.record || !options_.record->relative; // it went there
     ++samples_;
     land();
     return true;
@@ -261,6 +276,20 @@ void StreamDriver::reset() {
         begin();
     }
     machine_.reset();
+}
+
+void StreamDriver::stands_at(const AxisPositions& position) {
+    if (const std::string why = lost(); !why.empty()) {
+        throw Error(loss_sentence(why), {}, "look at the machine, then reset it");
+    }
+    if (const DriverState now = machine_.status().state;
+        now != DriverState::idle && now != DriverState::stopped) {
+        throw Error(fmt::format("the machine is {}", to_text(now)), {}, "say it when it is at rest");
+    }
+    thread_ = {}; // it would follow to there
+    machine_.stands_at(position);
+    known_ = true;
+    follow();
 }
 
 void StreamDriver::close() noexcept {

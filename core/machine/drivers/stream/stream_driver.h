@@ -30,6 +30,7 @@ struct StreamOptions {
     /// Given: records in place of the stream's own lines, and no first line. Nothing is sent before something
     /// moves.
     std::optional<RecordFormat> record = std::nullopt;
+    bool known = true; ///< where it stands; else that is assumed until the first sample
 };
 
 /// Nobody tells where the machine is: positions are those that were sent, and where records are answered,
@@ -49,7 +50,7 @@ public:
     [[nodiscard]] std::string name() const override { return "stream"; }
     [[nodiscard]] std::string address() const override { return link_->name(); }
     [[nodiscard]] DriverStatus status() const override;
-    [[nodiscard]] Capabilities capabilities() const override { return machine_.capabilities(); }
+    [[nodiscard]] Capabilities capabilities() const override;
     /// Samples that were sent so far.
     [[nodiscard]] std::int64_t samples() const { return samples_; }
 
@@ -64,6 +65,7 @@ public:
     void emergency_stop() override { machine_.emergency_stop(); }
     /// Makes a lost link again.
     void reset() override;
+    void stands_at(const kinematics::AxisPositions& position) override;
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override { machine_.set_overrides(wanted); }
     void set_single_block(bool on) override { machine_.set_single_block(on); }
@@ -89,6 +91,7 @@ private:
     };
 
     void begin();
+    void follow();
     void run(const std::stop_token& stop);
     [[nodiscard]] bool send_sample(const std::stop_token& stop);
     void land();
@@ -114,7 +117,8 @@ private:
     RecordPath record_path_;
     std::vector<bool> linear_; ///< of each axis
     AnswerLines inbox_;
-    bool told_place_ = false; ///< where the first motion begins was sent
+    bool told_place_ = false;        ///< where the first motion begins was sent
+    std::atomic<bool> known_ = true; ///< where it stands
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;

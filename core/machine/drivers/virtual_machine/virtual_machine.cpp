@@ -101,6 +101,12 @@ void VirtualMachine::reset() {
     axes_->reset();
 }
 
+void VirtualMachine::stands_at(const kinematics::AxisPositions& position) {
+    const std::scoped_lock lock(mutex_);
+    catch_up();
+    axes_->stands_at(position);
+}
+
 void VirtualMachine::close() noexcept {
     const std::scoped_lock lock(mutex_);
     try {

@@ -64,6 +64,8 @@ public:
     /// the block ends.
     void set_single_block(bool on) override;
     void set_optional_stop(bool on) override;
+    /// It is put there; nothing moves.
+    void stands_at(const kinematics::AxisPositions& position) override;
     void jog(const Jog& jog) override;
     void stop_jog() override;
     void home() override;

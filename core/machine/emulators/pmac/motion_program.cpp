@@ -1,5 +1,6 @@
 #include "core/machine/emulators/pmac/motion_program.h"
 
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 #include "core/machine/emulators/pmac/internal/program.h"
 #include "core/machine/emulators/pmac/pmac_emulator.h"
@@ -70,7 +71,8 @@ std::string why_none(std::string_view line) {
 /// The card with the axes of the settings, at rest where they begin.
 class Bench {
 public:
-    explicit Bench(const MotionSimulationSettings& settings) : settings_(settings) {
+    explicit Bench(const MotionSimulationSettings& settings)
+        : settings_(settings), card_({.plants = {}, .channels = 8}) {
         say("I6=1");
         for (std::size_t n = 0; n < settings.card.axes.size(); ++n) {
             const PmacAxis& axis = settings.card.axes[n];
@@ -149,11 +151,37 @@ bool load(Bench& bench,
     return faults.empty();
 }
 
+std::optional<Diagnostic> beyond_limits(const MotionRecord& record,
+                                        const MotionRecord& before,
+                                        const PmacSettings& card,
+                                        const std::filesystem::path& named) {
+    constexpr double slack_deg = 0.05; // counts are rounded
+    const std::vector<PmacAxis>& axes = card.axes;
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const double at = record.degrees[n];
+        const bool above = axes[n].max_deg && at > *axes[n].max_deg + slack_deg && at > before.degrees[n];
+        const bool below = axes[n].min_deg && at < *axes[n].min_deg - slack_deg && at < before.degrees[n];
+        if (above || below) {
+            return at_line(named,
+                           0,
+                           fmt::format("{} leaves its limits after {:.1f} s: it ends at {:.4g} degrees",
+                                       axes[n].letter,
+                                       record.time,
+                                       above ? *axes[n].max_deg : *axes[n].min_deg));
+        }
+    }
+    constexpr double slack_mm = 0.5; // a count is as much at the end of a long arm
+    if (const std::string why = leaves_zone(card, before.degrees, record.degrees, slack_mm); !why.empty()) {
+        return at_line(named, 0, fmt::format("after {:.1f} s {}", record.time, why));
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::vector<MotionLine> motion_lines(std::string_view text, const std::filesystem::path& named) {
     std::vector<MotionLine> lines;
-    for (const PmacFile::Line& line : read_pmac_file(text, named).lines) {
+    for (const PmacFile::Line& line : read_pmac_program(text, named)) {
         lines.push_back({line.number, line.text});
     }
     return lines;
@@ -229,9 +257,13 @@ MotionSimulation simulate_motion_program(std::string_view text,
         bench.advance(settings.step);
         time += settings.step;
         result.records.push_back(bench.record(time));
-    } while ((bench.runs() || bench.moves()) && time < settings.longest);
+        result.beyond_limits = beyond_limits(
+            result.records.back(), result.records[result.records.size() - 2], settings.card, named);
+    } while (!result.beyond_limits && (bench.runs() || bench.moves()) && time < settings.longest);
     result.duration = time;
-    if (bench.broke_off()) {
+    if (result.beyond_limits) {
+        result.faults.push_back(*result.beyond_limits);
+    } else if (bench.broke_off()) {
         result.faults.push_back(at_line(named, 0, "the card ends the program with a run-time error"));
     } else if (bench.runs()) {
         result.faults.push_back(at_line(

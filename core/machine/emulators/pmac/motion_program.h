@@ -43,6 +43,7 @@ struct MotionSimulation {
     double duration = 0.0;             ///< s of the card's time
     std::vector<Diagnostic> faults; ///< lines that were refused, or how the run broke off; then the records
                                     ///< are what came before
+    std::optional<Diagnostic> beyond_limits{}; ///< when which axis leaves its limits; a fault, too
 };
 
 struct MotionSimulationSettings {
@@ -52,8 +53,8 @@ struct MotionSimulationSettings {
     double longest = 1800.0;         ///< s of the card's time after which a program counts as endless
 };
 
-/// Runs it on an emulated card with the factory's protections. What it throws is Canceled alone, and what
-/// motion_lines() throws.
+/// Runs it on an emulated card with the factory's protections, until an axis leaves its limits. What it
+/// throws is Canceled alone, and what motion_lines() throws.
 [[nodiscard]] MotionSimulation simulate_motion_program(std::string_view text,
                                                        const std::filesystem::path& named,
                                                        const MotionSimulationSettings& settings,

@@ -145,11 +145,14 @@ void circle(Run& run, const Given& given) {
     const Vec2 centre = run.at();
     const Vec2 back = run.pen.at();
     const Vec2 start = centre + Vec2(given[0], 0.0);
-    std::vector<Vec2> points = arc_points(run, centre, start, 360.0, given.value(1, usual_chord(run)));
-    if (points.empty()) {
-        return;
+    std::vector<Vec2> points = {start}; // a dot, which plotters make of a circle without a radius
+    if (start != centre) {
+        points = arc_points(run, centre, start, 360.0, given.value(1, usual_chord(run)));
+        if (points.empty()) {
+            return;
+        }
+        points.back() = start;
     }
-    points.back() = start;
     if (run.pen.in_polygon()) {
         run.pen.next_outline();
     }

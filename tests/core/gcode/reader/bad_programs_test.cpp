@@ -54,5 +54,46 @@ TEST(BadPrograms, AreRefusedWithPlaceAndRule) {
     }
 }
 
+/// Counts what a refused line has moved before it was refused.
+class MovesOf final : public CanonSink {
+public:
+    explicit MovesOf(int line) : line_(line) {}
+    void move(const Move& move, const SourceLine&) override { moves += move.source.line == line_ ? 1 : 0; }
+    void curve(const Curve&, const SourceLine&) override {}
+    void command(const Command&, const SourceLine&) override {}
+
+    int moves = 0;
+
+private:
+    int line_;
+};
+
+int moves_of_refused(const std::string& line) {
+    const std::string text = "G21 F10 S100 M3\n" + line + "\nM2\n";
+    MovesOf sink(2);
+    Interpreter program(text, "cycle.ngc", {}, sink);
+    program.run();
+    EXPECT_EQ(program.errors().size(), 1U) << line;
+    return sink.moves;
+}
+
+TEST(BadPrograms, EndlessCyclesMoveNothing) {
+    const test::WithoutTraps numbers_that_are_none;
+    EXPECT_EQ(moves_of_refused("G81 X1 Z-1 R1 L1000000000"), 0);
+    EXPECT_EQ(moves_of_refused("G81 X1 Z-1 R1 L250001"), 0);
+    EXPECT_EQ(moves_of_refused("G83 X1 Z-1000 R1 Q0.000001"), 0);
+    EXPECT_EQ(moves_of_refused("G73 X1 Z-1000 R1 Q0.000001"), 0);
+    EXPECT_EQ(moves_of_refused("G76 P1 Z-10 I-1 J0.001 K10 R2"), 0);
+}
+
+TEST(BadPrograms, LongCyclesAreNotRefused) {
+    const std::string text = "G21 F10\nG81 X1 Z-1 R1 L249999\nG80\nG83 X1 Z-99 R1 Q0.001\nM2\n";
+    MovesOf sink(4);
+    Interpreter program(text, "cycle.ngc", {}, sink);
+    program.run();
+    EXPECT_TRUE(program.errors().empty());
+    EXPECT_NEAR(sink.moves, 300'000, 5);
+}
+
 } // namespace
 } // namespace millwright::gcode

@@ -1,6 +1,7 @@
 #include "core/machine/drivers/make_driver.h"
 
 #include "core/base/error.h"
+#include "core/kinematics/arm_file.h"
 #include "tests/support/machines.h"
 #include "tests/support/scratch_folder.h"
 
@@ -29,7 +30,9 @@ std::string refusal(const std::function<void()>& what) {
 MovedAxes router() {
     return {std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz")),
             kinematics::AxisPositions::Zero(3),
-            1.0};
+            1.0,
+            std::make_shared<const kinematics::ArmModel>(
+                kinematics::read_arm("assets/arms/motoman-l3.json").arm)};
 }
 
 DriverChoice choice_of(DriverKind kind, std::string address = {}) {
@@ -77,6 +80,9 @@ TEST(MakeDriver, RefusesWhatItCannotMake) {
         const DriverChoice choice = choice_of(kind, "tcp:127.0.0.1:9");
         EXPECT_THAT(refusal([&] { (void)make_driver(choice, {}, clock); }), HasSubstr("no machine yet"));
     }
+    EXPECT_THAT(
+        refusal([&] { (void)make_driver(choice_of(DriverKind::pmac, "tcp:127.0.0.1:9"), {}, clock); }),
+        HasSubstr("no arm"));
     DriverChoice axes = choice_of(DriverKind::linuxcnc, "tcp:127.0.0.1:9");
     axes.axes = "XYW";
     EXPECT_THAT(refusal([&] { (void)make_driver(axes, {}, clock); }), HasSubstr("XYW"));

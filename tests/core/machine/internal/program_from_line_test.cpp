@@ -221,9 +221,9 @@ TEST(ProgramFromLine, RefusesLinesThatCannotBeBegun) {
     };
     EXPECT_THAT(refusal(0), HasSubstr("the program has"));
     EXPECT_THAT(refusal(10'000), HasSubstr("the program has"));
-    EXPECT_THAT(refusal(2), HasSubstr("line 2 is among the first 11"));
-    EXPECT_THAT(refusal(11), HasSubstr("line 11 is among the first 11"));
-    EXPECT_EQ(refusal(12), "");
+    EXPECT_THAT(refusal(2), HasSubstr("line 2 is among the first 7"));
+    EXPECT_THAT(refusal(7), HasSubstr("line 7 is among the first 7"));
+    EXPECT_EQ(refusal(8), "");
     EXPECT_THAT(refusal(30, -50.0), HasSubstr("is below"));
     EXPECT_EQ(refusal(30, 55.0), "");
 }

@@ -74,9 +74,11 @@ TEST(SharedLog, SaysInEachLineWhatWasExecutedBefore) {
     executed.executed_blocks = 7;
     executed.line = 9;
     executed.position[0] = 3.0;
+    executed.position_doubt = "it was stopped while it moved";
     bench.log->write(executed);
     (void)bench.log->allow(20);
     const LogRecord last = bench.read().records.back();
+    EXPECT_EQ(last.position_doubt, executed.position_doubt);
     EXPECT_EQ(last.event, LogEvent::ahead);
     EXPECT_EQ(last.executed_blocks, 7);
     EXPECT_EQ(last.line, 9);

@@ -102,6 +102,16 @@ TEST(StepTest, SeesWhetherALoopIsSoftOrSharp) {
     EXPECT_EQ(usual.variables.at(30), 2000.0);
 }
 
+TEST(StepTest, KillsAMotorThatRunsAway) {
+    PmacPlant wrong;
+    wrong.speed_per_bit = -200.0; // its encoder counts the other way
+    test::PmacCard pmac({.plants = {wrong}});
+    ASSERT_EQ(pmac.send("I100=1\nI111=0\n#1J/"), "");
+    EXPECT_THAT(reason([&] { (void)step_test(talk_to(pmac), 1); }), HasSubstr("I900"));
+    EXPECT_FALSE(pmac.card.enabled(1));
+    EXPECT_EQ(pmac.ask("I122"), "32");
+}
+
 TEST(StepTest, LeavesTheCardAsItWas) {
     test::PmacCard pmac({.plants = {PmacPlant{}}});
     ASSERT_EQ(pmac.send("I100=1\nI119=0.25\nI122=17\n#1J/"), "");

@@ -1,11 +1,15 @@
 // Damaged and hostile plot files: a diagnostic with its byte, nothing drawn from what is wrong, bounded
 // memory.
 #include "core/plot/hpgl/reader.h"
+#include "tests/support/reason.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 
@@ -38,7 +42,7 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
         {"SP1;IP1,1,1,5;", 4, "which makes no scale"},
         {"SP1;RO45;", 4, "RO: 45 is none of"},
         {"SP1;LBnever ends", 4, "a label without its end"},
-        {"SP1;CI0;", 4, "an arc without a radius"},
+        {"SP1;WG0,0,90;", 4, "an arc without a radius"},
         {"SP1;FP;", 4, "there is no polygon"},
         {"SP1;PM1;", 4, "without PM0"},
         {"SP1;PM0;PD9,9;", 14, "in the middle of a polygon"},
@@ -248,6 +252,24 @@ TEST(BadPlots, AnyBytesGiveFinitePoints) {
             EXPECT_THAT(error.what(), HasSubstr("more points"));
         }
     }
+}
+
+// The zero bytes between its letters would end each number after one digit.
+TEST(BadPlots, TextInUtf16IsRefused) {
+    using namespace std::string_literals;
+    for (const std::string& text : {"\xFF\xFES\0P\0001\0;\0"s, "\xFE\xFF\0S\0P\0001\0;"s}) {
+        EXPECT_THAT(test::reason([&] { (void)read_hpgl(text, "wide.plt"); }),
+                    HasSubstr("wide.plt byte 0: the file is text in UTF-16"));
+    }
+}
+
+TEST(BadPlots, AFileOfFiveGigabytesIsNotRead) {
+    const test::ScratchFolder scratch;
+    const std::filesystem::path file = scratch / "huge.plt";
+    std::ofstream(file) << "IN;";
+    std::filesystem::resize_file(file, 5'000'000'000U); // takes no room on the disk
+    EXPECT_THAT(test::reason([&] { (void)read_hpgl_file(file); }),
+                HasSubstr("huge.plt: the file has 5.0 GB; plots are read up to 1 GiB"));
 }
 
 TEST(BadPlots, DiagnosticsAreKeptUpToALimitAndCounted) {

@@ -26,6 +26,25 @@ TEST(HpglReader, UnitsAreSetForEachAxis) {
     EXPECT_LT((plot.strokes.at(0).points.back() - Vec2(2.0, 3.0)).norm(), 1e-12);
 }
 
+TEST(HpglReader, CircleWithoutARadiusIsADotAndReadingGoesOn) {
+    ReaderSettings strict;
+    strict.strictness = Strictness::strict;
+    for (const char* line_type : {"", "LT2;"}) {
+        SCOPED_TRACE(line_type);
+        const std::string text = std::string("SP1;") + line_type + "PU400,800;CI0;LT;CI400;PD800,800;PU;";
+        const Plot plot = read_hpgl(text, "dot.plt", strict);
+        EXPECT_TRUE(plot.diagnostics.empty());
+        ASSERT_EQ(plot.strokes.size(), 3U);
+        EXPECT_EQ(plot.strokes[0].points, (std::vector<Vec2>{{10.0, 20.0}}));
+        EXPECT_EQ(plot.strokes[1].points.size(), 73U); // chords of 5 degrees
+        EXPECT_EQ(plot.strokes[2].points, (std::vector<Vec2>{{10.0, 20.0}, {20.0, 20.0}}));
+    }
+    const Plot down = read_hpgl("SP1;PU400,800;PD;CI0;PU;", "dot.plt", strict);
+    EXPECT_EQ(down.strokes.size(), 1U); // not the pen's own dot beside it
+    const Plot polygon = read_hpgl("SP1;PU0,0;PM0;PD400,0,400,400;CI0;PM2;EP;", "dot.plt", strict);
+    EXPECT_NEAR(draw_length(polygon.strokes), 20.0 + std::hypot(10.0, 10.0), 1e-12);
+}
+
 TEST(HpglReader, PenThatGoesDownAndUpLeavesADot) {
     const Plot plot = read("SP1;PU400,800;PD;PU;PA0,0;");
     ASSERT_EQ(plot.strokes.size(), 1U);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 namespace millwright::plot {
@@ -413,6 +414,36 @@ TEST(ReliefPlan, IsNotDeeperThanItsPlateUnlessThatIsAllowed) {
     EXPECT_NO_THROW(static_cast<void>(relief_path(field, plan)));
     plan.tabs.height = 5.0;
     EXPECT_THROW(static_cast<void>(relief_path(field, plan)), Error) << "tabs above the plate";
+}
+
+// A ball has no width at its end: full width at the underside takes its radius more, into what lies below.
+TEST(ReliefPlan, TellsWhatARoundTipLeavesOfAFrameOrHowDeepItGoes) {
+    const HeightField field = field_of(20, 10, 1.0, [](int, int) { return -1.0; });
+    const auto bottom = [&](const ReliefPlan& plan) { return deepest(relief_path(field, plan)); };
+    ReliefPlan plan;
+    plan.relief.tip = {.kind = TipKind::ball, .diameter = 6.0};
+    plan.tabs = {.count = 2, .width = 6.0, .height = 1.0};
+    EXPECT_FALSE(frame_notice(plan)) << "there is no frame";
+    plan.plate = 3.0;
+    EXPECT_DOUBLE_EQ(bottom(plan), 3.0);
+    EXPECT_NE(frame_notice(plan)->message.find("a flange of up to 3.000 mm"), std::string::npos);
+    plan.through = true;
+    EXPECT_DOUBLE_EQ(bottom(plan), 6.0);
+    EXPECT_NE(frame_notice(plan)->message.find("goes to 6.000 mm, 3.000 mm below the plate"),
+              std::string::npos);
+    double highest_tab = -10.0; // they stand 1 mm above the underside
+    for (const CutPoint& point : relief_path(field, plan)) {
+        const bool around = point.at.x() < -3.0 || point.at.y() < -3.0;
+        if (point.move == CutMove::cut && around && point.at.z() > -3.0) {
+            highest_tab = std::max(highest_tab, point.at.z());
+        }
+    }
+    EXPECT_NEAR(highest_tab, -2.0, 1e-9);
+    plan.relief.tip = {.kind = TipKind::v, .diameter = 4.0, .angle = std::numbers::pi / 2.0};
+    EXPECT_NEAR(bottom(plan), 5.0, 1e-9); // 2 mm of radius, 45 degrees
+    plan.relief.tip = {.kind = TipKind::flat, .diameter = 4.0};
+    EXPECT_DOUBLE_EQ(bottom(plan), 3.0);
+    EXPECT_FALSE(frame_notice(plan));
 }
 
 } // namespace

@@ -24,7 +24,7 @@ constexpr int greatest_line_number = 9'999'999;
 
 bool Session::active() const {
     return stage_ == Stage::running || stage_ == Stage::asking_again || stage_ == Stage::jogging ||
-           stage_ == Stage::homing;
+           stage_ == Stage::homing || stage_ == Stage::foreign;
 }
 
 std::string Session::take_output() {
@@ -210,14 +210,18 @@ void Session::watch_ending(double now) {
             ending_message_ += ending_message_.empty() ? "" : "; ";
             ending_message_ +=
                 "the controller does not answer to a reset, so look whether the machine stands still";
-            finish_ending();
+            finish_ending(now);
         } else if (now - last_reset_ > 2.0 * repeat_time) {
             send_reset(now);
         }
     }
 }
 
-void Session::finish_ending() {
+void Session::finish_ending(double now) {
+    if (!ending_in_fault_ && readout_.settings.empty()) { // stopped before it was asked anything
+        begin_asking(now, false);
+        return;
+    }
     stage_ = ending_in_fault_ ? Stage::alarm : Stage::stopped;
     message_ = ending_message_;
     hold_wanted_ = held_ = jog_stopping_ = block_wait_ = false;
@@ -234,7 +238,8 @@ void Session::settle_answer(const std::string& why_not) {
 }
 
 void Session::watch_hold(double now) {
-    if (stage_ == Stage::running && hold_wanted_ && !held_ && now - hold_sent_ > repeat_time) {
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_wanted_ && !held_ &&
+        now - hold_sent_ > repeat_time) {
         output_ += '!';
         hold_sent_ = now;
     }

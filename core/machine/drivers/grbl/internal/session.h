@@ -68,11 +68,14 @@ public:
     void hold(double now) override;
     void resume(double now) override;
     void stop(double now) override;
+    void break_off(std::string why, double now) override;
     void emergency_stop(double now) override;
     void reset(double now) override;
     void trust_position() override { doubt_.end(); }
     void doubt_position(std::string why) override { doubt_.arise(std::move(why)); }
     void home(double now) override;
+    /// What this link did not begin is left alone.
+    void leave(double now) override;
     void jog(const Jog& jog, double now) override;
     void stop_jog(double now) override;
     /// The number of the answer that DriverStatus will show.
@@ -86,6 +89,7 @@ private:
         closed,
         greeting, ///< is anybody there?
         asking,   ///< reset, then asked for version and settings
+        foreign,  ///< it moved when the link was made: it may be held and stopped, nothing else
         ready,
         running,      ///< a program or a command
         asking_again, ///< after it: which modes are in force now?
@@ -107,7 +111,7 @@ private:
     void take_zeros();
     void send_reset(double now);
     void end(bool fault, std::string message, double now);
-    void finish_ending();
+    void finish_ending(double now);
     [[nodiscard]] std::string what_it_may_execute(bool in_program) const;
     void fail(const std::string& message, double now);
     void begin(ProgramLines program, Activity activity, double now);
@@ -146,6 +150,7 @@ private:
     void take_readout(const StatusMessage& report, double now);
     void watch_state(const StatusMessage& report, double now);
     void watch_motion(const StatusMessage& report, double now);
+    void watch_foreign(const StatusMessage& report, double now);
     void read_options(std::string_view text);
     void check_echo(std::string_view text, double now);
     void answered(const SentLine& line);

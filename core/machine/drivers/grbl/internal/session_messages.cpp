@@ -127,6 +127,9 @@ void Session::handle(const Blank&, double) {}
 
 void Session::handle(const Garbage&, double now) {
     proof_.disturbed();
+    if (stage_ == Stage::foreign) {
+        return; // the rest of a line that was meant for somebody else
+    }
     fail("bytes from the controller were changed or lost on the way", now);
 }
 
@@ -165,8 +168,9 @@ void Session::refused(const SentLine& line, const std::string& why, double now) 
 }
 
 void Session::handle(const Ack&, double now) {
-    if (stage_ == Stage::greeting || stage_ == Stage::flushing || resets_due_ > 0) {
-        return; // for something before the reset
+    if (stage_ == Stage::greeting || stage_ == Stage::foreign || stage_ == Stage::flushing ||
+        resets_due_ > 0) {
+        return; // for something before the reset, or before this link
     }
     if (window_.empty()) {
         fail("the controller acknowledged a line that it was not sent", now);
@@ -182,7 +186,8 @@ void Session::handle(const Ack&, double now) {
 }
 
 void Session::handle(const ErrorAnswer& error, double now) {
-    if (stage_ == Stage::greeting || stage_ == Stage::flushing || resets_due_ > 0) {
+    if (stage_ == Stage::greeting || stage_ == Stage::foreign || stage_ == Stage::flushing ||
+        resets_due_ > 0) {
         return;
     }
     if (window_.empty()) {
@@ -227,7 +232,7 @@ void Session::handle(const AlarmMessage& alarm, double now) {
         output_.clear();
         send_reset(now);
     } else {
-        finish_ending();
+        finish_ending(now);
     }
 }
 
@@ -247,8 +252,12 @@ void Session::handle(const Welcome& welcome, double now) {
     case Stage::asking:
         ask_first();
         break;
+    case Stage::foreign:
+        doubt_.arise("the controller was reset while it moved");
+        begin_asking(now, false);
+        break;
     case Stage::flushing:
-        finish_ending();
+        finish_ending(now);
         break;
     case Stage::running:
     case Stage::asking_again:

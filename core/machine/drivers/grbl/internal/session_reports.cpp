@@ -67,12 +67,17 @@ void Session::handle(const StatusMessage& report, double now) {
     ++idle_unanswered_;
     if (stage_ == Stage::greeting) {
         if (report.moving()) {
-            stage_ = Stage::alarm;
-            message_ = "the machine is moving for somebody else";
+            stage_ = Stage::foreign;
+            proof_closed_ = true;
+            rest_reports_ = 0;
+            message_ = "it was moving when the link was made, and goes on with what it has";
         } else {
             begin_asking(now, false);
         }
         return;
+    }
+    if (stage_ == Stage::foreign) {
+        return watch_foreign(report, now);
     }
     if (stage_ == Stage::asking && questions_.empty() && window_.empty()) {
         finish_asking(report);
@@ -81,6 +86,21 @@ void Session::handle(const StatusMessage& report, double now) {
         proof_.reported(report, window_.empty());
     }
     watch_state(report, now);
+}
+
+/// Held or at rest by what it reports. When it has stood for a while it is asked what it is, which begins
+/// with a reset: what a dwell kept back is gone then.
+void Session::watch_foreign(const StatusMessage& report, double now) {
+    const bool held = report.state == MachineState::hold || report.state == MachineState::door;
+    if (held && !(resume_sent_ >= 0.0 && now - resume_sent_ < stale_time)) {
+        held_ = hold_wanted_ = true;
+    } else if (!held && held_) {
+        held_ = hold_wanted_ = false;
+    }
+    constexpr int enough_reports = 5; // half a second
+    if (!held && !hold_wanted_ && rest_reports_ >= enough_reports) {
+        begin_asking(now, false);
+    }
 }
 
 void Session::watch_state(const StatusMessage& report, double now) {

@@ -12,6 +12,11 @@ void Session::require_rest(std::string_view what) const {
     if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         return;
     }
+    if (stage_ == Stage::foreign) {
+        throw Error(fmt::format("Grbl takes no {}: {}", what, message_),
+                    {},
+                    "wait until it stands; the window can hold and stop it meanwhile");
+    }
     throw Error(fmt::format("Grbl is {} and takes no {}", to_text(status().state), what),
                 {},
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
@@ -64,7 +69,7 @@ bool Session::waits_between_blocks() const {
 }
 
 void Session::hold(double now) {
-    if (stage_ == Stage::running && !hold_wanted_) {
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && !hold_wanted_) {
         hold_wanted_ = true;
         held_ = false;
         hold_sent_ = now;
@@ -82,7 +87,7 @@ void Session::resume(double now) {
         pump();
         return;
     }
-    if (stage_ == Stage::running && (hold_wanted_ || held_)) {
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && (hold_wanted_ || held_)) {
         hold_wanted_ = held_ = false;
         resume_sent_ = now;
         message_.clear();
@@ -100,6 +105,21 @@ void Session::stop(double now) {
         doubt_.arise("homing was broken off");
         stage_ = Stage::flushing;
         send_reset(now);
+    }
+}
+
+void Session::leave(double now) {
+    if (stage_ != Stage::foreign) {
+        stop(now);
+    }
+}
+
+void Session::break_off(std::string why, double now) {
+    if (stage_ == Stage::ready || stage_ == Stage::stopped) {
+        stage_ = Stage::alarm;
+        message_ = std::move(why);
+    } else {
+        fail(why, now);
     }
 }
 
@@ -126,8 +146,7 @@ void Session::reset(double now) {
         return;
     }
     if (report_ && report_->moving()) { // its reset would cut the motion off
-        throw Error(
-            "the machine is moving for somebody else", {}, "wait for it, or stop it where it was begun");
+        throw Error("the machine moves", {}, "wait until it stands, or stop it");
     }
     begin_asking(now, true);
 }

@@ -17,6 +17,8 @@ DriverState Session::state() const {
         return DriverState::idle;
     case Stage::running:
         return hold_wanted_ || held_ || waits_between_blocks() ? DriverState::holding : DriverState::running;
+    case Stage::foreign:
+        return hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
     case Stage::asking_again:
     case Stage::jogging:
     case Stage::homing:
@@ -38,6 +40,8 @@ Activity Session::activity() const {
     case Stage::running:
     case Stage::asking_again:
         return at_;
+    case Stage::foreign:
+        return Activity::program;
     case Stage::jogging:
         return Activity::jog;
     case Stage::homing:
@@ -51,12 +55,7 @@ std::optional<Diagnostic> Session::stranger() const {
     if (stage_ != Stage::alarm || !readout_.settings.empty()) {
         return std::nullopt;
     }
-    const bool moves = report_ && report_->moving();
-    return Diagnostic{
-        {},
-        message_,
-        moves ? "or still goes on with what it has of a job that was broken off; wait until it stands"
-              : "is it the right port, and switched on?"};
+    return Diagnostic{{}, message_, "is it the right port, and switched on?"};
 }
 
 DriverStatus Session::status() const {

@@ -16,13 +16,15 @@ namespace {
 
 constexpr double volt_per_bit = 10.0 / 32768.0;
 constexpr double ms = 1e-3;
-/// Of each motor: output address, software limits, greatest velocity and acceleration, jog speed, clamp.
-constexpr std::array<int, 7> asked{2, 13, 14, 16, 17, 22, 69};
+/// Of each motor: output address, software limits, greatest velocity and acceleration, jog speed, homing
+/// speed, clamp.
+constexpr std::array<int, 8> asked{2, 13, 14, 16, 17, 22, 23, 69};
 
 } // namespace
 
 MotorReadings::MotorReadings(std::vector<PmacAxis> axes)
-    : axes_(std::move(axes)), outputs_(axes_.size(), -1) {
+    : axes_(std::move(axes)), outputs_(axes_.size(), -1), jog_speeds_(axes_.size()),
+      ways_home_(axes_.size(), 1.0) {
     for (const PmacAxis& axis : axes_) {
         MachineLimits::Axis limits;
         limits.letter = axis.letter;
@@ -54,7 +56,7 @@ void MotorReadings::read_rating(std::size_t axis, const std::vector<std::string>
         }
         values[n] = *value;
     }
-    const auto& [address, high, low, velocity, acceleration, jog, clamp] = values;
+    const auto& [address, high, low, velocity, acceleration, jog, home, clamp] = values;
     outputs_[axis] = static_cast<int>(std::clamp(address, 0.0, 1e7)) & 0xFFFF; // bit 16: sign and magnitude
     MachineLimits::Axis& limits = limits_[axis];
     const auto limit = [&](double counts) { // 0: switched off
@@ -64,7 +66,8 @@ void MotorReadings::read_rating(std::size_t axis, const std::vector<std::string>
     limits.min = limit(low);
     limits.speed = radians(axis, velocity / ms);
     limits.acceleration = radians(axis, acceleration / (ms * ms));
-    limits.jog_speed = radians(axis, jog / ms);
+    jog_speeds_[axis] = jog;
+    ways_home_[axis] = home < 0.0 ? -1.0 : 1.0;
     limits.output_V = clamp * volt_per_bit;
 }
 
@@ -96,8 +99,20 @@ void MotorReadings::read(const std::vector<std::string>& lines) {
     motors_ = std::move(motors);
 }
 
-void MotorReadings::set_jog_speed(std::size_t axis, double counts_per_ms) {
-    limits_[axis].jog_speed = radians(axis, counts_per_ms / ms);
+std::vector<MachineLimits::Axis> MotorReadings::limits() const {
+    std::vector<MachineLimits::Axis> limits = limits_;
+    for (std::size_t n = 0; n < limits.size(); ++n) {
+        if (jog_speeds_[n]) {
+            limits[n].jog_speed = radians(n, *jog_speeds_[n] / ms);
+        }
+        if (const auto most = axes_[n].max_deg) {
+            limits[n].max = std::min(limits[n].max.value_or(from_degrees(*most)), from_degrees(*most));
+        }
+        if (const auto least = axes_[n].min_deg) {
+            limits[n].min = std::max(limits[n].min.value_or(from_degrees(*least)), from_degrees(*least));
+        }
+    }
+    return limits;
 }
 
 } // namespace millwright::machine::pmac

@@ -1,6 +1,9 @@
 // What a person wants of the machine.
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/machine/drivers/pmac/internal/card_numbers.h"
+#include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 
@@ -8,20 +11,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace millwright::machine::pmac {
+
+namespace {
+
+/// Counts of each motor at a share of its way.
+std::vector<double> along(const std::vector<double>& from, const std::vector<double>& way, double share) {
+    std::vector<double> there;
+    for (std::size_t n = 0; n < from.size(); ++n) {
+        there.push_back(from[n] + share * way[n]);
+    }
+    return there;
+}
+
+} // namespace
 
 bool PmacSession::active() const {
     return stage_ == Stage::running || stage_ == Stage::loading || stage_ == Stage::jogging ||
            stage_ == Stage::homing || stage_ == Stage::stopping;
 }
 
+bool PmacSession::rests() const {
+    return stage_ == Stage::ready || stage_ == Stage::stopped;
+}
+
 void PmacSession::require_rest(std::string_view what) const {
-    const bool rests = stage_ == Stage::ready || stage_ == Stage::stopped;
-    if (rests && standing()) {
+    if (rests() && standing()) {
         return;
     }
-    if (rests) {
+    if (rests()) {
         throw Error(fmt::format("the motors are moving, and take no {}", what));
     }
     throw Error(fmt::format("the PMAC is {} and takes no {}", to_text(status().state), what),
@@ -97,7 +117,11 @@ void PmacSession::resume(double /*now*/) {
     }
 }
 
-void PmacSession::stop(double now) {
+void PmacSession::stop(double /*now*/) {
+    halt();
+}
+
+void PmacSession::halt() {
     if (stage_ == Stage::loading) {
         queue_.clear();
         ask("CLOSE");
@@ -106,20 +130,41 @@ void PmacSession::stop(double now) {
         ask(fmt::format("&{}H", settings_.system));
         finish(Stage::stopping);
     } else if (stage_ == Stage::jogging) {
-        stop_jog(now);
+        halt_jog();
         stage_ = Stage::stopping;
     } else if (stage_ == Stage::homing) {
-        queue_.clear();
+        forget_queue();
         ask(every_motor("J/"));
         finish(Stage::stopping);
-    } else if (stage_ == Stage::commanding) {
+    } else if (stage_ == Stage::commanding || stage_ == Stage::astir || (rests() && armed_)) {
         command_lines_.clear();
-    } else if ((stage_ == Stage::ready || stage_ == Stage::stopped) && armed_) {
-        if (!standing()) { // what a command began
-            enabled() ? ask(every_motor("J/")) : kill();
-        }
         finish(Stage::stopping);
+        unbraked_ = true; // the next report tells what the command set going
     }
+}
+
+/// What a command set going: the motors with power alone, since J/ would give it to the others, too.
+void PmacSession::brake() {
+    unbraked_ = false;
+    if ((system_1_ & 1U) != 0) { // a program runs
+        ask(fmt::format("&{}{}", settings_.system, enabled() ? "A" : "H"));
+    }
+    std::string line;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (motors_[n].enabled()) {
+            line += fmt::format("#{}J/", settings_.axes[n].motor);
+        }
+    }
+    if (!line.empty()) {
+        ask(std::move(line));
+    }
+}
+
+/// All that was to be asked, but for what a person wants to know.
+void PmacSession::forget_queue() {
+    std::erase_if(queue_, [](const Request& request) {
+        return request.kind != Kind::command && request.kind != Kind::address;
+    });
 }
 
 void PmacSession::emergency_stop(double /*now*/) {
@@ -142,11 +187,31 @@ void PmacSession::home(double now) {
         throw Error("there is no axis that could be homed");
     }
     finish(Stage::homing);
-    homing_axis_ = 0;
     was_home_ = false;
     arm();
-    ask(fmt::format("#{}HM", settings_.axes.front().motor));
+    home_axis(0);
     next_poll_ = now;
+}
+
+/// A motor looks for its flag in one direction only: where it is known to stand behind it, it goes back
+/// first.
+void PmacSession::home_axis(std::size_t n) {
+    constexpr double before_flag_deg = 5.0;
+    const PmacAxis& axis = settings_.axes[n];
+    const double way = readings_.way_home(n);
+    double place = -way * before_flag_deg;
+    place = std::clamp(
+        place, std::min(0.0, axis.min_deg.value_or(place)), std::max(0.0, axis.max_deg.value_or(place)));
+    homing_axis_ = n;
+    homing_from_ = motors_[n].counts;
+    homing_backs_off_ = motors_[n].home() && way * (motors_[n].counts / axis.counts_per_degree - place) > 0.0;
+    quiet_polls_ = 0;
+    if (homing_backs_off_) {
+        set_jog_speed(n, most_jog_speed(n));
+        ask(fmt::format("#{}J={:.0f}", axis.motor, place * axis.counts_per_degree));
+    } else {
+        ask(fmt::format("#{}HM", axis.motor));
+    }
 }
 
 void PmacSession::enable(double /*now*/) {
@@ -163,27 +228,80 @@ void PmacSession::let_go_of(std::size_t n) {
     }
 }
 
-void PmacSession::jog_axis(std::size_t n, double way_deg, double speed_deg_per_s, bool held) {
+void PmacSession::jog_axis(std::size_t n, double target, double speed_deg_per_s) {
     const PmacAxis& axis = settings_.axes[n];
-    MotorState& motor = motors_[n];
-    const double from = stage_ == Stage::jogging && !held ? motor.target : motor.counts;
-    double target = from + way_deg * axis.counts_per_degree;
-    if (position_known()) {
-        const double most = axis.max_deg ? *axis.max_deg * axis.counts_per_degree : target;
-        const double least = axis.min_deg ? *axis.min_deg * axis.counts_per_degree : target;
-        const bool out = target > std::max(most, from) || target < std::min(least, from);
-        if (out) {
-            throw Error(fmt::format("{} would leave its limits, at {:.2f} degrees",
-                                    axis.letter,
-                                    target / axis.counts_per_degree));
+    motors_[n].target = std::round(target);
+    set_jog_speed(n, most_jog_speed(n) * std::min(1.0, speed_deg_per_s / axis.jog_deg_per_s));
+    ask(fmt::format("#{}J={:.0f}", axis.motor, motors_[n].target));
+}
+
+/// Why the motors may not be jogged to `targets`, counts, from `from`; "" if they may.
+std::string PmacSession::leaves_limits(const std::vector<double>& from,
+                                       const std::vector<double>& targets) const {
+    if (!position_known()) {
+        return {};
+    }
+    std::vector<double> targets_deg;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        const PmacAxis& axis = settings_.axes[n];
+        const double start = from[n] / axis.counts_per_degree;
+        const double target = targets[n] / axis.counts_per_degree;
+        if (target > std::max(axis.max_deg.value_or(target), start) ||
+            target < std::min(axis.min_deg.value_or(target), start)) {
+            return fmt::format("{} would leave its limits, at {:.2f} degrees", name_of(n), target);
+        }
+        targets_deg.push_back(target);
+    }
+    return leaves_zone(settings_, axes_deg(), targets_deg, 0.0);
+}
+
+/// The share of a jog that ends inside of all limits, where the whole of it does not.
+double PmacSession::share_within(const std::vector<double>& from, const std::vector<double>& way) const {
+    constexpr int halvings = 12;
+    double inside = 0.0, outside = 1.0;
+    for (int n = 0; n < halvings; ++n) {
+        const double middle = 0.5 * (inside + outside);
+        (leaves_limits(from, along(from, way, middle)).empty() ? inside : outside) = middle;
+    }
+    return inside;
+}
+
+/// counts/ms
+double PmacSession::most_jog_speed(std::size_t n) const {
+    constexpr double per_ms = 1000.0;
+    return settings_.axes[n].jog_deg_per_s * settings_.axes[n].counts_per_degree / per_ms;
+}
+
+/// For a jog; it is the card's own again when everything is at rest.
+void PmacSession::set_jog_speed(std::size_t n, double counts_per_ms) {
+    constexpr double least = 1e-6; // what is written; a motor at 0 would be on its way for ever
+    if (!own_jog_speeds_[n]) {
+        own_jog_speeds_[n] = readings_.jog_speed(n);
+    }
+    const double speed = std::max(counts_per_ms, least);
+    ask(fmt::format("I{}22={:.6f}", settings_.axes[n].motor, speed));
+    readings_.set_jog_speed(n, speed);
+}
+
+/// Before a jog that a person typed: none is faster than those by hand. `jog_speeds`: Ix22 of each axis.
+void PmacSession::slow_down(const std::vector<std::string>& jog_speeds) {
+    for (std::size_t n = motors_.size(); n-- > 0;) { // each before what stands in the queue
+        const auto own = n < jog_speeds.size() ? card_number(jog_speeds[n]) : std::nullopt;
+        if (own && *own > most_jog_speed(n)) {
+            own_jog_speeds_[n] = own_jog_speeds_[n].value_or(*own);
+            queue_.push_front(
+                {fmt::format("I{}22={:.6f}", settings_.axes[n].motor, most_jog_speed(n)), Kind::watch, 0});
         }
     }
-    motor.target = std::round(target);
-    constexpr double per_ms = 1000.0;
-    const double speed = std::min(speed_deg_per_s, axis.jog_deg_per_s) * axis.counts_per_degree / per_ms;
-    ask(fmt::format("I{}22={:.6f}", axis.motor, speed));
-    readings_.set_jog_speed(n, speed);
-    ask(fmt::format("#{}J={:.0f}", axis.motor, motor.target));
+}
+
+void PmacSession::give_jog_speeds_back() {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (const auto own = std::exchange(own_jog_speeds_[n], std::nullopt)) {
+            ask(fmt::format("I{}22={:.6f}", settings_.axes[n].motor, *own), Kind::watch);
+            readings_.set_jog_speed(n, *own);
+        }
+    }
 }
 
 void PmacSession::jog(const Jog& jog, double now) {
@@ -201,41 +319,61 @@ void PmacSession::jog(const Jog& jog, double now) {
     if (!(longest > 0.0) || !(jog.speed > 0.0)) {
         throw Error("a jog has a way and a speed");
     }
-    std::deque<Request> before = queue_;
-    const std::vector<MotorState> motors = motors_;
-    try {
-        if (stage_ != Stage::jogging) {
-            arm();
+    const bool held = jog.dead_man > 0.0;
+    const bool goes_on = stage_ == Stage::jogging;
+    double slower = 1.0; // of all axes, so that the way keeps its direction
+    for (Eigen::Index n = 0; n < jog.way.size(); ++n) {
+        const double speed = to_degrees(jog.speed) * std::abs(jog.way[n]) / longest;
+        if (speed > 0.0) {
+            slower = std::min(slower, settings_.axes[static_cast<std::size_t>(n)].jog_deg_per_s / speed);
         }
-        for (Eigen::Index n = 0; n < jog.way.size(); ++n) {
-            if (std::abs(jog.way[n]) > 0.0) {
-                jog_axis(static_cast<std::size_t>(n),
-                         to_degrees(jog.way[n]),
-                         to_degrees(jog.speed) * std::abs(jog.way[n]) / longest,
-                         jog.dead_man > 0.0);
-            } else if (stage_ == Stage::jogging && jog.dead_man > 0.0) {
-                let_go_of(static_cast<std::size_t>(n));
-            } else if (stage_ != Stage::jogging) {
-                motors_[static_cast<std::size_t>(n)].target = motors_[static_cast<std::size_t>(n)].counts;
-            }
+    }
+    std::vector<double> from, way;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        const auto axis = static_cast<Eigen::Index>(n);
+        const double angle = axis < jog.way.size() ? to_degrees(jog.way[axis]) : 0.0;
+        from.push_back(goes_on && !held ? motors_[n].target : motors_[n].counts);
+        way.push_back(angle * settings_.axes[n].counts_per_degree * (held ? slower : 1.0));
+    }
+    double share = 1.0;
+    if (const std::string why = leaves_limits(from, along(from, way, share)); !why.empty()) {
+        constexpr double least_deg = 0.05; // of what is worth a move
+        share = held ? share_within(from, way) : 0.0;
+        if (share * slower * to_degrees(longest) < least_deg) {
+            throw Error(why);
         }
-    } catch (const Error&) { // nothing of it
-        queue_ = std::move(before);
-        motors_ = motors;
-        throw;
+    }
+    if (!goes_on) {
+        arm();
+    }
+    const std::vector<double> targets = along(from, way, share);
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (std::abs(way[n]) > 0.0) {
+            const double speed =
+                to_degrees(jog.speed) * std::abs(jog.way[static_cast<Eigen::Index>(n)]) / longest;
+            jog_axis(n, targets[n], slower * speed);
+        } else if (goes_on && held) {
+            let_go_of(n);
+        } else {
+            motors_[n].target = targets[n];
+        }
     }
     if (stage_ != Stage::jogging) {
         finish(Stage::jogging);
     }
-    jog_until_ = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
+    jog_until_ = held ? std::optional(now + jog.dead_man) : std::nullopt;
     quiet_polls_ = 0;
 }
 
 void PmacSession::stop_jog(double /*now*/) {
+    halt_jog();
+}
+
+void PmacSession::halt_jog() {
     if (stage_ != Stage::jogging || jog_stopping_) {
         return;
     }
-    queue_.clear();
+    forget_queue();
     if (enabled()) {
         ask(every_motor("J/"));
     } else {
@@ -246,8 +384,7 @@ void PmacSession::stop_jog(double /*now*/) {
     quiet_polls_ = 0;
 }
 
-int PmacSession::command(const std::vector<std::string>& lines, bool all) {
-    require_rest("command");
+void PmacSession::check_command(const std::vector<std::string>& lines) const {
     if (lines.empty()) {
         throw Error("there is nothing in the command");
     }
@@ -257,13 +394,86 @@ int PmacSession::command(const std::vector<std::string>& lines, bool all) {
         if (!plain || line.empty() || line.size() > longest) {
             throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
         }
+        if (jogs_without_end(line)) {
+            throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
+                        {},
+                        "the jog buttons stop when they are let go of; J:500 goes 500 counts");
+        }
+        if (opens_loop(line)) {
+            throw Error(fmt::format("'{}' would drive a motor without its loop: no speed, no limit and no "
+                                    "watchdog holds it",
+                                    line),
+                        {},
+                        "J:500 goes 500 counts");
+        }
     }
-    finish(Stage::commanding);
+}
+
+/// Whether that is all there is to do about `lines`.
+bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
+    if (!active() || stage_ == Stage::loading) {
+        return false;
+    }
+    if (std::all_of(lines.begin(), lines.end(), only_kills)) {
+        fail("a command took the power away");
+    } else if (std::all_of(lines.begin(), lines.end(), only_stops)) {
+        halt();
+    } else {
+        return false;
+    }
+    answer_ = {answer_.number + 1, CommandAnswer::State::done, {}};
+    return true;
+}
+
+int PmacSession::load(const std::vector<std::string>& lines) {
+    if (std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); })) {
+        throw Error("the motors have power, and a wrong gain or limit would move them at once",
+                    {},
+                    "take it away first, and give it again when the settings were looked at");
+    }
+    return command(lines, true);
+}
+
+int PmacSession::command(const std::vector<std::string>& lines, bool all) {
+    check_command(lines);
+    if (stopped_by_command(lines)) {
+        return answer_.number;
+    }
+    const bool waits = answer_.state == CommandAnswer::State::pending;
+    const bool asks = std::all_of(lines.begin(), lines.end(), only_asks);
+    if (!asks && rests()) {
+        give_jog_speeds_back();
+    }
+    const bool stops = std::all_of(
+        lines.begin(), lines.end(), [](const auto& line) { return only_stops(line) || only_kills(line); });
+    if (stage_ == Stage::astir && stops) {
+        finish(Stage::commanding);
+    } else if (stage_ == Stage::alarm && !waits && !link_lost_ &&
+               std::all_of(lines.begin(), lines.end(), only_sets)) {
+        // nothing has power: what a test of a motor had borrowed is given back
+    } else if (waits || !asks || !(active() || stage_ == Stage::astir) || stage_ == Stage::loading) {
+        require_rest("command");
+        finish(Stage::commanding);
+    }
+    begin_command(lines, all);
+    return answer_.number;
+}
+
+void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
     answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
     command_goes_on_ = all;
+    command_refused_ = false;
     command_lines_.assign(lines.begin(), lines.end());
+    only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
+    commanded_.clear();
+    for (const std::string& line : lines) {
+        commanded_ += line + "\n";
+    }
+    commanded_from_.clear();
+    for (const MotorState& motor : motors_) {
+        commanded_from_.push_back(motor.counts);
+    }
     next_command();
-    return answer_.number;
 }
 
 void PmacSession::set_overrides(const Overrides& wanted) {

@@ -1,5 +1,6 @@
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 
+#include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 #include "core/machine/links/link.h"
@@ -35,16 +36,17 @@ void PmacSession::opened(double now) {
     sent_.reset();
     talk_.forget();
     greet_step_ = 0;
-    greet_at_ = now;
+    greet_at_ = opened_at_ = now;
     own_pause_.begin(now);
-    buffer_open_ = polled_ = was_home_ = armed_ = false;
+    buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = false;
+    own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
 }
 
 void PmacSession::lost(const std::string& why) {
     finish(Stage::alarm, loss_sentence(why) + "; the card stops its motors by itself");
-    link_lost_ = true;
+    link_lost_ = unseen_ = true;
     talk_.forget();
     queue_.clear();
     sent_.reset();
@@ -65,6 +67,20 @@ std::string PmacSession::take_output() {
     return std::exchange(output_, {});
 }
 
+std::vector<ConsoleLine> PmacSession::take_console() {
+    return std::exchange(told_, {});
+}
+
+void PmacSession::tell(bool sent, ConsoleKind kind, std::string text) {
+    told_.push_back({.sent = sent, .kind = kind, .text = std::move(text)});
+}
+
+/// Whether a request comes from the driver alone, so often that a person does not want to read it.
+bool PmacSession::is_ours(Kind kind) {
+    return kind == Kind::poll || kind == Kind::reading || kind == Kind::rating || kind == Kind::address ||
+           kind == Kind::watch || kind == Kind::jog_speeds || kind == Kind::greet;
+}
+
 void PmacSession::receive(std::string_view bytes, double now) {
     talk_.receive(bytes, now);
 }
@@ -76,6 +92,7 @@ std::string PmacSession::asked(const Request& request) {
         return "the question how its motors stand";
     case Kind::rating:
     case Kind::reading:
+    case Kind::jog_speeds:
         return "the question for its motors' values";
     case Kind::address:
         return "the question which motor it addresses";
@@ -119,16 +136,32 @@ void PmacSession::tick(double now) {
     if (jog_until_ && now > *jog_until_) {
         stop_jog(now);
     }
+    watch_time(now);
     if (!talk_.idle()) {
         return;
     }
     ask_something(now);
 }
 
+/// A line that is too slow, or motors that do not brake, must not be waited for for ever.
+void PmacSession::watch_time(double now) {
+    constexpr double braking = 10.0; // s
+    const double greeting = 10.0 + 3.0 * settings_.patience;
+    if (stage_ == Stage::stopping && !brake_by_) {
+        brake_by_ = now + braking;
+    } else if (stage_ == Stage::stopping && now > *brake_by_) {
+        fail("the motors do not come to rest, or the line is too slow to tell it");
+    } else if (stage_ == Stage::greeting && now > opened_at_ + greeting) {
+        queue_.clear();
+        finish(Stage::alarm, fmt::format("its answers take too long: the greeting took {:.0f} s", greeting));
+    }
+}
+
 void PmacSession::ask_something(double now) {
-    // A command and the question for its addresses belong together; else the report comes first.
-    const bool may_poll = (queue_.empty() || queue_.front().kind == Kind::command) && polled_ &&
-                          !buffer_open_ && stage_ != Stage::greeting;
+    // A command and the question for its addresses belong together; else the report comes first, but not
+    // twice where the line is so slow that the next one is due when it comes.
+    const bool turn = queue_.empty() || (queue_.front().kind == Kind::command && !asked_poll_);
+    const bool may_poll = turn && polled_ && !buffer_open_ && stage_ != Stage::greeting;
     if (may_poll && now >= next_poll_) {
         sent_ = Request{poll_line(), Kind::poll, 0};
         next_poll_ = now + poll_interval;
@@ -142,9 +175,16 @@ void PmacSession::ask_something(double now) {
     } else {
         return;
     }
+    asked_poll_ = sent_->kind == Kind::poll;
     const bool addressed = sent_->kind == Kind::command && !buffer_open_;
     buffer_open_ = buffer_open_ || starts_with_word(sent_->line, "OPEN");
-    talk_.send(addressed ? sign_of_life + addresses_ + sent_->line : sent_->line, now);
+    tell(true, is_ours(sent_->kind) ? ConsoleKind::query : ConsoleKind::line, sent_->line);
+    // Jogs that are renewed leave no time for reports.
+    const bool lively = sent_->kind == Kind::step && stage_ == Stage::jogging;
+    talk_.send(addressed ? sign_of_life + addresses_ + sent_->line
+               : lively  ? std::string(sign_of_life) + " " + sent_->line
+                         : sent_->line,
+               now);
 }
 
 void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
@@ -154,6 +194,9 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
     const Request request = *std::exchange(sent_, std::nullopt);
     switch (reply.outcome) {
     case GuardedLine::Outcome::answered:
+        for (const std::string& line : reply.lines) {
+            tell(false, is_ours(request.kind) ? ConsoleKind::report : ConsoleKind::answer, line);
+        }
         answered(request, reply.lines, now);
         break;
     case GuardedLine::Outcome::refused:
@@ -163,7 +206,12 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
         if (stage_ == Stage::greeting) {
             queue_.clear();
             finish(Stage::alarm, "nobody answers as a PMAC");
+        } else if (request.kind == Kind::command && request.line.starts_with("$$$")) {
+            fail(
+                "the card was reset: the settings that it had saved are in force, and it does not know where "
+                "the arm stands");
         } else {
+            unseen_ = true;
             fail(fmt::format("the card did not answer {} as it should", asked(request)));
         }
     }
@@ -182,6 +230,9 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         break;
     case Kind::reading:
         readings_.read(lines);
+        break;
+    case Kind::jog_speeds:
+        slow_down(lines);
         break;
     case Kind::greet:
         if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
@@ -217,14 +268,22 @@ void PmacSession::refused(const Request& request, int error) {
     if (starts_with_word(request.line, "CLOSE")) {
         buffer_open_ = false;
     }
+    constexpr int no_command = 3; // what the card also says of a motor that is switched off
+    const bool of_motors = error == no_command && request.line.ends_with("J/");
+    tell(false, ConsoleKind::fault, fmt::format("ERR{:03}, {}", error, pmac_error(error)));
     const std::string why =
-        fmt::format("{} is refused: ERR{:03}, {}", asked(request), error, pmac_error(error));
+        fmt::format("{} is refused: ERR{:03}, {}{}",
+                    asked(request),
+                    error,
+                    pmac_error(error),
+                    of_motors ? "; are all these motors there and active (Ix00 = 1)?" : "");
     if (request.kind == Kind::rating || request.kind == Kind::reading) {
         readings_.give_up();
         return;
     }
     if (request.kind == Kind::command && command_goes_on_) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        command_refused_ = true;
         next_command();
         return;
     }
@@ -258,24 +317,43 @@ void PmacSession::next_command() {
         if (buffer_open_) {
             ask("CLOSE");
         }
-        finish_command(CommandAnswer::State::done);
+        finish_command(command_refused_ ? CommandAnswer::State::refused : CommandAnswer::State::done);
         return;
     }
     const bool opens = starts_with_word(command_lines_.front(), "OPEN");
     if (armed_ && opens) { // nobody is heard while a buffer is open
-        ask(disarm_watchdog);
+        ask(disarm_watchdog, Kind::watch);
         armed_ = false;
-    } else if (!armed_ && !buffer_open_ && !opens) {
+    } else if (!armed_ && !buffer_open_ && !opens && stage_ != Stage::alarm &&
+               !only_asks(command_lines_.front())) {
         arm(); // what a person types may begin motion
+    }
+    if (!buffer_open_ && jogs(command_lines_.front()) && !is_step(command_lines_.front())) {
+        std::string question;
+        for (const PmacAxis& axis : settings_.axes) {
+            question += fmt::format("I{}22", axis.motor);
+        }
+        ask(std::move(question), Kind::jog_speeds);
     }
     ask(command_lines_.front(), Kind::command);
     command_lines_.pop_front();
 }
 
+/// A short way of one motor: its speed is the card's.
+bool PmacSession::is_step(const std::string& line) const {
+    const auto step = step_of(line);
+    return step && std::any_of(settings_.axes.begin(), settings_.axes.end(), [&](const PmacAxis& axis) {
+               return axis.motor == step->motor &&
+                      std::abs(step->counts) <= pmac_step_deg * axis.counts_per_degree;
+           });
+}
+
 void PmacSession::finish_command(CommandAnswer::State state) {
-    answer_.state = state;
+    if (answer_.state == CommandAnswer::State::pending) {
+        answer_.state = state;
+    }
     if (stage_ == Stage::commanding) {
-        finish(Stage::ready);
+        finish(armed_ ? Stage::astir : Stage::ready);
         ask_ratings(); // it may have set some
     }
 }
@@ -297,7 +375,7 @@ void PmacSession::ask_ratings() {
 
 /// From now on the card stops by itself when it no longer hears us.
 void PmacSession::arm() {
-    ask(arm_watchdog);
+    ask(arm_watchdog, Kind::watch);
     armed_ = true;
     quiet_polls_ = 0;
 }

@@ -21,7 +21,7 @@ class PmacSession final : public internal::ControllerSession {
 public:
     explicit PmacSession(PmacSettings settings)
         : settings_(std::move(settings)), talk_(settings_.patience), readings_(settings_.axes),
-          motors_(settings_.axes.size()) {}
+          motors_(settings_.axes.size()), own_jog_speeds_(settings_.axes.size()) {}
 
     void opened(double now) override;
     void lost(const std::string& why) override;
@@ -29,6 +29,7 @@ public:
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
     [[nodiscard]] std::string take_output() override;
+    [[nodiscard]] std::vector<ConsoleLine> take_console() override;
 
     [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] bool greeted() const override { return stage_ != Stage::greeting; }
@@ -43,9 +44,16 @@ public:
     void emergency_stop(double now) override;
     void reset(double now) override;
     void home(double now) override;
+    /// A held one (dead_man) ends at the border of what it may: it is renewed again and again from where the
+    /// motors are. A step that would end beyond it is refused whole.
     void jog(const Jog& jog, double now) override;
     void stop_jog(double now) override;
-    /// Lines of on-line commands; `all`: also those behind a refused one.
+    /// Lines of a file of settings. Throws Error while a motor has power.
+    int load(const std::vector<std::string>& lines);
+    /// Lines of on-line commands; `all`: also those behind a refused one. While motors move, only lines that
+    /// ask or stop, which during a program, a jog and homing do what stop() does; taking power away is an
+    /// alarm then. Throws Error for anything else, and for jogs without an end
+    /// and open loops. In an alarm only variables are set.
     int command(const std::vector<std::string>& lines, bool all);
     void set_overrides(const Overrides& wanted) override;
     /// Closes the loops of the motors where they stand: the one way back from a kill.
@@ -55,7 +63,7 @@ public:
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;
     /// By the card's I-variables; what it has not told yet is missing.
-    [[nodiscard]] const std::vector<MachineLimits::Axis>& limits() const { return readings_.limits(); }
+    [[nodiscard]] std::vector<MachineLimits::Axis> limits() const { return readings_.limits(); }
 
 private:
     enum class Stage {
@@ -65,13 +73,14 @@ private:
         loading,
         running,
         commanding,
+        astir, ///< a command set motors going
         jogging,
         homing,
         stopping,
         stopped,
         alarm
     };
-    enum class Kind { greet, poll, rating, reading, step, run, program, command, address };
+    enum class Kind { greet, poll, rating, reading, watch, jog_speeds, step, run, program, command, address };
 
     struct Request {
         std::string line;
@@ -97,22 +106,34 @@ private:
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     [[nodiscard]] static std::string asked(const Request& request);
     void next_command();
+    [[nodiscard]] bool is_step(const std::string& line) const;
     void finish_command(CommandAnswer::State state);
     [[nodiscard]] std::string poll_line() const;
     void ask_ratings();
     void ask_something(double now);
+    void watch_time(double now);
     void arm();
+    void tell(bool sent, ConsoleKind kind, std::string text);
+    [[nodiscard]] static bool is_ours(Kind kind);
 
     // pmac_watch.cpp: what the card tells
     void read_poll(const std::vector<std::string>& lines, double now);
-    void watch(double now);
+    void watch();
     void watch_motors();
     void watch_stage();
     void watch_program(bool stands);
     void watch_homing();
     void watch_stopping();
+    void watch_way_home();
+    void home_axis(std::size_t axis);
     void rest();
-    void watch_limits(double now);
+    void watch_limits();
+    void watch_zone();
+    void watch_rest();
+    [[nodiscard]] std::vector<double> axes_deg() const;
+    [[nodiscard]] bool at_limit(std::size_t n) const;
+    [[nodiscard]] std::string limit_sentence() const;
+    [[nodiscard]] std::string commanded_limit() const;
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
     void kill();
@@ -120,29 +141,48 @@ private:
     // pmac_requests.cpp: what a person wants
     [[nodiscard]] bool active() const;
     [[nodiscard]] bool standing() const;
+    [[nodiscard]] bool rests() const; ///< nothing of ours is under way
+    void check_command(const std::vector<std::string>& lines) const;
+    void begin_command(const std::vector<std::string>& lines, bool all);
+    bool stopped_by_command(const std::vector<std::string>& lines);
+    void halt();
+    void halt_jog();
+    void brake();
+    void forget_queue();
     void require_rest(std::string_view what) const;
     void require_enabled(std::string_view what) const;
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
     [[nodiscard]] std::string every_motor(std::string_view command) const;
-    /// `held`: counts from where the motor is, since such a jog is renewed again and again.
-    void jog_axis(std::size_t axis, double way_deg, double speed_deg_per_s, bool held);
+    void jog_axis(std::size_t axis, double target, double speed_deg_per_s);
+    [[nodiscard]] std::string leaves_limits(const std::vector<double>& from,
+                                            const std::vector<double>& targets) const;
+    [[nodiscard]] double share_within(const std::vector<double>& from, const std::vector<double>& way) const;
+    /// As a person knows it: the arm's joint, or the axis.
+    [[nodiscard]] std::string name_of(std::size_t axis) const;
     void let_go_of(std::size_t axis);
+    void set_jog_speed(std::size_t axis, double counts_per_ms);
+    void slow_down(const std::vector<std::string>& jog_speeds);
+    void give_jog_speeds_back();
+    [[nodiscard]] double most_jog_speed(std::size_t axis) const;
 
     PmacSettings settings_;
     GuardedLine talk_;
     Stage stage_ = Stage::closed;
     std::string output_;
+    std::vector<ConsoleLine> told_;
     std::string message_;
     bool link_lost_ = false;
+    bool unseen_ = false; ///< silent since the last report: what it told is old
 
     std::deque<Request> queue_;
     std::optional<Request> sent_;
     internal::OwnPause own_pause_;
-    double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0;
+    double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0, opened_at_ = 0.0;
     std::size_t greet_step_ = 0;
     bool buffer_open_ = false; ///< nothing may be asked meanwhile
     bool polled_ = false;
+    bool asked_poll_ = false; ///< by the last line
 
     MotorReadings readings_;
     std::vector<MotorState> motors_;
@@ -158,12 +198,23 @@ private:
     int astray_polls_ = 0;  ///< a motor stands where it was not sent
     bool was_home_ = false; ///< to tell when the card forgets
     std::size_t homing_axis_ = 0;
+    double homing_from_ = 0.0;           ///< counts
+    std::vector<double> commanded_from_; ///< counts of each motor when the last command was given
+    std::string commanded_;              ///< its lines
+    bool only_set_ = false;              ///< variables, by its lines: nothing moves
+    std::vector<double> watched_deg_;    ///< of each axis, at the last look at the limits
+    std::vector<double> rest_counts_;    ///< of each motor, where it came to rest
+    bool homing_backs_off_ = false;      ///< to the side of its flag from which a motor finds it
+    std::vector<std::optional<double>> own_jog_speeds_; ///< Ix22 as a person left it, where a jog changed it
+    std::optional<double> brake_by_; ///< while stopping, s; the motors lose their power then
+    bool unbraked_ = false;          ///< stopping, and which motors move is not known yet
     std::optional<double> jog_until_;
     bool jog_stopping_ = false;
     Overrides overrides_;
 
     std::deque<std::string> command_lines_;
     bool command_goes_on_ = false;
+    bool command_refused_ = false;   ///< a line of it, and it went on
     std::string addresses_ = "#1&1"; ///< those of the person's commands
     CommandAnswer answer_;
 };

@@ -17,6 +17,7 @@ DriverState PmacSession::state() const {
         return held_ ? DriverState::holding : DriverState::running;
     case Stage::loading:
     case Stage::commanding:
+    case Stage::astir:
     case Stage::jogging:
     case Stage::homing:
         return DriverState::running;
@@ -36,6 +37,7 @@ Activity PmacSession::activity() const {
     case Stage::loading:
         return Activity::program;
     case Stage::commanding:
+    case Stage::astir:
         return Activity::command;
     case Stage::jogging:
         return Activity::jog;
@@ -63,16 +65,21 @@ DriverStatus PmacSession::status() const {
     }
     status.activity = activity();
     const auto axes = static_cast<Eigen::Index>(motors_.size());
-    status.position = status.velocity = status.work_offset = kinematics::AxisPositions::Zero(axes);
+    status.position = status.work_offset = kinematics::AxisPositions::Zero(axes);
+    status.velocity = kinematics::AxisPositions::Zero(unseen_ ? 0 : axes);
     for (Eigen::Index n = 0; n < axes; ++n) {
         const auto axis = static_cast<std::size_t>(n);
         const double scale = settings_.axes[axis].counts_per_degree;
         status.position[n] = from_degrees(motors_[axis].counts / scale);
-        status.velocity[n] = from_degrees(motors_[axis].speed / scale);
+        if (!unseen_) {
+            status.velocity[n] = from_degrees(motors_[axis].speed / scale);
+        }
     }
     status.powered = enabled();
-    status.position_known = position_known();
-    status.motors = readings_.motors();
+    status.position_known = position_known() && !unseen_; // it may have gone on
+    if (!unseen_) {
+        status.motors = readings_.motors();
+    }
     status.overrides = overrides_;
     status.answer = answer_;
     status.executed_blocks = executed_;

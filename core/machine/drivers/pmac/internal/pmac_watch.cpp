@@ -1,4 +1,6 @@
 // What a round of answers says, and what follows from it.
+#include "core/kinematics/arm_model.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/internal/card_numbers.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 #include "core/machine/drivers/pmac/internal/watchdog.h"
@@ -8,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace millwright::machine::pmac {
 
@@ -62,8 +65,9 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     system_2_ = system->second;
     mark_ = *mark;
     polled_ = true;
+    unseen_ = false;
     polled_at_ = now;
-    watch(now);
+    watch();
 }
 
 bool PmacSession::position_known() const {
@@ -76,7 +80,7 @@ bool PmacSession::enabled() const {
            std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); });
 }
 
-void PmacSession::watch(double now) {
+void PmacSession::watch() {
     if (stage_ == Stage::greeting) {
         finish(Stage::ready);
         was_home_ = position_known();
@@ -91,7 +95,11 @@ void PmacSession::watch(double now) {
         return;
     }
     watch_motors();
-    watch_limits(now);
+    watch_limits();
+    watch_rest();
+    if (stage_ == Stage::homing) {
+        watch_way_home();
+    }
     watch_stage();
 }
 
@@ -100,26 +108,29 @@ void PmacSession::watch_motors() {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const MotorState& motor = motors_[n];
         const std::string name = fmt::format("motor {}", settings_.axes[n].motor);
-        if (active() && (motor.word_2 & fault) != 0 && !motor.enabled()) {
+        const bool watched = active() || stage_ == Stage::astir;
+        if (watched && (motor.word_2 & fault) != 0 && !motor.enabled()) {
             fail(name + ": its amplifier reports a fault");
-        } else if (active() && (motor.word_2 & fatal) != 0 && !motor.enabled()) {
+        } else if (watched && (motor.word_2 & fatal) != 0 && !motor.enabled()) {
             fail(name + ": its following error became too great");
         } else if ((stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging) &&
                    !motor.enabled()) {
             fail(name + " was killed");
         }
     }
-    const bool forgot =
-        was_home_ && !position_known() && stage_ != Stage::homing && stage_ != Stage::commanding;
+    const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
+                        stage_ != Stage::commanding && stage_ != Stage::astir;
     if (forgot) {
         fail("the card forgot the position: was it reset?");
     }
     was_home_ = position_known();
 }
 
-void PmacSession::watch_limits(double now) {
+void PmacSession::watch_limits() {
     constexpr double slack_deg = 0.2;
-    if (!active() || !position_known() || stage_ == Stage::homing || stage_ == Stage::stopping) {
+    if (!(active() || stage_ == Stage::astir) || !position_known() || stage_ == Stage::homing ||
+        stage_ == Stage::stopping) {
+        watched_deg_.clear();
         return;
     }
     for (std::size_t n = 0; n < motors_.size(); ++n) {
@@ -128,10 +139,73 @@ void PmacSession::watch_limits(double now) {
         const bool out = (axis.max_deg && at > *axis.max_deg + slack_deg && motors_[n].speed > 0.0) ||
                          (axis.min_deg && at < *axis.min_deg - slack_deg && motors_[n].speed < 0.0);
         if (out) {
-            stop(now);
-            message_ = fmt::format("{} is beyond its limit, at {:.2f} degrees", axis.letter, at);
+            halt();
+            message_ = fmt::format("{} is beyond its limit, at {:.2f} degrees", name_of(n), at);
             return;
         }
+    }
+    watch_zone();
+}
+
+/// Of the arm whose joints the axes are: which limits it has beside theirs.
+void PmacSession::watch_zone() {
+    constexpr double slack_mm = 1.0; // noise of the encoders at the end of a long arm
+    const std::vector<double> before = std::exchange(watched_deg_, axes_deg());
+    if (before.size() != watched_deg_.size()) {
+        return; // the first look
+    }
+    if (const std::string why = leaves_zone(settings_, before, watched_deg_, slack_mm); !why.empty()) {
+        halt();
+        message_ = "stopped at the border of the arm's workspace: " + why;
+    }
+}
+
+/// With a wrong gain or offset a motor goes where nobody sent it, and brakes do not hold it.
+void PmacSession::watch_rest() {
+    constexpr double slack_deg = 2.0;
+    const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::astir);
+    if (!rests() && !only_set) {
+        rest_counts_.clear();
+        return;
+    }
+    const bool first = rest_counts_.empty();
+    rest_counts_.resize(motors_.size());
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (first || !motors_[n].enabled()) {
+            rest_counts_[n] = motors_[n].counts;
+        } else if (std::abs(motors_[n].counts - rest_counts_[n]) >
+                   slack_deg * settings_.axes[n].counts_per_degree) {
+            fail(fmt::format("{} has power and moves, and nobody sent it", name_of(n)));
+            return;
+        }
+    }
+}
+
+std::string PmacSession::name_of(std::size_t axis) const {
+    return settings_.arm ? "joint " + settings_.arm->joint(static_cast<int>(axis)).name
+                         : std::string(1, settings_.axes[axis].letter);
+}
+
+std::vector<double> PmacSession::axes_deg() const {
+    std::vector<double> degrees;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        degrees.push_back(motors_[n].counts / settings_.axes[n].counts_per_degree);
+    }
+    return degrees;
+}
+
+/// A flag that is not connected, or whose settings are wrong, must not let a motor run for ever.
+void PmacSession::watch_way_home() {
+    constexpr double slack_deg = 20.0, turn_deg = 360.0;
+    const PmacAxis& axis = settings_.axes[homing_axis_];
+    const double range = axis.max_deg && axis.min_deg ? *axis.max_deg - *axis.min_deg : turn_deg;
+    const double way = std::abs(motors_[homing_axis_].counts - homing_from_) / axis.counts_per_degree;
+    if (way > range + slack_deg) {
+        halt();
+        message_ = fmt::format("motor {} went {:.0f} degrees and found no home: are its flag and I{} set up?",
+                               axis.motor,
+                               way,
+                               902 + 5 * (axis.motor - 1));
     }
 }
 
@@ -166,7 +240,14 @@ void PmacSession::watch_stage() {
         }
         break;
     case Stage::stopping:
-        watch_stopping();
+        unbraked_ ? brake() : watch_stopping();
+        break;
+    case Stage::astir:
+        if (settled) {
+            const std::string limit = commanded_limit();
+            finish(limit.empty() ? Stage::ready : Stage::stopped, limit);
+            rest();
+        }
         break;
     case Stage::ready:
     case Stage::stopped:
@@ -179,15 +260,50 @@ void PmacSession::watch_stage() {
     }
 }
 
+bool PmacSession::at_limit(std::size_t n) const {
+    constexpr std::uint32_t at_limit = 1U << 11;
+    return (motors_[n].word_2 & at_limit) != 0;
+}
+
+/// Which motor the card stopped at one of its limits; "" if none.
+std::string PmacSession::limit_sentence() const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (at_limit(n)) {
+            return fmt::format("motor {} ran into a limit of the card", settings_.axes[n].motor);
+        }
+    }
+    return {};
+}
+
+/// The same of a command: of motors that moved, or that it names. Others may stand there since long.
+std::string PmacSession::commanded_limit() const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        const int motor = settings_.axes[n].motor;
+        const bool moved =
+            n < commanded_from_.size() && std::abs(motors_[n].counts - commanded_from_[n]) > 1.0;
+        if (!at_limit(n)) {
+            continue;
+        }
+        if (moved) {
+            return fmt::format("motor {} ran into a limit of the card", motor);
+        }
+        if (commanded_.find(fmt::format("#{}", motor)) != std::string::npos) {
+            return fmt::format("motor {} stands at a limit of the card", motor);
+        }
+    }
+    return {};
+}
+
 /// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
 void PmacSession::rest() {
-    ask(disarm_watchdog);
-    ask(fmt::format("&{}B0", settings_.system));
+    ask(disarm_watchdog, Kind::watch);
+    ask(fmt::format("&{}B0", settings_.system), Kind::watch);
+    give_jog_speeds_back();
     armed_ = false;
 }
 
 void PmacSession::watch_program(bool settled) {
-    constexpr std::uint32_t errors = 3U << 21, at_limit = 1U << 11, held_bit = 1U << 23;
+    constexpr std::uint32_t errors = 3U << 21, held_bit = 1U << 23;
     constexpr int ahead = 4; // a program is calculated before its moves are made
     if (marks_tell_) {
         executed_ = std::clamp(static_cast<int>(std::min(mark_, 1e6)) - ahead, executed_, program_lines_);
@@ -203,22 +319,27 @@ void PmacSession::watch_program(bool settled) {
         executed_ = program_lines_;
         finish(Stage::ready);
     } else if (settled) {
-        const bool limit = std::any_of(
-            motors_.begin(), motors_.end(), [](const MotorState& m) { return (m.word_2 & at_limit) != 0; });
-        fail(limit ? "a motor ran into a limit" : "the program was ended by somebody else");
+        const std::string limit = limit_sentence();
+        fail(limit.empty() ? "the program was ended by somebody else" : limit);
     }
 }
 
 void PmacSession::watch_homing() {
+    if (homing_backs_off_) {
+        homing_backs_off_ = false;
+        homing_from_ = motors_[homing_axis_].counts;
+        quiet_polls_ = 0;
+        ask(fmt::format("#{}HM", settings_.axes[homing_axis_].motor));
+        return;
+    }
     const bool found = motors_[homing_axis_].home();
     if (!found && quiet_polls_ <= patience) {
         return; // it stands for a moment where it turns back to its flag
     }
     if (!found) {
         fail(fmt::format("motor {} did not find its home flag", settings_.axes[homing_axis_].motor));
-    } else if (++homing_axis_ < motors_.size()) {
-        ask(fmt::format("#{}HM", settings_.axes[homing_axis_].motor));
-        quiet_polls_ = 0;
+    } else if (homing_axis_ + 1 < motors_.size()) {
+        home_axis(homing_axis_ + 1);
     } else {
         finish(Stage::ready);
     }
@@ -242,12 +363,15 @@ void PmacSession::watch_stopping() {
 
 /// Ends whatever is going on: in a state without motion, or on the way there.
 void PmacSession::finish(Stage stage, std::string why) {
+    const bool given_up = stage_ == Stage::commanding || stage == Stage::alarm;
     stage_ = stage;
     message_ = std::move(why);
     jog_until_.reset();
     jog_stopping_ = held_ = false;
     quiet_polls_ = astray_polls_ = 0;
-    if (answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
+    unbraked_ = false;
+    brake_by_.reset();
+    if (given_up && answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = CommandAnswer::State::refused;
         answer_.text = message_.empty() ? "stopped" : message_;
     }
@@ -267,13 +391,16 @@ void PmacSession::fail(std::string why) {
     queue_.clear();
     command_lines_.clear();
     buffer_open_ = false;
+    tell(false, ConsoleKind::fault, why);
     finish(Stage::alarm, std::move(why));
     ask("CLOSE");
+    give_jog_speeds_back();
 }
 
 /// The one command that nothing refuses; three times, since a character may be lost.
 void PmacSession::kill() {
     output_ += "\x0B\x0B\x0B";
+    tell(true, ConsoleKind::realtime, "^K: every motor without power");
 }
 
 } // namespace millwright::machine::pmac

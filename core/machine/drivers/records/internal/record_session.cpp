@@ -67,6 +67,7 @@ RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
       text_(checked_text(options, *model_)), path_(options.format.relative, 1.0, options.decimals) {
     expects(position.size() == model_->axis_count(), "the table stands somewhere");
     status_.position = std::move(position);
+    status_.position_known = options.known;
     status_.velocity = status_.work_offset = AxisPositions::Zero(model_->axis_count());
 }
 
@@ -75,7 +76,7 @@ void RecordSession::opened(double /*now*/) {
     path_.begin(values_of(status_.position));
     status_.link_lost = false;
     if (status_.state == DriverState::disconnected) {
-        status_.state = DriverState::idle;
+        status_.state = left_until_ ? DriverState::stopping : DriverState::idle;
     }
 }
 
@@ -108,7 +109,11 @@ void RecordSession::rest(DriverState state, std::string why) {
 }
 
 void RecordSession::alarm(std::string why) {
-    uncertain_ = uncertain_ || (under_way_ && under_way_->record);
+    if (under_way_ && under_way_->record) {
+        status_.position_doubt =
+            fmt::format("record {} was on its way, and nobody knows how far it was obeyed", records_);
+        left_until_ = under_way_->over + (awaits_answers() ? format_.patience : 0.0);
+    }
     under_way_.reset();
     outbox_.clear();
     rest(DriverState::alarm, std::move(why));
@@ -119,6 +124,12 @@ void RecordSession::start(const Work& work, double now) {
         throw Error(
             fmt::format("the table is {} and takes no program", to_text(status_.state)), {}, status_.message);
     }
+    if (!status_.position_doubt.empty()) {
+        throw Error(doubt_sentence(status_.position_doubt) +
+                        " The first record could go through the work from there",
+                    {},
+                    "read X, Y and Z at the table and enter them");
+    }
     if (!work.program) {
         throw Error("the records driver cannot run a text that was not made here");
     }
@@ -128,11 +139,13 @@ void RecordSession::start(const Work& work, double now) {
     text_.expect_all_told(*work.program, *model_);
     program_ = work.program;
     listing_ = work.listing;
+    trajectory_ = work.trajectory;
     ahead_.begin(work.ahead, program_->block_count());
     own_pause_.begin(now);
     status_.block = 0;
     status_.executed_blocks = status_.sent_blocks = 0;
     status_.fraction = 0.0;
+    status_.planned_time = 0.0;
     status_.message.clear();
     status_.state = DriverState::running;
     status_.activity = Activity::program;
@@ -142,7 +155,9 @@ void RecordSession::start(const Work& work, double now) {
 void RecordSession::receive(std::string_view bytes, double now) {
     inbox_.add(bytes);
     while (const auto line = inbox_.next()) {
-        if (awaits_answers() && status_.state != DriverState::alarm) {
+        if (left_until_) {
+            left_until_.reset();
+        } else if (awaits_answers() && status_.state != DriverState::alarm) {
             answered(*line, now);
         }
     }
@@ -153,6 +168,7 @@ void RecordSession::answered(const std::string& line, double now) {
         alarm(fmt::format("the machine said '{}' before record {} was sent", line, records_ + 1));
     } else if (line != format_.answer) {
         alarm(fmt::format("the machine answered '{}' to record {}", line, records_));
+        left_until_.reset();
     } else {
         land(now);
     }
@@ -161,6 +177,7 @@ void RecordSession::answered(const std::string& line, double now) {
 /// What was under way is over.
 void RecordSession::land(double now) {
     status_.position = under_way_->target;
+    status_.position_known = status_.position_known || (under_way_->record && !format_.relative);
     under_way_.reset();
     executed();
     tick(now);
@@ -169,6 +186,11 @@ void RecordSession::land(double now) {
 void RecordSession::executed() {
     ++status_.executed_blocks;
     status_.block = std::min(status_.executed_blocks, program_->block_count() - 1);
+    if (trajectory_) {
+        status_.planned_time = status_.executed_blocks < program_->block_count()
+                                   ? trajectory_->start_of(status_.executed_blocks)
+                                   : trajectory_->duration();
+    }
     if (single_block_ && status_.state == DriverState::running) {
         status_.state = DriverState::holding;
     }
@@ -200,6 +222,12 @@ void RecordSession::tick(double now) {
         under_way_->over += pause;
     }
     look_at_clock(now);
+    if (left_until_ && now >= *left_until_) {
+        left_until_.reset();
+    }
+    if (status_.state == DriverState::stopping && !program_ && !left_until_) {
+        rest(DriverState::idle);
+    }
     while (may_begin_block()) {
         begin_block(now);
     }
@@ -293,18 +321,25 @@ void RecordSession::emergency_stop(double /*now*/) {
     }
 }
 
-void RecordSession::reset(double /*now*/) {
+void RecordSession::reset(double now) {
     if (status_.state != DriverState::alarm) {
         return;
     }
-    if (uncertain_ && format_.relative) {
-        throw Error(fmt::format("nobody knows whether record {} was obeyed", records_),
+    rest(DriverState::stopping, "What was on its way when the alarm came is not over.");
+    tick(now);
+}
+
+void RecordSession::stands_at(const AxisPositions& position) {
+    if (status_.state != DriverState::idle && status_.state != DriverState::stopped) {
+        throw Error(fmt::format("the table is {}", to_text(status_.state)),
                     {},
-                    "look where the table stands, and connect anew from there");
+                    "say it when the table is at rest and unlocked");
     }
-    uncertain_ = false;
-    path_.begin(values_of(status_.position));
-    rest(DriverState::idle);
+    expects(position.size() == model_->axis_count() && position.allFinite(), "each axis stands somewhere");
+    status_.position = position;
+    status_.position_known = true;
+    status_.position_doubt.clear();
+    path_.begin(values_of(position));
 }
 
 void RecordSession::home(double /*now*/) {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace millwright::machine::records {
 
@@ -45,6 +46,9 @@ public:
     void stop(double now) override;
     void emergency_stop(double now) override;
     void reset(double now) override;
+    void trust_position() override { stands_at(status_.position); }
+    void doubt_position(std::string why) override { status_.position_doubt = std::move(why); }
+    void stands_at(const kinematics::AxisPositions& position) override;
     void home(double now) override;
     void jog(const Jog& jog, double now) override;
     void stop_jog(double /*now*/) override {}
@@ -76,13 +80,16 @@ private:
     RecordPath path_;
     std::shared_ptr<const gcode::Program> program_;
     std::shared_ptr<const gcode::Listing> listing_;
+    std::shared_ptr<const motion::Trajectory> trajectory_; ///< for its times alone; may be null
     internal::Ahead ahead_;
     internal::OwnPause own_pause_;
     bool optional_stop_ = false;
     std::optional<UnderWay> under_way_;
+    /// Until when the table may go on with the record that was on its way when an alarm came; its late
+    /// answer, which ends it, is none to a later record.
+    std::optional<double> left_until_;
     bool rests_ = false; ///< held, and what was under way is over
     bool single_block_ = false;
-    bool uncertain_ = false; ///< nobody knows whether the last record was obeyed
     int records_ = 0;
     AnswerLines inbox_;
     std::string outbox_;

@@ -193,6 +193,12 @@ void VirtualAxes::require_rest(std::string_view what) const {
     }
 }
 
+void VirtualAxes::stands_at(const AxisPositions& position) {
+    require_rest("place");
+    expects(position.size() == rest_position_.size() && position.allFinite(), "each axis stands somewhere");
+    rest_position_ = position;
+}
+
 void VirtualAxes::start(Work work) {
     expects(work.program != nullptr && work.trajectory != nullptr,
             "a machine is given a program and its motion");

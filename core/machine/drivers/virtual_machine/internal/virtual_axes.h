@@ -35,6 +35,7 @@ public:
     void stop();
     void emergency_stop(std::string why);
     void reset();
+    void stands_at(const kinematics::AxisPositions& position);
     /// Without the dead man: whoever knows the time, calls stop_jog().
     void jog(const Jog& jog);
     void stop_jog();

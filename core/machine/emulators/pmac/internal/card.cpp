@@ -12,6 +12,10 @@ namespace {
 constexpr double clock_ms = 8'388'608.0; // units of I10 in a millisecond
 constexpr int hundred = 100;
 
+constexpr int encoder_entries = 0x720;
+constexpr std::uint32_t integrates = 0x500000; // what is at the address below is summed up each cycle
+constexpr std::uint32_t address_mask = 0xFFFF;
+
 /// -1: no channel's.
 int channel_of_output(int address) {
     constexpr std::array<int, 4> places{0xC003, 0xC002, 0xC00B, 0xC00A};
@@ -28,8 +32,11 @@ int channel_of_output(int address) {
 } // namespace
 
 Card::Card(const std::vector<PmacPlant>& plants, int channels)
-    : p_(Variables::count), q_(Variables::count), memory_(*this) {
-    for (int n = 0; n < channels; ++n) {
+    : p_(Variables::count), q_(Variables::count), memory_(*this), channel_count_(channels) {
+    for (int n = 0; n < motors; ++n) {
+        constexpr std::uint32_t first_encoder = 0xC000, encoder_step = 4;
+        encoder_table_[static_cast<std::size_t>(n)] =
+            first_encoder + encoder_step * static_cast<std::uint32_t>(n);
         channels_.emplace_back(n < std::ssize(plants) ? plants[static_cast<std::size_t>(n)] : PmacPlant{});
     }
     for (int n = 0; n < systems; ++n) {
@@ -163,16 +170,36 @@ void Card::load_settings() {
         to.most_error = std::abs(own(67)) * sixteenth;
         to.most_output = std::abs(own(69));
         to.in_position_scans = static_cast<int>(i(7)) + 1;
-        const int wire = channel_of_output(static_cast<int>(own(2)) & 0xFFFF);
-        const bool feedback = static_cast<int>(own(3)) == 0x720 + wire;
-        to.wired = wire >= 0 && wire < channel_count() && feedback;
-        wires_[static_cast<std::size_t>(n)] = to.wired ? wire : -1;
+        const int wire = wire_of(n);
+        to.wired = wire >= 0;
+        wires_[static_cast<std::size_t>(n)] = wire;
         constexpr int first_encoder = 900, encoder_step = 5;
         const int encoder = first_encoder + encoder_step * std::max(wire, 0);
         to.decode = static_cast<int>(i(encoder));
         to.capture = static_cast<int>(i(encoder + 2));
         to.capture_flag = static_cast<int>(i(encoder + 3));
     }
+}
+
+/// The channel whose output a motor has and whose encoder it reads (Ix02, Ix03); -1: none. Behind the wired
+/// ones are those of simulated motors, whose place is the sum of their own output.
+int Card::wire_of(int motor) const {
+    const auto output = static_cast<std::uint32_t>(i(hundred * (motor + 1) + 2)) & address_mask;
+    const int entry = static_cast<int>(i(hundred * (motor + 1) + 3)) - encoder_entries;
+    if (entry < 0 || entry >= motors) {
+        return -1;
+    }
+    const std::uint32_t made_of = encoder_table_[static_cast<std::size_t>(entry)];
+    if (made_of == (integrates | output)) {
+        return entry >= channel_count() ? entry : -1;
+    }
+    return entry < channel_count() && channel_of_output(static_cast<int>(output)) == entry ? entry : -1;
+}
+
+/// Wired, or summing up a simulated motor's output.
+bool Card::is_there(int channel) const {
+    return channel < channel_count() ||
+           (encoder_table_[static_cast<std::size_t>(channel)] & ~address_mask) == integrates;
 }
 
 void Card::advance(double seconds) {
@@ -204,7 +231,7 @@ void Card::servo_cycle(double cycle) {
             driven[static_cast<std::size_t>(std::max(wire, 0))] |= wire >= 0;
         }
     }
-    for (int n = 0; n < channel_count(); ++n) {
+    for (int n = 0; n < motors; ++n) {
         Channel& one = channel(n);
         if (!driven[static_cast<std::size_t>(n)]) {
             constexpr int encoder_step = 5, first_encoder = 900;

@@ -19,7 +19,7 @@ class Card final : public Variables, public Registers {
 public:
     static constexpr int motors = 8, systems = 8, plcs = 32;
 
-    /// `channels`: how many are wired, 4 or 8.
+    /// `channels`: how many are wired, 4 or 8. The others are there for simulated motors alone.
     Card(const std::vector<PmacPlant>& plants, int channels);
     Card(const Card&) = delete;
     Card& operator=(const Card&) = delete;
@@ -48,7 +48,7 @@ public:
         return settings_[static_cast<std::size_t>(index)];
     }
     [[nodiscard]] Channel& channel(int index) { return channels_[static_cast<std::size_t>(index)]; }
-    [[nodiscard]] int channel_count() const { return static_cast<int>(channels_.size()); }
+    [[nodiscard]] int channel_count() const { return channel_count_; } ///< wired ones
     [[nodiscard]] CoordinateSystem& system(int index) { return systems_[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const CoordinateSystem& system(int index) const {
         return systems_[static_cast<std::size_t>(index)];
@@ -87,6 +87,8 @@ public:
 
 private:
     [[nodiscard]] std::optional<std::uint32_t> output_word(int address) const;
+    [[nodiscard]] int wire_of(int motor) const;
+    [[nodiscard]] bool is_there(int channel) const;
     struct Plc {
         Program program{true};
         bool on = false;
@@ -107,9 +109,11 @@ private:
     std::array<Motor, motors> motors_;
     std::array<MotorSettings, motors> settings_;
     std::array<int, motors> wires_{}; ///< the channel of each motor, -1: none
-    std::vector<Channel> channels_;
-    Channel nowhere_;                                ///< what motors without a channel drive
-    std::array<std::uint32_t, motors> flag_words_{}; ///< what was written to the channels' registers
+    int channel_count_;
+    std::vector<Channel> channels_;                     ///< wired ones first
+    std::array<std::uint32_t, motors> encoder_table_{}; ///< what each entry is made of
+    Channel nowhere_;                                   ///< what motors without a channel drive
+    std::array<std::uint32_t, motors> flag_words_{};    ///< what was written to the channels' registers
     std::vector<CoordinateSystem> systems_;
     std::map<int, Program> programs_;
     std::array<Plc, plcs> plc_;

@@ -66,6 +66,9 @@ Commands::Code Commands::symbol(Words& words) {
             system_ = *number > 0 ? *number - 1 : system_;
             return *number > 0 ? 0 : unknown;
         }
+        if (words.at_number()) {
+            return unknown;
+        }
         say(fmt::format("{}", system_ + 1));
         return 0;
     }
@@ -123,6 +126,9 @@ Commands::Code Commands::dollar(Words& words) {
 
 Commands::Code Commands::address_motor(Words& words) {
     const auto number = words.take_index(Card::motors);
+    if (!number && words.at_number()) {
+        return unknown;
+    }
     if (!number) {
         say(fmt::format("{}", motor_ + 1));
         return 0;

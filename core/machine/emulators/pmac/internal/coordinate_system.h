@@ -95,7 +95,12 @@ private:
     [[nodiscard]] bool shape_arc(const Statement& statement, Move& made);
     void time_move(Move& made) const;
     void time_rapid(Move& made) const;
+    [[nodiscard]] bool is_segmented() const;
+    void keep_to_limits(Move& made) const;
     [[nodiscard]] double motor_way(const Move& move, int motor) const;
+    [[nodiscard]] double speed_before(int motor) const;
+    [[nodiscard]] double change_time(const Move& move, int motor, double time) const;
+    [[nodiscard]] double stop_time(const Move& made) const;
     void add(Move made);
     [[nodiscard]] Ramp program_ramp() const;
     [[nodiscard]] double i(int of_system) const; ///< I187 and so on, of this system
@@ -124,7 +129,8 @@ private:
     Vec3 normal_{0.0, 0.0, -1.0};
     Axes target_{}, place_offset_{};
     Path path_;
-    std::array<double, motors> sent_{}; ///< where the motors were sent last
+    std::array<double, motors> speeds_{}; ///< of the last move, counts/s
+    std::array<double, motors> sent_{};   ///< where the motors were sent last
     std::int64_t moves_ = 0;
 };
 

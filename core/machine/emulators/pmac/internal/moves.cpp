@@ -29,6 +29,9 @@ CoordinateSystem::Next CoordinateSystem::move(const Statement& statement) {
     if (statement.verb == Verb::delay) {
         made.ramp = program_ramp();
         made.time = std::max(statement.data.value(*card_) / per_ms, made.ramp.time);
+        if (!is_segmented()) {
+            keep_to_limits(made);
+        }
         add(made);
         return calculating_ ? Next::go_on : Next::end;
     }
@@ -40,8 +43,7 @@ CoordinateSystem::Next CoordinateSystem::move(const Statement& statement) {
         }
     }
     const bool circle = mode_ == Mode::clockwise || mode_ == Mode::counter_clockwise;
-    constexpr int segmentation = 13;
-    if (circle && card_->i(segmentation) > 0.0 && !shape_arc(statement, made)) {
+    if (circle && is_segmented() && !shape_arc(statement, made)) {
         radius_error_ = true;
         fail();
         return Next::end;
@@ -57,6 +59,9 @@ void CoordinateSystem::add(Move made) {
     constexpr int no_blending = 92;
     made.blends = made.blends && !stepping_ && !(i(no_blending) > 0.0);
     path_.add(made);
+    for (int n = 0; n < motors; ++n) {
+        speeds_[static_cast<std::size_t>(n)] = motor_way(made, n) / made.time;
+    }
     ++moves_;
     if (stepping_ && !in_block_) {
         calculating_ = false;
@@ -71,13 +76,79 @@ Ramp CoordinateSystem::program_ramp() const {
     return {std::max({t, 2.0 * s, least}), s};
 }
 
-/// Counts that a move takes a motor.
+/// Circles are possible, and Ix16 and Ix17 are not looked at.
+bool CoordinateSystem::is_segmented() const {
+    constexpr int segmentation = 13;
+    return card_->i(segmentation) > 0.0;
+}
+
+/// Counts that a move takes a motor, signed.
 double CoordinateSystem::motor_way(const Move& move, int motor) const {
     double way = 0.0;
     for (std::size_t n = 0; n < move.to.size(); ++n) {
         way += definition(motor).factors[n] * (move.to[n] - move.from[n]);
     }
-    return std::abs(way);
+    return way;
+}
+
+/// Counts/s at which the move that this one is blended with takes a motor.
+double CoordinateSystem::speed_before(int motor) const {
+    return path_.blends_on() ? speeds_[static_cast<std::size_t>(motor)] : 0.0;
+}
+
+/// The time that a motor needs at its rate (Ix17) to come from the speed of the move before to that of this
+/// one, which takes `time`; with the S-curve's, s.
+double CoordinateSystem::change_time(const Move& move, int motor, double time) const {
+    constexpr int hundred = 100, most_acceleration = 17;
+    const double rate = card_->i(hundred * (motor + 1) + most_acceleration) * per_ms * per_ms;
+    const double change = std::abs(motor_way(move, motor) / time - speed_before(motor));
+    return rate > 0.0 && change > 0.0 ? move.ramp.s_curve + change / rate : 0.0;
+}
+
+/// Takes as much time as Ix16 and Ix17 ask for; a slower move also changes the speed less.
+void CoordinateSystem::keep_to_limits(Move& made) const {
+    constexpr int hundred = 100, most_speed = 16;
+    for (int n = 0; n < motors; ++n) {
+        const double speed = card_->i(hundred * (n + 1) + most_speed) * per_ms;
+        made.time = speed > 0.0 ? std::max(made.time, std::abs(motor_way(made, n)) / speed) : made.time;
+    }
+    const auto ramp_time = [&](double time) {
+        double needed = made.ramp.time;
+        for (int n = 0; n < motors; ++n) {
+            needed = std::max(needed, change_time(made, n, time));
+        }
+        return needed;
+    };
+    double low = made.time, high = made.time;
+    while (ramp_time(high) > high) { // step by step: too slow a move would have to brake for longer again
+        constexpr double little = 1.01;
+        low = high;
+        high *= little;
+    }
+    if (high > low) {
+        constexpr int halvings = 40;
+        for (int n = 0; n < halvings; ++n) {
+            const double middle = 0.5 * (low + high);
+            (ramp_time(middle) > middle ? low : high) = middle;
+        }
+        made.time = high;
+    }
+    made.stop = made.ramp;
+    made.ramp.time = ramp_time(made.time);
+    made.stop->time = stop_time(made);
+}
+
+/// How long it brakes if none follows it. The card looks no farther ahead than this move, so that it brakes
+/// harder than Ix17 where the move is too short for that.
+double CoordinateSystem::stop_time(const Move& made) const {
+    double needed = made.stop->time;
+    for (int n = 0; n < motors; ++n) {
+        constexpr int hundred = 100, most_acceleration = 17;
+        const double rate = card_->i(hundred * (n + 1) + most_acceleration) * per_ms * per_ms;
+        const double speed = std::abs(motor_way(made, n)) / made.time;
+        needed = rate > 0.0 && speed > 0.0 ? std::max(needed, made.ramp.s_curve + speed / rate) : needed;
+    }
+    return std::min(needed, 2.0 * made.time - made.ramp.time);
 }
 
 void CoordinateSystem::time_move(Move& made) const {
@@ -91,33 +162,21 @@ void CoordinateSystem::time_move(Move& made) const {
         const double radius = (tip(made.from) - made.arc->center).cross(made.arc->normal).norm();
         length += std::pow(radius * made.arc->angle, 2) + std::pow(way.dot(made.arc->normal), 2);
     }
-    constexpr int default_feed = 89, time_unit = 90, most_speed = 16, most_acceleration = 17;
+    constexpr int default_feed = 89, time_unit = 90;
     const double feed = feed_.value_or(i(default_feed));
     const double time =
         time_ ? *time_ / per_ms : (feed > 0.0 ? std::sqrt(length) / feed : 0.0) * i(time_unit) / per_ms;
     made.time = std::max(time, made.ramp.time);
-    constexpr int segmentation = 13;
-    if (card_->i(segmentation) > 0.0) {
-        return;
+    if (!is_segmented()) {
+        keep_to_limits(made);
     }
-    for (int n = 0; n < motors; ++n) {
-        constexpr double hundred = 100.0;
-        const int own = static_cast<int>(hundred) * (n + 1);
-        const double way = motor_way(made, n);
-        const double speed = card_->i(own + most_speed) * per_ms;
-        made.time = speed > 0.0 ? std::max(made.time, way / speed) : made.time;
-        const double rate = card_->i(own + most_acceleration) * per_ms * per_ms;
-        const double needed = rate > 0.0 ? made.ramp.s_curve + way / made.time / rate : 0.0;
-        made.ramp.time = std::max(made.ramp.time, needed);
-    }
-    made.time = std::max(made.time, made.ramp.time);
 }
 
 void CoordinateSystem::time_rapid(Move& made) const {
     made.blends = false;
     made.ramp = {1e-3, 0.0};
     for (int n = 0; n < motors; ++n) {
-        const double way = motor_way(made, n);
+        const double way = std::abs(motor_way(made, n));
         if (way > 0.0) {
             const JogRules& rules = card_->settings(n).jog;
             const double speed = std::max(rules.speed, 1e-6);

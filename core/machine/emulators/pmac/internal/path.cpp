@@ -48,7 +48,7 @@ void Path::add(const Move& move) {
             last.out = out;
         }
     }
-    moves_.push_back({move, move.ramp, -1.0});
+    moves_.push_back({move, move.stop.value_or(move.ramp), -1.0});
     ++waiting_;
     start_next();
 }

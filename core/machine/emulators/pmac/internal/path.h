@@ -27,9 +27,10 @@ struct Arc {
 struct Move {
     Axes from{}, to{};
     std::optional<Arc> arc;
-    double time = 0.0; ///< at its feed, without ramps; no less than `ramp.time`
-    Ramp ramp;
-    bool blends = true; ///< with what comes behind it
+    double time = 0.0;          ///< at its feed, without ramps; no less than `ramp.time`
+    Ramp ramp;                  ///< how it begins
+    std::optional<Ramp> stop{}; ///< how it ends if none follows; nothing: as it begins
+    bool blends = true;         ///< with what comes behind it
 
     /// At the fraction `u` of its way.
     [[nodiscard]] Axes at(double u) const;
@@ -45,6 +46,8 @@ public:
 
     [[nodiscard]] const Axes& position() const { return position_; }
     [[nodiscard]] bool empty() const { return moves_.empty(); }
+    /// A move that is added now is blended with the one before it.
+    [[nodiscard]] bool blends_on() const { return !moves_.empty() && !late_ && moves_.back().move.blends; }
     /// The last move that there is brakes: it came too late for another one to be blended with it.
     [[nodiscard]] bool braking() const { return late_ && !moves_.empty() && moves_.front().move.blends; }
 

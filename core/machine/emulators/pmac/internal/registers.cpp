@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t word_mask = 0xFFFFFF;
 constexpr std::uint32_t writable = 0xFFFF; // of a channel's register; what is above is read
+constexpr int encoder_entries = 0x720;
 constexpr int compare_on = 12, compare_inverted = 13, compare_flag = 16;
 
 /// -1: no channel's.
@@ -33,10 +34,11 @@ bool Card::compare_output() const {
     return (word >> compare_on & 1U) != 0 && flag != inverted;
 }
 
-/// A converter's register, 16 bits with a sign above 8 that are 0; nothing if no motor has its output there.
+/// A converter's register, or memory in its place: 16 bits with a sign above 8 that are 0; nothing if no
+/// motor has its output there.
 std::optional<std::uint32_t> Card::output_word(int address) const {
-    constexpr int output_address = 2, per_motor = 100, below = 8, first_register = 0xC000;
-    for (int n = 0; n < motors && address >= first_register; ++n) {
+    constexpr int output_address = 2, per_motor = 100, below = 8;
+    for (int n = 0; n < motors; ++n) {
         const auto told = static_cast<int>(i(per_motor * (n + 1) + output_address)) & 0xFFFF;
         if (told == address) {
             const auto bits = static_cast<std::int32_t>(std::lround(motor(n).output()));
@@ -58,11 +60,14 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
         }
         return word;
     }
-    if (const int n = in_row(address, 0x720, 1, channel_count()); n >= 0) {
+    const int entry = in_row(address, encoder_entries, 1, motors);
+    if (entry >= 0 && side == 'Y') {
+        return encoder_table_[static_cast<std::size_t>(entry)];
+    }
+    if (entry >= 0 && is_there(entry)) {
         constexpr double parts = 32.0;
-        const double place = channels_[static_cast<std::size_t>(n)].encoder() * parts;
-        return side == 'X' ? static_cast<std::uint32_t>(std::llround(std::fmod(place, 8e6))) & word_mask
-                           : 0xC000U + 4U * static_cast<std::uint32_t>(n);
+        const double place = channels_[static_cast<std::size_t>(entry)].encoder() * parts;
+        return static_cast<std::uint32_t>(std::llround(std::fmod(place, 8e6))) & word_mask;
     }
     if (const auto output = side == 'Y' ? output_word(address) : std::nullopt) {
         return output;
@@ -86,6 +91,11 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
 }
 
 bool Card::write(char side, int address, std::uint32_t value) {
+    if (const int entry = in_row(address, encoder_entries, 1, motors); side == 'Y' && entry >= 0) {
+        encoder_table_[static_cast<std::size_t>(entry)] = value & word_mask;
+        load_settings();
+        return true;
+    }
     const int n = channel_of_flags(address);
     if (side != 'X' || n < 0) {
         return read(side, address).has_value(); // what is only read swallows it

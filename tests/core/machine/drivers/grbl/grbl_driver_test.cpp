@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <tuple>
 
 namespace millwright::machine {
 namespace {
@@ -77,6 +78,33 @@ public:
     }
 };
 
+/// A link that changes one word on its way to the controller, once, as noise on a bare wire can.
+class ChangingLink final : public Link {
+public:
+    ChangingLink(std::unique_ptr<Link> inner, std::string word, std::string by)
+        : inner_(std::move(inner)), word_(std::move(word)), by_(std::move(by)) {}
+
+    [[nodiscard]] std::string name() const override { return inner_->name(); }
+    void open() override { inner_->open(); }
+    void write(std::string_view bytes) override {
+        std::string changed(bytes);
+        const std::size_t at = changed.find(word_);
+        if (at != std::string::npos && !done_.exchange(true)) {
+            changed.replace(at, word_.size(), by_);
+        }
+        inner_->write(changed);
+    }
+    [[nodiscard]] std::string read() override { return inner_->read(); }
+    void wait(double seconds) override { inner_->wait(seconds); }
+    [[nodiscard]] std::optional<std::string> lost() const override { return inner_->lost(); }
+    void close() noexcept override { inner_->close(); }
+
+private:
+    std::unique_ptr<Link> inner_;
+    std::string word_, by_;
+    std::atomic<bool> done_ = false;
+};
+
 class GrblDriverOver : public testing::TestWithParam<bool> {};
 
 TEST_P(GrblDriverOver, RunsAJobAndLogsWhatWasExecuted) {
@@ -94,6 +122,49 @@ TEST_P(GrblDriverOver, RunsAJobAndLogsWhatWasExecuted) {
     EXPECT_EQ(log.start.driver, "grbl");
     EXPECT_EQ(log.executed_blocks(), 23);
     EXPECT_EQ(log.records.back().position[1], 19.0);
+}
+
+/// Grbl acknowledges a changed digit as any other; its reports show where the tool goes.
+TEST(GrblDriver, StopsAMachineThatIsWhereNoLineSendsIt) {
+    const test::ScratchFolder scratch;
+    const auto run = [&](const std::string& word, const std::string& by, const std::string& program) {
+        const SteadyClock clock;
+        auto listener = std::make_unique<TcpServer>(0);
+        listener->open();
+        auto near_end = std::make_unique<TcpLink>("127.0.0.1", listener->port());
+        std::vector<std::unique_ptr<Link>> links;
+        links.push_back(std::move(listener));
+        GrblServer server(std::move(links), clock, {}, 1.0);
+        GrblDriver driver(std::make_unique<ChangingLink>(std::move(near_end), word, by), clock);
+        SteadyClock waiting;
+        JobOutcome outcome =
+            Dispatcher(driver, waiting, scratch / "logs").run(text_job(program, "part.ngc"), {});
+        const double x = server.with_controller([](const GrblEmulator& grbl) { return grbl.position()[0]; });
+        const bool moving = server.with_controller([](const GrblEmulator& grbl) { return grbl.moving(); });
+        EXPECT_FALSE(moving);
+        return std::tuple(std::move(outcome), driver.status(), x);
+    };
+    const std::string program = "G21 G90\nG1 X19.833 F3000\nX0\nX19.5\nX1\nX10\nM30\n";
+    const auto [outcome, status, x] = run("X19.833", "X199.833", program);
+    EXPECT_EQ(outcome.end, JobEnd::fault);
+    EXPECT_THAT(outcome.sentence, HasSubstr("Fault: the machine reports X "));
+    EXPECT_THAT(outcome.sentence, HasSubstr("and the program never goes beyond X 19.833"));
+    EXPECT_EQ(status.state, DriverState::alarm);
+    EXPECT_THAT(status.message, HasSubstr("a line was changed on its way"));
+    EXPECT_GT(x, 20.8);
+    EXPECT_LT(x, 80.0); // F3000 is 50 mm/s: seen within half a second
+    EXPECT_EQ(read_job_log(outcome.log_file).end(), JobEnd::fault);
+
+    const auto [last, at_rest, end] = run("X10", "X100", "G21 G90\nG1 X20 F9000\nX10\nM30\n");
+    EXPECT_EQ(last.end, JobEnd::fault) << last.sentence; // also where it comes to rest there
+    EXPECT_EQ(at_rest.state, DriverState::alarm);
+    EXPECT_GT(end, 21.0);
+
+    const auto [offset, ready, there] = run(
+        "nothing", "", "G21 G90\nG92 X500\nG1 X510 F3000\nG2 X510 I-5\nG91\nG1 X-3\nG53 G0 X2\nG92.1\nM30\n");
+    EXPECT_EQ(offset.end, JobEnd::done) << offset.sentence;
+    EXPECT_EQ(ready.state, DriverState::idle);
+    EXPECT_EQ(there, 2.0);
 }
 
 TEST_P(GrblDriverOver, HoldsResumesAndStops) {
@@ -156,21 +227,21 @@ TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
     EXPECT_EQ(bench.truth().lines.size(), lines);
 }
 
-TEST(GrblDriver, LeavesAMachineAloneThatStillMovesWhenTheLinkIsMadeAgain) {
+TEST(GrblDriver, LeavesAMachineThatStillMovesWhenTheLinkIsMadeAgainToItselfUntilItIsStopped) {
     Bench bench({.disconnect = 6000, .toward_controller = false}, false, 1.0, {.poll_interval = 0.01});
     bench.driver->connect();
     bench.driver->start(work_of(text_job("G21 G90 G94\nG1 F60 X900\nX0\nM30\n", "slow.ngc"))); // half an hour
     bench.wait_for(DriverState::alarm);
     ASSERT_TRUE(bench.driver->status().link_lost);
     ASSERT_TRUE(bench.moving());
-    try {
-        bench.driver->reset();
-        FAIL() << "it reset a machine that moves";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("moving for somebody else"));
-    }
+    bench.driver->reset(); // makes the link again
     EXPECT_TRUE(bench.moving());
-    EXPECT_EQ(bench.driver->status().state, DriverState::disconnected);
+    EXPECT_EQ(bench.driver->status().state, DriverState::running);
+    EXPECT_THROW(bench.driver->start(work_of(text_job("G0 X0\n", "next.ngc"))), Error);
+    EXPECT_TRUE(bench.moving());
+    bench.driver->stop();
+    bench.wait_for(DriverState::idle);
+    EXPECT_FALSE(bench.moving());
 }
 
 TEST(GrblDriver, HoldsAtOnceWhileTheLogWaitsForItsDisk) {

@@ -183,7 +183,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
 
     const JobStory story = job_story(outcome.log_file);
     EXPECT_EQ(story.position_doubt, "the controller was reset");
-    EXPECT_THAT(story.sentence, HasSubstr("home the machine, or set its zero"));
+    EXPECT_THAT(story.sentence, HasSubstr("home the machine, set its zero, or say where it stands"));
     EXPECT_NEAR(story.position[1], outcome.position[1], 1e-5);
 
     unlock(wire);

@@ -411,17 +411,79 @@ TEST(GrblSession, WakesAControllerThatALimitSwitchHasMadeDeaf) {
     EXPECT_NE(wire.session.status().position_doubt, "");
 }
 
-/// As after a job whose program was killed: what the controller has goes on.
-TEST(GrblSession, LeavesAMovingControllerAloneAndSaysWhatToWaitFor) {
-    GrblWire wire;
-    wire.grbl.receive("G1 X50 F600\n");
+/// As after a job whose program was killed, or whose link broke: what the controller has goes on.
+void find_moving(GrblWire& wire) {
+    wire.grbl.receive("G1 X50 F600\nG1 Y20\n");
     wire.grbl.advance(0.1);
     wire.session = Session();
     wire.session.opened(wire.now);
-    ASSERT_TRUE(wire.run_until([&] { return wire.session.stranger().has_value(); }, 10.0));
-    EXPECT_EQ(wire.session.stranger()->message, "the machine is moving for somebody else");
-    EXPECT_EQ(wire.session.stranger()->hint,
-              "or still goes on with what it has of a job that was broken off; wait until it stands");
+    wire.sent.clear();
+    EXPECT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
+    EXPECT_FALSE(wire.session.stranger());
+    EXPECT_EQ(wire.state(), DriverState::running);
+    EXPECT_TRUE(wire.grbl.moving());
+}
+
+TEST(GrblSession, LeavesAMovingControllerAloneUntilItStands) {
+    GrblWire wire;
+    find_moving(wire);
+    Jog jog;
+    jog.way = kinematics::AxisPositions{Vec3(1.0, 0.0, 0.0)};
+    jog.speed = 10.0;
+    EXPECT_THROW(wire.session.jog(jog, wire.now), Error);
+    EXPECT_THROW(wire.start("G0 X0\n"), Error);
+    EXPECT_THROW(wire.session.home(wire.now), Error);
+    ASSERT_TRUE(wire.run_until([&] { return !wire.grbl.moving(); }, 20.0));
+    EXPECT_EQ(wire.sent.find_first_not_of('?'), std::string::npos) << wire.sent;
+    EXPECT_NEAR(wire.grbl.position()[1], 20.0, 0.01); // all that it had
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
+    EXPECT_FALSE(wire.session.readout().settings.empty());
+    EXPECT_EQ(wire.session.status().position_doubt, "");
+}
+
+TEST(GrblSession, StopsAControllerThatItFoundMoving) {
+    GrblWire wire;
+    find_moving(wire);
+    wire.session.stop(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
+    EXPECT_FALSE(wire.grbl.moving());
+    EXPECT_LT(wire.grbl.position()[0], 20.0);
+    EXPECT_FALSE(wire.session.readout().settings.empty());
+}
+
+TEST(GrblSession, HoldsAndResumesAControllerThatItFoundMoving) {
+    GrblWire wire;
+    find_moving(wire);
+    wire.session.hold(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return !wire.grbl.moving(); }, 2.0));
+    EXPECT_EQ(wire.state(), DriverState::holding);
+    wire.run_until([] { return false; }, 3.0);
+    EXPECT_EQ(wire.state(), DriverState::holding); // it is not taken for one that stands for good
+    wire.session.resume(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.grbl.moving(); }, 2.0));
+    EXPECT_EQ(wire.state(), DriverState::running);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 30.0));
+    EXPECT_NEAR(wire.grbl.position()[0], 50.0, 0.01);
+}
+
+TEST(GrblSession, AnEmergencyStopCutsOffWhatItFoundMoving) {
+    GrblWire wire;
+    find_moving(wire);
+    wire.session.emergency_stop(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 5.0));
+    wire.run_until([] { return false; }, 1.0);
+    EXPECT_FALSE(wire.grbl.moving());
+    EXPECT_NE(wire.session.status().position_doubt, "");
+    wire.session.reset(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
+    EXPECT_FALSE(wire.session.readout().settings.empty());
+}
+
+TEST(GrblSession, LeavesWhatItFoundMovingWhenTheLinkIsDropped) {
+    GrblWire wire;
+    find_moving(wire);
+    wire.session.leave(wire.now);
+    wire.run_until([] { return false; }, 0.5);
     EXPECT_TRUE(wire.grbl.moving());
 }
 

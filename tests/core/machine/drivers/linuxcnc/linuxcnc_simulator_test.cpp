@@ -165,6 +165,8 @@ private:
         ::dup2(::open("/dev/null", O_RDONLY), 0); // it asks nobody
         ::dup2(out, 1);
         ::dup2(out, 2);
+        ::unsetenv(
+            "DISPLAY"); // else a lock that a dead LinuxCNC left is asked about in a window that nobody sees
         ::setenv("HOME", folder_.c_str(), 1);
         ::setenv("RTAPI_FIFO_PATH", (folder_ / "fifo").c_str(), 1);
         if (::getuid() == 0) {

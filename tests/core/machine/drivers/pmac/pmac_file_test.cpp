@@ -44,15 +44,38 @@ TEST(PmacFileF1, WarnsOfEachProtectionThatIsOff) {
     EXPECT_THAT(all, HasSubstr("pmac.ini:10:1: I125 bit 16: motor 1: its amplifier is never disabled"));
     EXPECT_THAT(all, HasSubstr("I125 bit 17: motor 1: its limit switches are not looked at"));
     EXPECT_THAT(all, HasSubstr("I125 bit 20: motor 1: a fault of its amplifier"));
-    EXPECT_THAT(all, HasSubstr("I3=1 is left out"));
-    EXPECT_EQ(file.warnings.size(), 7u);
+    EXPECT_EQ(file.warnings.size(), 4u);
+    ASSERT_EQ(file.omissions.size(), 3u);
+    EXPECT_THAT(to_text(file.omissions.front()), HasSubstr("I3=1 is left out"));
+    EXPECT_EQ(file.left_out, 0);
     EXPECT_TRUE(read_pmac_file("I125=$C000\nI111=0\nI111=32000\n", "safe.ini").warnings.empty());
 }
 
 TEST(PmacFileF1, TakesNoFlagsFromANumberThatIsNoWord) {
-    const PmacFile file = read_pmac_file("I225=" + std::string(80, '4'), "a.ini");
-    ASSERT_FALSE(file.warnings.empty());
-    EXPECT_THAT(to_text(file.warnings.back()), HasSubstr("a.ini:1:1: I225: the value has more than 24 bits"));
+    for (const auto& line : {"I225=" + std::string(80, '4'), std::string("I130=2000000000000")}) {
+        try {
+            (void)read_pmac_file("I100=1\n" + line, "a.ini");
+            FAIL() << line;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(),
+                        HasSubstr("a.ini:2:1: '" + line + "': no setting of the card has more"));
+        }
+    }
+}
+
+// The card would take FROBNICATE letter by letter: F, then R, which runs a program.
+TEST(PmacFileF1, LeavesOutWhatSetsNothing) {
+    const PmacFile file = read_pmac_file("I100=1\nFROBNICATE=3\n#1J+\n$$$\n&1B1R\nHM\nA\nm36->X:$C000,22\n&1#"
+                                         "2->222Y\nI130..133=5\nWY:$724,$5007F0\n"
+                                         "OPEN PROG 1 CLEAR\nX10\nDWELL5\nCLOSE\nX10\n",
+                                         "a.ini");
+    EXPECT_EQ(file.left_out, 7);
+    ASSERT_EQ(file.omissions.size(), 7u);
+    EXPECT_THAT(to_text(file.omissions.front()),
+                HasSubstr("a.ini:2:1: FROBNICATE=3 is left out: it sets nothing"));
+    EXPECT_EQ(file.omissions.back().place.line, 16);
+    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_EQ(file.lines.size(), 9u);
 }
 
 TEST(PmacFileP4, TellsWhatTheCardWouldRollOver) {

@@ -1,4 +1,5 @@
 // The driver against the emulated card: P1, P8, F2 to F4, in computed time.
+#include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "tests/core/machine/drivers/pmac/pmac_wire.h"
 
 #include <gmock/gmock.h>
@@ -73,6 +74,47 @@ TEST(PmacSessionP8, RunsTheThesisProgramToItsCounts) {
     EXPECT_NEAR(wire.session.status().position[3], from_degrees(10.0), 1e-5);
 }
 
+/// A fifth axis on a second row of outputs, and one that the card simulates.
+struct Fifth {
+    const char* name;
+    int channels;
+    const char* setup;
+};
+
+class PmacSessionP12 : public testing::TestWithParam<Fifth> {};
+
+TEST_P(PmacSessionP12, JogsAndRunsAFifthAxis) {
+    PmacWire wire({}, true, "XYZAB", {.plants = {}, .channels = GetParam().channels}, GetParam().setup);
+    ASSERT_TRUE(wire.session.position_known()) << wire.session.status().message;
+    EXPECT_EQ(wire.session.status().position.size(), 5);
+    Jog jog = jog_of(0, 0.0, 5.0);
+    jog.way = kinematics::AxisPositions::Zero(5);
+    jog.way[4] = from_degrees(10.0);
+    wire.session.jog(jog, wire.now);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    wire.pass(0.5);
+    EXPECT_NEAR(wire.degrees(4), 10.0, 0.02);
+    EXPECT_NEAR(wire.session.status().position[4], from_degrees(10.0), 1e-3);
+    jog.way[4] = from_degrees(85.0);
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog, wire.now); }), HasSubstr("B would leave its limits"));
+    wire.session.start({"ABS", "LINEAR", "TM2000", "X5 B-20"}, wire.now);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    wire.pass(0.5);
+    EXPECT_NEAR(wire.degrees(4), -20.0, 0.02);
+    EXPECT_NEAR(wire.degrees(0), 5.0, 0.02);
+    wire.session.emergency_stop(wire.now);
+    wire.pass(0.2);
+    EXPECT_FALSE(wire.card.enabled(5));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways,
+    PmacSessionP12,
+    testing::Values(Fifth{"second_row", 8, "I500=1\nI922=10\n#5->71.1111B\n"},
+                    Fifth{"simulated", 4, "WY:$724,$5007F0\nI500=1\nI502=$7F0\nI503=$724\n#5->71.1111B\n"}),
+    [](const auto& one) { return std::string(one.param.name); });
+
 TEST(PmacSession, ClaimsNoMoreLinesThanWereExecuted) {
     PmacWire wire;
     std::vector<std::string> lines{"INC", "LINEAR", "TM300"};
@@ -143,78 +185,6 @@ TEST(PmacSession, DoesNotTakeItsOwnPauseForTheCardsSilence) {
     }
 }
 
-TEST(PmacJogF3, IsNoFasterThanItsLimitWhateverIx22Says) {
-    PmacWire wire;
-    EXPECT_EQ(wire.card.variable('I', 322), 32.0); // 213 degrees a second
-    wire.session.jog(jog_of(2, 20.0, 500.0), wire.now);
-    double fastest = 0.0;
-    for (int n = 0; n < 1000; ++n) {
-        wire.step();
-        fastest = std::max(fastest, std::abs(wire.card.speed(3)) / 150.0);
-    }
-    EXPECT_LT(fastest, 5.1);
-    EXPECT_GT(fastest, 4.9);
-    ASSERT_TRUE(wire.run_to_end(20.0));
-    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
-    wire.pass(0.5);
-    EXPECT_NEAR(wire.degrees(2), 20.0, 0.01);
-}
-
-TEST(PmacJogF2, EndsWhenNobodyHoldsTheKey) {
-    PmacWire wire;
-    wire.session.jog(jog_of(0, 60.0, 5.0, 0.3), wire.now);
-    wire.pass(0.25);
-    wire.session.jog(jog_of(0, 5.0, 5.0, 0.3), wire.now); // held
-    wire.pass(0.25);
-    EXPECT_EQ(wire.state(), DriverState::running) << wire.session.status().message;
-    EXPECT_FALSE(wire.standing());
-    ASSERT_TRUE(wire.run_to_end(2.0));
-    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
-    EXPECT_LT(wire.degrees(0), 5.0);
-    EXPECT_TRUE(wire.powered());
-}
-
-TEST(PmacJog, ThatIsRenewedCountsFromWhereTheMotorIs) {
-    PmacWire wire; // with limits of 90 degrees
-    for (int n = 0; n < 120; ++n) {
-        wire.session.jog(jog_of(0, 30.0, 5.0, 0.1), wire.now);
-        wire.pass(0.016);
-    }
-    EXPECT_GT(wire.degrees(0), 5.0);
-    EXPECT_LT(wire.degrees(0), 12.0);
-    ASSERT_TRUE(wire.run_to_end(2.0));
-    EXPECT_LT(wire.degrees(0), 13.0);
-}
-
-TEST(PmacJogF2, OfSeveralAxesTheOneThatIsLetGoOfBrakes) {
-    PmacWire wire;
-    Jog both = jog_of(0, 5.0, 5.0, 0.1);
-    both.way[1] = both.way[0];
-    for (int n = 0; n < 60; ++n) {
-        wire.session.jog(both, wire.now);
-        wire.pass(0.016);
-    }
-    for (int n = 0; n < 60; ++n) {
-        wire.session.jog(jog_of(0, 5.0, 5.0, 0.1), wire.now);
-        wire.pass(0.016);
-    }
-    EXPECT_LT(std::abs(wire.card.speed(2)), 1.0);
-    EXPECT_LT(wire.degrees(1), 6.5);
-    EXPECT_GT(wire.degrees(0), 8.0);
-    ASSERT_TRUE(wire.run_to_end(2.0));
-}
-
-TEST(PmacJog, LeavesNoLimits) {
-    PmacWire wire;
-    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(1, 91.0, 5.0), wire.now); }), HasSubstr("limits"));
-    wire.session.jog(jog_of(1, 2.0, 5.0), wire.now);
-    ASSERT_TRUE(wire.run_to_end(20.0));
-    wire.pass(0.5);
-    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(1, -93.0, 5.0), wire.now); }), HasSubstr("limits"));
-    EXPECT_EQ(wire.state(), DriverState::idle);
-    EXPECT_NE(refusal([&] { wire.session.jog(jog_of(1, 0.0, 5.0), wire.now); }), "");
-}
-
 TEST(PmacProgram, OfASessionIsStoppedAtASoftLimit) {
     PmacWire wire;
     wire.session.start({"INC", "LINEAR", "FRAX(X)", "F20", "X170"}, wire.now);
@@ -240,6 +210,7 @@ TEST(PmacSafetyF2, ALostLinkEndsMotionWithin100Milliseconds) {
         EXPECT_FALSE(wire.powered());
         EXPECT_EQ(wire.state(), DriverState::alarm);
         EXPECT_TRUE(wire.session.link_lost());
+        EXPECT_FALSE(wire.session.status().position_known); // it went on for a while
         wire.pass(5.0);
         EXPECT_TRUE(wire.standing());
     }
@@ -331,6 +302,178 @@ TEST(PmacSession, TakesCommandsAndTellsTheCardsErrors) {
     EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
 }
 
+bool answered(PmacWire& wire) {
+    return wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; },
+                          3.0);
+}
+
+// A motor that a command set going is no machine at rest.
+TEST(PmacSession, TellsThatACommandMovesAMotorAndAnswersQuestionsMeanwhile) {
+    PmacWire wire;
+    (void)wire.session.command({"#1J:2400"}, false);
+    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+    EXPECT_EQ(wire.state(), DriverState::running);
+    EXPECT_EQ(wire.session.status().activity, Activity::command);
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"#1P", "P1=4"}, false); }), "");
+    (void)wire.session.command({"#1P", "#1?"}, false);
+    ASSERT_TRUE(answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
+    EXPECT_EQ(wire.state(), DriverState::running);
+    EXPECT_LT(wire.card.command(1), 2400.0); // still under way
+    ASSERT_TRUE(wire.run_to_end(60.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_NEAR(wire.card.command(1), 2400.0, 1.0);
+}
+
+TEST(PmacSession, StopsWhatACommandSetGoing) {
+    for (const std::string line : {"#1J/", "stop()", "#1K", "&1A"}) {
+        PmacWire wire;
+        (void)wire.session.command({"#1J:24000"}, false);
+        ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+        if (line == "stop()") {
+            wire.session.stop(wire.now);
+        } else {
+            (void)wire.session.command({line}, false);
+        }
+        ASSERT_TRUE(wire.run_to_end(5.0)) << line;
+        EXPECT_NE(wire.state(), DriverState::alarm) << line;
+        EXPECT_LT(wire.card.position(1), 12000.0) << line;
+        wire.pass(1.0);
+        EXPECT_TRUE(wire.standing()) << line;
+        EXPECT_EQ(wire.card.enabled(1), line != "#1K") << line;
+        EXPECT_TRUE(wire.card.enabled(2)) << line;
+    }
+}
+
+TEST(PmacSession, AStopThatIsTypedStopsTheProgram) {
+    PmacWire wire;
+    wire.session.start(long_way, wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 5.0));
+    (void)wire.session.command({"P1000"}, false); // a question, meanwhile
+    ASSERT_TRUE(answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
+    EXPECT_EQ(wire.state(), DriverState::running);
+    (void)wire.session.command({"&1A"}, false);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped);
+    EXPECT_TRUE(wire.standing());
+}
+
+TEST(PmacSession, TakesNoJogWithoutAnEnd) {
+    PmacWire wire;
+    for (const std::string line : {"#1J+", "J-", "#2 j +"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("until somebody"));
+    }
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.command(1), 0.0);
+}
+
+// What a test of a motor had borrowed is given back.
+TEST(PmacSession, SetsVariablesAloneInAnAlarm) {
+    PmacWire wire;
+    wire.session.emergency_stop(wire.now);
+    (void)wire.session.command({"I122=17", "M1023->X:$0,0,24"}, false);
+    ASSERT_TRUE(answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
+    EXPECT_EQ(wire.card.variable('I', 122), 17.0);
+    for (const std::string line : {"#1J/", "#1J:5", "&1A", "#1HM", "I122=17 #1J/"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("alarm")) << line;
+    }
+    wire.pass(0.5);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacSession, OpensNoLoop) {
+    PmacWire wire;
+    for (const std::string line : {"#1O5", "O-0.5", "#2 o 50", "#1O(P1)", "#1O0.01"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }),
+                    HasSubstr("without its loop"))
+            << line;
+    }
+    for (const std::string line : {"#1O0", "OPEN PROG 7", "GOTO5", "CLOSE"}) {
+        EXPECT_FALSE(opens_loop(line)) << line;
+    }
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.position(1), 0.0);
+}
+
+TEST(PmacSession, LoadsNoSettingsWhileAMotorHasPower) {
+    PmacWire wire;
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    (void)wire.session.command({"#1K#2K#3K"}, false);
+    ASSERT_TRUE(answered(wire));
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    (void)wire.session.command({"#4K"}, false);
+    ASSERT_TRUE(answered(wire));
+    wire.pass(0.5);
+    (void)wire.session.load({"I130=3000"});
+    ASSERT_TRUE(answered(wire));
+    EXPECT_EQ(wire.card.variable('I', 130), 3000.0);
+}
+
+TEST(PmacSession, AMotorThatGoesWhereNobodySentItLosesItsPower) {
+    PmacWire wire;
+    (void)wire.session.command({"I111=0", "I130=-2000", "I129=10"}, false); // the loop's sign is wrong
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 5.0));
+    EXPECT_EQ(wire.session.status().message, "X has power and moves, and nobody sent it");
+    EXPECT_LT(std::abs(wire.degrees(0)), 10.0);
+    wire.pass(1.0);
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacSession, TellsThePersonsLinesWithTheirAnswers) {
+    PmacWire wire;
+    (void)wire.session.take_console();
+    (void)wire.session.command({"I122", "#1P"}, false);
+    ASSERT_TRUE(answered(wire));
+    (void)wire.session.command({"FOO"}, false);
+    ASSERT_TRUE(answered(wire));
+    std::vector<std::string> texts;
+    for (const ConsoleLine& line : wire.session.take_console()) {
+        if (line.kind != ConsoleKind::query && line.kind != ConsoleKind::report) {
+            texts.push_back((line.sent ? "> " : "") + line.text);
+        }
+    }
+    EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> #1P", "> FOO"}));
+    EXPECT_THAT(texts, testing::Contains(HasSubstr("ERR003, no such command")));
+}
+
+TEST(PmacCommandKind, QuestionsChangeNothing) {
+    for (const std::string_view line : {"#1P",
+                                        "P",
+                                        "#1?",
+                                        "&1??",
+                                        "???",
+                                        "#1P M1023",
+                                        "I122 I123",
+                                        "#12 V #3F",
+                                        " Q5 ",
+                                        "#1p",
+                                        "I122..422",
+                                        "P1..4"}) {
+        EXPECT_TRUE(only_asks(line)) << line;
+    }
+    for (const std::string_view line :
+         {"", " ", "#1", "P1=4", "#1J/", "M1->X:0", "I122=3", "#1PK", "K", "1P", "P1 A", "TYPE", "#1J:20"}) {
+        EXPECT_FALSE(only_asks(line)) << line;
+    }
+}
+
+TEST(PmacCommandKind, StopsAndKillsAreKnown) {
+    for (const std::string_view line : {"#1J/", "J/ #2J/", "&1A", "h", "Q", "S", "\\"}) {
+        EXPECT_TRUE(only_stops(line)) << line;
+    }
+    for (const std::string_view line : {"", "#1J+", "#1K", "A R", "R", "#1J=5"}) {
+        EXPECT_FALSE(only_stops(line)) << line;
+    }
+    EXPECT_TRUE(only_kills("#1K #2K"));
+    EXPECT_FALSE(only_kills("K R"));
+    EXPECT_TRUE(jogs_without_end("#1J- #2J="));
+    EXPECT_FALSE(jogs_without_end("#1J=-5 J:-3 J/"));
+}
+
 TEST(PmacSession, ARefusedLineOfAProgramRunsNothing) {
     PmacWire wire;
     wire.session.start({"INC", "X10 F1", "NONSENSE(5"}, wire.now);
@@ -359,19 +502,20 @@ TEST(PmacDirectionF4, AJogAndAProgramGoTheSameWay) {
 
 TEST(PmacSessionU3, TellsWhatEachMotorMayDoByTheCardsOwnVariables) {
     PmacWire wire;
-    (void)wire.session.command({"I216=40", "I217=0.25", "I213=22200", "I214=-11100", "I269=3276"}, false);
+    (void)wire.session.command({"I216=40", "I217=0.25", "I213=22200", "I214=-11100", "I313=0", "I269=3276"},
+                               false);
     wire.pass(1.0);
-    const auto& limits = wire.session.limits();
+    const auto limits = wire.session.limits();
     ASSERT_EQ(limits.size(), 4U);
     const auto& y = limits[1];
     EXPECT_EQ(y.letter, 'Y');
     EXPECT_NEAR(to_degrees(y.speed.value()), 40e3 / 222.0, 1e-9);
     EXPECT_NEAR(to_degrees(y.acceleration.value()), 0.25e6 / 222.0, 1e-9);
-    EXPECT_NEAR(to_degrees(y.max.value()), 100.0, 1e-9);
+    EXPECT_NEAR(to_degrees(y.max.value()), 90.0, 1e-9); // the joint's own, which is narrower
     EXPECT_NEAR(to_degrees(y.min.value()), -50.0, 1e-9);
     EXPECT_NEAR(y.output_V.value(), 0.99976, 1e-5);
     EXPECT_NEAR(to_degrees(y.jog_speed.value()), 32e3 / 222.0, 1e-9); // the factory's
-    EXPECT_FALSE(limits[0].max.has_value());                          // 0 switches it off
+    EXPECT_NEAR(to_degrees(limits[2].max.value()), 90.0, 1e-9);       // 0 switches the card's off
 }
 
 TEST(PmacSessionU3, TellsFollowingErrorAndOutputTenTimesASecond) {
@@ -404,12 +548,21 @@ TEST(PmacSessionU3, ACardThatKnowsNoConverterIsAskedNoMore) {
     MotorReadings readings(test::wire_settings().axes);
     EXPECT_EQ(readings.reading_line(), ""); // nothing is known of its outputs
     for (std::size_t n = 0; n < 4; ++n) {
-        readings.read_rating(n, {"$C003", "0", "0", "32", "0.5", "32", "20480"});
+        readings.read_rating(n, {"$C003", "0", "0", "32", "0.5", "32", "10", "20480"});
     }
     EXPECT_THAT(readings.reading_line(), HasSubstr("#4FRY$C003"));
     readings.read({"1", "garbled"});
     EXPECT_EQ(readings.reading_line(), "");
     EXPECT_TRUE(readings.motors().empty());
+}
+
+TEST(PmacSession, AResetThatWasTypedIsToldAsOne) {
+    PmacWire wire;
+    (void)wire.session.command({"$$$"}, false);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the card was reset"));
+    EXPECT_FALSE(wire.powered());
 }
 
 } // namespace

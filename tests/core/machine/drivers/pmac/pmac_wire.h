@@ -2,22 +2,29 @@
 #pragma once
 
 #include "core/base/units.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 #include "core/machine/emulators/pmac/pmac_emulator.h"
 #include "tests/core/machine/drivers/session_wire.h"
 
 #include <cmath>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace millwright::test {
 
 struct PmacHolder {
+    explicit PmacHolder(machine::PmacEmulatorOptions options) : card(std::move(options)) {}
     machine::PmacEmulator card;
 };
 
 /// The axes of the thesis with soft limits of 90 degrees; protections as they come from the factory.
-inline machine::PmacSettings wire_settings() {
-    machine::PmacSettings settings = machine::arm_settings();
+inline machine::PmacSettings wire_settings(std::string_view letters = "XYZA",
+                                           std::shared_ptr<const kinematics::ArmModel> arm = nullptr) {
+    machine::PmacSettings settings = machine::arm_settings_of(letters);
+    settings.arm = std::move(arm);
     for (machine::PmacAxis& axis : settings.axes) {
         axis.min_deg = -90.0;
         axis.max_deg = 90.0;
@@ -33,9 +40,15 @@ inline const std::string arm_setup = "I100=1\nI200=1\nI300=1\nI400=1\nI902=10\nI
 class PmacWire : public PmacHolder, public SessionWire<machine::pmac::PmacSession, machine::PmacEmulator> {
 public:
     /// Connected; if `homed`, with power and its zero set where it stands.
-    explicit PmacWire(const machine::FaultSpec& faults = {}, bool homed = true)
-        : SessionWire(card, machine::pmac::PmacSession(wire_settings()), 0.002) {
-        for (const char c : arm_setup) {
+    explicit PmacWire(const machine::FaultSpec& faults = {},
+                      bool homed = true,
+                      std::string_view letters = "XYZA",
+                      machine::PmacEmulatorOptions options = {},
+                      const std::string& more_setup = {},
+                      std::shared_ptr<const kinematics::ArmModel> arm = nullptr)
+        : PmacHolder(std::move(options)),
+          SessionWire(card, machine::pmac::PmacSession(wire_settings(letters, std::move(arm))), 0.002) {
+        for (const char c : arm_setup + more_setup) {
             card.receive(std::string(1, c == '\n' ? '\r' : c));
         }
         greet();
@@ -54,7 +67,7 @@ public:
         run_until([] { return false; }, seconds);
     }
     [[nodiscard]] double degrees(std::size_t axis) const {
-        const machine::PmacAxis one = wire_settings().axes[axis];
+        const machine::PmacAxis one = wire_settings("XYZAB").axes[axis];
         return card.position(one.motor) / one.counts_per_degree;
     }
     [[nodiscard]] bool powered() const {

@@ -55,8 +55,10 @@ public:
     explicit Wire(TableEmulator& table,
                   const RecordFormat& format,
                   AxisPositions at = AxisPositions::Zero(3),
-                  const FaultSpec& faults = {})
-        : SessionWire(table, RecordSession(table_model(), std::move(at), {.format = format}), 0.01) {
+                  const FaultSpec& faults = {},
+                  bool known = true)
+        : SessionWire(
+              table, RecordSession(table_model(), std::move(at), {.format = format, .known = known}), 0.01) {
         greet();
         begin_faults(faults);
     }
@@ -212,8 +214,98 @@ TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
     wire.start(job_of(zigzag(20)));
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_THAT(wire.session.status().message, HasSubstr("no answer to record 3 within 5 s"));
-    EXPECT_THROW(wire.session.reset(wire.now), Error);
-    EXPECT_EQ(wire.state(), DriverState::alarm);
+    wire.session.reset(wire.now);
+    EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+    wire.session.stands_at(AxisPositions{Vec3(1.0, 2.0, 3.0)});
+    EXPECT_TRUE(wire.session.status().position_doubt.empty());
+    EXPECT_EQ(wire.session.status().position, AxisPositions(Vec3(1.0, 2.0, 3.0)));
+}
+
+// The table is told nothing more, but goes where the last record says: from what is shown the next way could
+// lead through the work.
+TEST(RecordSession, BeginsNothingAfterARecordThatWasOnItsWayBeforeAPersonHasLooked) {
+    const Job job = job_of(zigzag(20));
+    TableEmulator table = table_of(answered(), {.takes_time = true});
+    Wire wire(table, answered());
+    wire.start(job);
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 5; }, 60.0));
+    const AxisPositions shown = wire.session.status().position;
+    wire.session.emergency_stop(wire.now);
+    EXPECT_THROW(wire.session.stands_at(shown), Error);
+    EXPECT_FALSE(wire.run_until([] { return false; }, 60.0));
+    const std::vector<double> stands = table.positions().back();
+    EXPECT_GT((AxisPositions(Vec3(stands[0], stands[1], stands[2])) - shown).norm(), 1.0);
+    EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("record 5 was on its way"));
+    wire.session.reset(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_THROW(wire.start(job), Error);
+    EXPECT_EQ(wire.session.records(), 5);
+
+    const AxisPositions seen = Vec3(stands[0], stands[1], stands[2]);
+    wire.session.stands_at(seen);
+    auto rest = std::make_shared<gcode::Program>(*job.program);
+    rest->start = seen;
+    wire.session.start({rest, nullptr, job.listing, {}}, wire.now);
+    ASSERT_TRUE(wire.run_to_end(3600.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+}
+
+// The late answer is none to a record that is sent later, and no fault.
+TEST(RecordSession, UnlockedWhileARecordIsOnItsWayItWaitsForItsEnd) {
+    TableEmulator table = table_of(answered(), {.takes_time = true});
+    Wire wire(table, answered());
+    wire.start(job_of(zigzag(20)));
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 2; }, 60.0));
+    wire.session.emergency_stop(wire.now);
+    wire.session.reset(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::stopping);
+    EXPECT_THROW(wire.session.stands_at(AxisPositions::Zero(3)), Error);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() != DriverState::stopping; }, 60.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_EQ(table.records(), 2);
+    EXPECT_FALSE(wire.run_until([&] { return wire.state() != DriverState::idle; }, 60.0));
+    EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+    wire.session.stands_at(AxisPositions{Vec3(5.0, 5.0, 0.0)});
+}
+
+TEST(RecordSession, ARecordThatIsNeverAnsweredIsOverAfterThePatience) {
+    RecordFormat format = answered();
+    TableEmulator table = table_of(format, {.silent_from = 1});
+    Wire wire(table, format);
+    wire.start(job_of(zigzag(20)));
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 1; }, 60.0));
+    wire.session.emergency_stop(wire.now);
+    wire.session.reset(wire.now);
+    EXPECT_EQ(wire.state(), DriverState::stopping);
+    const double from = wire.now;
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 60.0));
+    EXPECT_GT(wire.now - from, format.patience);
+}
+
+TEST(RecordSession, AStopBetweenTwoRecordsLeavesNoDoubt) {
+    TableEmulator table = table_of(answered());
+    Wire wire(table, answered());
+    wire.start(job_of("G21 G90\nG1 X20 F600\nM0\nG1 X10\nM2\n"));
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0));
+    wire.session.emergency_stop(wire.now);
+    EXPECT_TRUE(wire.session.status().position_doubt.empty());
+    EXPECT_EQ(wire.session.status().position[0], 20.0);
+}
+
+TEST(RecordSession, WhereItStandsIsAssumedUntilItWentSomewhereOrAPersonSaysIt) {
+    for (const bool told : {false, true}) {
+        TableEmulator table = table_of(answered());
+        Wire wire(table, answered(), AxisPositions::Zero(3), {}, false);
+        EXPECT_FALSE(wire.session.status().position_known);
+        if (told) {
+            wire.session.stands_at(AxisPositions{Vec3(5.0, 56.0, -1.0)});
+        } else {
+            wire.start(job_of("G21 G90\nG1 X20 F600\nM2\n"));
+            EXPECT_THROW(wire.session.stands_at(AxisPositions{Vec3(5.0, 56.0, -1.0)}), Error);
+            ASSERT_TRUE(wire.run_to_end());
+        }
+        EXPECT_TRUE(wire.session.status().position_known);
+    }
 }
 
 TEST(RecordSession, WaitsForAPersonWhereTheProgramDoes) {

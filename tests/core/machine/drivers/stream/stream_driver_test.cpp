@@ -203,6 +203,35 @@ TEST(StreamDriver, KeepsItsPeriod) {
     driver->close();
 }
 
+TEST(StreamDriver, BeginsWhereAPersonSaysThatTheMachineStands) {
+    Bench bench;
+    const auto driver = bench.driver({.paced = false, .known = false});
+    driver->connect();
+    EXPECT_TRUE(driver->capabilities().told_place);
+    EXPECT_FALSE(driver->status().position_known);
+    const AxisPositions there = Vec3(3.0, 4.0, 5.0);
+    driver->stands_at(there);
+    EXPECT_TRUE(driver->status().position_known);
+    EXPECT_EQ(driver->status().position, there);
+    EXPECT_EQ(driver->samples(), 0); // nothing moves to there
+    (void)driver->command("G21 G90 G1 X13 F3000");
+    wait_for_end(*driver);
+    driver->close();
+    const Received got = received(read_file(bench.file), 3);
+    ASSERT_GT(got.samples.size(), 2U);
+    EXPECT_EQ(got.samples.front(), there);
+    EXPECT_NEAR((got.samples.back() - AxisPositions(Vec3(13.0, 4.0, 5.0))).norm(), 0.0, 1e-4);
+}
+
+TEST(StreamDriver, IsNotToldWhereItStandsWhileItMoves) {
+    Bench bench;
+    const auto driver = bench.driver({});
+    driver->connect();
+    (void)driver->command("G21 G90 G1 X20 F600");
+    EXPECT_THROW(driver->stands_at(AxisPositions{Vec3(3.0, 4.0, 5.0)}), Error);
+    driver->close();
+}
+
 TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
     SteadyClock clock;
     auto server = std::make_unique<TcpServer>(0);

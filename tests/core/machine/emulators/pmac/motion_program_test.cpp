@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/kinematics/arm_file.h"
 #include "core/kinematics/arm_simulation.h"
+#include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_program.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
@@ -68,6 +69,35 @@ TEST(MotionProgramS7, AProgramWithoutEndIsToldSo) {
         simulate_motion_program("LINEAR\nINC\nTM100\nWHILE(1=1)\nX1\nX-1\nENDWHILE\n", "m", settings, {});
     ASSERT_EQ(found.faults.size(), 1U);
     EXPECT_THAT(found.faults.front().message, HasSubstr("does it end"));
+}
+
+TEST(MotionProgramS7, TellsWhenAJointLeavesItsLimits) {
+    MotionSimulationSettings settings;
+    settings.card = within_limits(arm_settings(), kinematics::read_arm("assets/arms/motoman-l3.json").arm);
+    const auto found = simulate_motion_program("LINEAR\nF20\nX20Y-6\nX400\n", "m.pmc", settings, {});
+    ASSERT_TRUE(found.beyond_limits.has_value());
+    EXPECT_THAT(found.beyond_limits->message, HasSubstr("X leaves its limits after"));
+    EXPECT_THAT(found.beyond_limits->message, HasSubstr("175"));
+    EXPECT_EQ(found.faults.size(), 1U);
+    EXPECT_LT(found.records.back().degrees[0], 176.0);
+    const auto fine = simulate_motion_program("LINEAR\nF20\nX175Y-200\nX-175Y30\n", "m.pmc", settings, {});
+    EXPECT_FALSE(fine.beyond_limits) << fine.beyond_limits->message;
+    const auto floor = simulate_motion_program("LINEAR\nF20\nY60\n", "m.pmc", settings, {});
+    ASSERT_TRUE(floor.beyond_limits.has_value());
+    EXPECT_THAT(floor.beyond_limits->message, HasSubstr("below -900 of the arm's workspace"));
+    settings.start_deg = {180.0, 0.0, 0.0, 0.0}; // the way back is free
+    EXPECT_FALSE(simulate_motion_program("LINEAR\nF20\nX0\n", "m.pmc", settings, {}).beyond_limits);
+}
+
+TEST(MotionProgramS7, TheCardsAxesAreJointsThatTurn) {
+    const kinematics::ArmModel scara = kinematics::read_arm("assets/arms/scara.json").arm;
+    try {
+        (void)within_limits(arm_settings(), scara);
+        FAIL() << "nothing was refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("slides"));
+    }
+    EXPECT_THROW((void)within_limits(five_axis_arm_settings(), scara), Error);
 }
 
 std::vector<motion::ArmStop> to(const kinematics::JointPositions& joints, double share) {

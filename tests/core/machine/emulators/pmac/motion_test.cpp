@@ -252,6 +252,24 @@ TEST(PmacCardP12, WithEightChannelsDrivesAFifthMotor) {
     EXPECT_EQ(eight.ask("#5P"), "25600"); // a turn of joint 5
 }
 
+// No output of the card and no encoder: its place is the sum of what it would put out.
+TEST(PmacCardP12, SimulatesAFifthMotorOnFourChannels) {
+    PmacCard pmac;
+    EXPECT_EQ(pmac.ask("RHY:$724"), "00C010"); // as it comes: an encoder that a card of four does not have
+    ASSERT_EQ(pmac.send("WY:$724,$5007F0\nI500=1\nI502=$7F0\nI503=$724\n#5->71.1111B\n#5J:25600"), "");
+    ASSERT_GT(pmac.settle(), 0.0);
+    EXPECT_EQ(pmac.ask("#5P"), "25600");
+    EXPECT_EQ(pmac.ask("RHY:$724"), "5007F0");
+    ASSERT_EQ(pmac.send("#5J+"), "");
+    pmac.card.advance(0.5);
+    EXPECT_GT(pmac.card.speed(5), 1000.0);
+    EXPECT_NE(pmac.ask("RHY:$7F0"), "000000"); // the output, in memory
+    pmac.control('\x0B');
+    pmac.card.advance(0.5);
+    EXPECT_FALSE(pmac.card.enabled(5));
+    EXPECT_NEAR(pmac.card.speed(5), 0.0, 0.5);
+}
+
 TEST(PmacCard, KnowsNoPositionAfterAReset) {
     PmacCard pmac;
     ASSERT_EQ(pmac.send("I130=1999\nSAVE\nI130=5\n#1->120X\n#1J=1000"), "");

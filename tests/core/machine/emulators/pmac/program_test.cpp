@@ -55,6 +55,66 @@ TEST(PmacProgram, TakesTheTimesOfTheManual) {
     EXPECT_EQ(pmac.ask("#1P"), "42.5");
 }
 
+/// What a program does to motor 1, from its commands each ms.
+struct Motion {
+    double time = 0.0;                                  ///< s
+    double fastest = 0.0, hardest = 0.0, braking = 0.0; ///< counts/ms, counts/ms^2; the last without its end
+};
+
+Motion watched(PmacCard& pmac, const std::string& lines, double end_of_limit = 1e9) {
+    EXPECT_EQ(pmac.send("OPEN PROG 1\nCLEAR\n" + lines + "\nCLOSE"), "");
+    EXPECT_EQ(pmac.ask("&1B1R"), "");
+    Motion motion;
+    double place = pmac.card.command(1), speed = 0.0, cycle = pmac.card.time();
+    motion.time = pmac.wait_until([&] {
+        constexpr double window = 5e-3; // of several servo cycles, so that their steps do not count
+        if (pmac.card.time() - cycle < window) {
+            return !pmac.card.program_runs(1);
+        }
+        const double ms = 1e3 * (pmac.card.time() - cycle);
+        const double now = (pmac.card.command(1) - place) / ms;
+        const double rate = std::abs(now - speed) / ms;
+        motion.fastest = std::max(motion.fastest, std::abs(now));
+        (std::abs(place) < end_of_limit ? motion.hardest : motion.braking) =
+            std::max(std::abs(place) < end_of_limit ? motion.hardest : motion.braking, rate);
+        place = pmac.card.command(1);
+        speed = now;
+        cycle = pmac.card.time();
+        return !pmac.card.program_runs(1);
+    });
+    return motion;
+}
+
+// Ix17 is a limit of changes of speed: a speed that stays needs no ramp, however high it is.
+TEST(PmacProgram, AcceleratesByIx17AndKeepsASpeedThatItHas) {
+    constexpr double limit = 0.015625; // counts/ms^2, as it comes from the factory
+    PlainAxes pmac;
+    ASSERT_EQ(pmac.send("I117=0.015625"), "");
+    std::string lines = "INC LINEAR TM100\n";
+    for (int n = 0; n < 40; ++n) {
+        lines += "X1000\n"; // 10 counts/ms, which takes 640 ms from rest
+    }
+    const Motion steady = watched(pmac, lines, 35'000.0);
+    EXPECT_NEAR(steady.fastest, 10.0, 0.01);
+    EXPECT_LT(steady.hardest, 1.1 * limit);
+    EXPECT_GT(steady.hardest, 0.9 * limit);
+    EXPECT_LT(steady.time, 40 * 0.1 + 2 * 0.64); // not 640 ms a move
+    ASSERT_GT(pmac.settle(), 0.0);
+    EXPECT_EQ(pmac.ask("#1P"), "40000");
+}
+
+TEST(PmacProgram, TurnsRoundWithinIx17) {
+    constexpr double limit = 0.015625;
+    PlainAxes pmac;
+    ASSERT_EQ(pmac.send("I117=0.015625"), "");
+    // From +2 counts/ms to -2: twice the change that either of them is from rest.
+    const Motion motion = watched(pmac, "INC LINEAR TM500\nX1000\nX-1000");
+    EXPECT_LT(motion.hardest, 1.1 * limit);
+    EXPECT_GT(motion.hardest, 0.9 * limit);
+    ASSERT_GT(pmac.settle(), 0.0);
+    EXPECT_EQ(pmac.ask("#1P"), "0");
+}
+
 TEST(PmacProgram, BlendsAtTheSameSpeedAndThroughCorners) {
     PlainAxes pmac;
     // three moves of 100 at 100/s: 1 s each, one acceleration time in all

@@ -1,0 +1,55 @@
+#include "app/commands/export_command.h"
+
+#include "app/watched_work.h"
+#include "core/exchange/surface_file.h"
+#include "core/geometry/surface.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    std::string project;
+    std::string out;
+    double tolerance = 0.01;
+};
+
+int export_design(const Options& options) {
+    const OpenedProject opened = open_project(options.project);
+    std::vector<geometry::BezierPatch> patches;
+    for (const geometry::ControlNet& net : opened.project.surface.patches) {
+        patches.emplace_back(net);
+    }
+    WatchedWork work;
+    exchange::write_surface(
+        geometry::Surface(std::move(patches)), options.out, options.tolerance, work.progress());
+    work.finish();
+    fmt::print("{}\n", options.out);
+    return 0;
+}
+
+} // namespace
+
+void add_export_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("export", "Write the surface of a project for another program");
+    command.add_option("PROJECT", options->project, "Project file")->required();
+    command.add_option("--out", options->out, "FILE.step, .glb, .stl, .obj or .ply")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option("--tolerance", options->tolerance, "Largest distance of a triangle from the surface, mm")
+        ->check(CLI::Range(1e-6, 1e3))
+        ->capture_default_str();
+    command.callback([&chosen, options] { chosen = [options] { return export_design(*options); }; });
+}
+
+} // namespace millwright::app

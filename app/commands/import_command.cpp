@@ -1,0 +1,283 @@
+#include "app/commands/import_command.h"
+
+#include "app/names.h"
+#include "app/watched_work.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/exchange/mesh_file.h"
+#include "core/project/imported_surface.h"
+#include "core/project/project_file.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::string file;
+    std::string out;       ///< a project; empty: the file is only told of
+    std::string deviation; ///< comma-separated; empty: none
+    std::string degrees;   ///< as "5" or "5x3"; empty: as it is
+    std::string along;     ///< empty: found
+    double mm_per_unit = 1.0;
+    int face = 0;
+    bool json = false;
+};
+
+const std::map<std::string, Vec3> directions{{"+x", Vec3(1, 0, 0)},
+                                             {"-x", Vec3(-1, 0, 0)},
+                                             {"+y", Vec3(0, 1, 0)},
+                                             {"-y", Vec3(0, -1, 0)},
+                                             {"+z", Vec3(0, 0, 1)},
+                                             {"-z", Vec3(0, 0, -1)}};
+
+/// Nothing unless `text` is one degree, or two with an x between them.
+std::optional<project::FitDegrees> degrees_from(const std::string& text) {
+    const auto number = [](std::string_view part) {
+        int value = 0;
+        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
+        const bool whole = fault == std::errc{} && end == part.data() + part.size();
+        return whole && value >= 1 && value <= exchange::max_fit_degree ? value : 0;
+    };
+    const std::size_t between = text.find('x');
+    project::FitDegrees degrees;
+    degrees.u = number(std::string_view(text).substr(0, between));
+    degrees.v = between == std::string::npos ? degrees.u : number(std::string_view(text).substr(between + 1));
+    return degrees.u > 0 && degrees.v > 0 ? std::optional(degrees) : std::nullopt;
+}
+
+std::string fault_of_degrees(const std::string& text) {
+    return degrees_from(text) ? std::string()
+                              : fmt::format("'{}' is no degree from 1 to {}, nor two as 5x3",
+                                            text,
+                                            exchange::max_fit_degree);
+}
+
+project::ImportChoice choice_of(const Options& options) {
+    project::ImportChoice choice{.face = options.face, .mm_per_unit = options.mm_per_unit};
+    if (!options.degrees.empty()) {
+        choice.degrees = degrees_from(options.degrees);
+    }
+    if (!options.along.empty()) {
+        choice.along = directions.at(options.along);
+    }
+    return choice;
+}
+
+ordered_json face_json(const exchange::CadFace& face) {
+    int degree_u = 0;
+    int degree_v = 0;
+    for (const geometry::BezierPatch& patch : face.patches) {
+        degree_u = std::max(degree_u, patch.degree_u());
+        degree_v = std::max(degree_v, patch.degree_v());
+    }
+    const Vec3 size = face.box.sizes();
+    return {
+        {"number", face.number},
+        {"patches", {face.rows, face.columns}},
+        {"degree", {degree_u, degree_v}},
+        {"rational", std::ranges::any_of(face.patches, [](const auto& patch) { return patch.rational(); })},
+        {"trimmed", face.trimmed()},
+        {"size_mm", {size.x(), size.y(), size.z()}}};
+}
+
+ordered_json model_json(const exchange::CadModel& model) {
+    ordered_json faces = ordered_json::array();
+    for (const exchange::CadFace& face : model.faces) {
+        faces.push_back(face_json(face));
+    }
+    return {{"unit", model.unit}, {"faces", std::move(faces)}, {"left_out", model.left_out}};
+}
+
+void print_model(const ordered_json& model) {
+    fmt::print(
+        "{:>6} {:>9} {:>7} {:>9} {:>8}  size mm\n", "face", "patches", "degree", "rational", "trimmed");
+    for (const ordered_json& face : model["faces"]) {
+        const auto pair = [&](const char* key) {
+            return fmt::format("{} x {}", face[key][0].get<int>(), face[key][1].get<int>());
+        };
+        const auto size = [&](int axis) { return fixed(face["size_mm"][axis].get<double>(), 3); };
+        fmt::print("{:>6} {:>9} {:>7} {:>9} {:>8}  {} x {} x {}\n",
+                   face["number"].get<int>(),
+                   pair("patches"),
+                   pair("degree"),
+                   face["rational"].get<bool>() ? "yes" : "no",
+                   face["trimmed"].get<bool>() ? "yes" : "no",
+                   size(0),
+                   size(1),
+                   size(2));
+    }
+    for (const ordered_json& reason : model["left_out"]) {
+        fmt::print(stderr, "note: left out: {}\n", reason.get<std::string>());
+    }
+    fmt::print("unit of the file: {}\n", model["unit"].get<std::string>());
+}
+
+int tell_of(const Options& options) {
+    WatchedWork work;
+    ordered_json told;
+    if (exchange::is_mesh_file(options.file)) {
+        const exchange::MeshFile read =
+            exchange::read_mesh(options.file, options.mm_per_unit, work.progress());
+        Box3 box;
+        for (const Vec3& point : read.mesh.points) {
+            box.extend(point);
+        }
+        const Vec3 size = box.sizes();
+        told = {{"points", read.mesh.points.size()},
+                {"triangles", read.mesh.triangles.size()},
+                {"without_area", read.without_area},
+                {"size_mm", {size.x(), size.y(), size.z()}}};
+        work.finish();
+        if (!options.json) {
+            fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
+                       read.mesh.points.size(),
+                       read.mesh.triangles.size(),
+                       read.without_area,
+                       fixed(size.x(), 3),
+                       fixed(size.y(), 3),
+                       fixed(size.z(), 3));
+        }
+    } else {
+        told = model_json(exchange::read_cad(options.file, work.progress()));
+        work.finish();
+        if (!options.json) {
+            print_model(told);
+        }
+    }
+    if (options.json) {
+        fmt::print("{}\n", told.dump(2));
+    }
+    return 0;
+}
+
+std::string deviation_csv(const exchange::MeshFit& fit) {
+    std::string text = "x_mm,y_mm,z_mm,deviation_mm\n";
+    for (std::size_t n = 0; n < fit.side.points.size(); ++n) {
+        const Vec3& at = fit.side.points[n];
+        fmt::format_to(std::back_inserter(text),
+                       "{:.6f},{:.6f},{:.6f},{:.6f}\n",
+                       at.x(),
+                       at.y(),
+                       at.z(),
+                       fit.deviation.at_points[n]);
+    }
+    return text;
+}
+
+ordered_json imported_json(const project::ImportedSurface& imported) {
+    ordered_json json{{"patches", imported.surface.patches.size()}, {"notes", imported.notes}};
+    if (const auto& fit = imported.fit) {
+        json["fit"] = {{"degree", {fit->patch.degree_u(), fit->patch.degree_v()}},
+                       {"rounds", fit->rounds},
+                       {"follows_outline", fit->follows_outline},
+                       {"max_mm", fit->deviation.max},
+                       {"mean_mm", fit->deviation.mean},
+                       {"rms_mm", fit->deviation.rms}};
+    }
+    return json;
+}
+
+void print_imported(const project::ImportedSurface& imported, const Options& options) {
+    for (const std::string& note : imported.notes) {
+        fmt::print(stderr, "note: {}\n", note);
+    }
+    if (options.json) {
+        fmt::print("{}\n", imported_json(imported).dump(2));
+        return;
+    }
+    if (const auto& fit = imported.fit) {
+        fmt::print("patch of degree {} x {}: deviation at most {} mm, {} mm on average, {} mm rms\n",
+                   fit->patch.degree_u(),
+                   fit->patch.degree_v(),
+                   fixed(fit->deviation.max, 4),
+                   fixed(fit->deviation.mean, 4),
+                   fixed(fit->deviation.rms, 4));
+    }
+    fmt::print("{}: {} {}\n",
+               options.out,
+               imported.surface.patches.size(),
+               imported.surface.patches.size() == 1 ? "patch" : "patches");
+}
+
+int import_file(const Options& options) {
+    if (!project::is_importable(options.file)) {
+        throw Error("this kind of file is not imported", options.file, "STEP, IGES, STL, OBJ and PLY are");
+    }
+    if (options.out.empty()) {
+        return tell_of(options);
+    }
+    WatchedWork work;
+    const project::ImportedSurface imported =
+        project::import_surface(options.file, choice_of(options), work.progress());
+    work.finish();
+    if (!options.deviation.empty() && !imported.fit) {
+        throw Error("--deviation is of a fitted patch", options.file, "give --degree");
+    }
+    project::Project made;
+    made.name = std::filesystem::path(options.file).stem().string();
+    made.surface = imported.surface;
+    project::write_project(made, options.out);
+    if (!options.deviation.empty()) {
+        write_file(options.deviation, deviation_csv(*imported.fit));
+    }
+    print_imported(imported, options);
+    return 0;
+}
+
+} // namespace
+
+void add_import_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand(
+        "import", "Make a project from a surface of another program, or list the faces of its file");
+    command.add_option("FILE", options->file, "STEP, IGES, STL, OBJ or PLY file")->required();
+    CLI::Option& out =
+        *command
+             .add_option("--out", options->out, "Project file to write; without it the file is only told of")
+             ->type_name("PROJECT");
+    command.add_option("--face", options->face, "Number of the face, of a STEP or IGES file with several")
+        ->check(CLI::Range(1, exchange::most_cad_faces));
+    command
+        .add_option("--degree",
+                    options->degrees,
+                    "Fit one patch of this degree; without it a face is taken as it is, a mesh with 5")
+        ->check(CLI::Validator(fault_of_degrees, "P or PxQ"))
+        ->needs(&out);
+    std::vector<std::string> names;
+    for (const auto& [name, direction] : directions) {
+        names.push_back(name);
+    }
+    command
+        .add_option(
+            "--along", options->along, "The side of a mesh that is fitted; without it the side it shows")
+        ->check(CLI::IsMember(names))
+        ->needs(&out);
+    const std::map<std::string, double> units{{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"inch", 25.4}};
+    command
+        .add_option("--unit", options->mm_per_unit, "Unit of a mesh, whose file does not tell (default mm)")
+        ->transform(one_of(units))
+        ->type_name(listed(units));
+    command
+        .add_option("--deviation", options->deviation, "Distance of each point from the fitted patch, as CSV")
+        ->needs(&out)
+        ->type_name("FILE");
+    command.add_flag("--json", options->json, "Print JSON");
+    command.callback([&chosen, options] { chosen = [options] { return import_file(*options); }; });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,76 @@
+#include "app/commands/reshape_command.h"
+
+#include "core/base/error.h"
+#include "core/project/project_file.h"
+#include "core/project/reshaped_surface.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using geometry::Parameter;
+
+struct Options {
+    std::string project, out;
+    std::optional<int> patch;
+    std::vector<int> degree; ///< along u, v; empty: as it is
+    std::optional<double> split_u, split_v;
+};
+
+int reshape(const Options& options) {
+    if (options.degree.empty() && !options.split_u && !options.split_v) {
+        throw Error("nothing is asked for", {}, "give --degree, --split-u or --split-v");
+    }
+    project::Project project = open_project(options.project).project;
+    project::SurfaceInput& surface = project.surface;
+    const int patch = options.patch.value_or(surface.machined_patch);
+    if (!options.degree.empty()) {
+        surface = project::with_degrees(surface, patch, options.degree[0], options.degree[1]);
+    }
+    if (options.split_u) {
+        surface = project::with_split(surface, patch, Parameter::u, *options.split_u);
+    }
+    if (options.split_v) {
+        surface = project::with_split(surface, patch, Parameter::v, *options.split_v);
+    }
+    project::write_project(project, options.out);
+    for (std::size_t n = 0; n < surface.patches.size(); ++n) {
+        const geometry::ControlNet& net = surface.patches[n];
+        fmt::print("patch {}: degree {} x {}{}\n",
+                   n,
+                   net.rows - 1,
+                   net.columns - 1,
+                   static_cast<int>(n) == surface.machined_patch ? ", machined" : "");
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_reshape_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand(
+        "reshape", "The same surface by other control points: a higher degree, or two patches");
+    command.add_option("PROJECT", options->project, "Project file")->required();
+    command.add_option("--out", options->out, "Project file to write")->required()->type_name("PROJECT");
+    command.add_option("--patch", options->patch, "Which patch, counted from 0 (default: the machined one)");
+    command.add_option("--degree", options->degree, "Of its net along u and v, not below what it has")
+        ->delimiter(',')
+        ->expected(2)
+        ->allow_extra_args(false)
+        ->type_name("U,V");
+    CLI::Option& u = *command.add_option("--split-u", options->split_u, "Two patches that meet at this u");
+    command.add_option("--split-v", options->split_v, "Two patches that meet at this v")->excludes(&u);
+    command.callback([&chosen, options] { chosen = [options] { return reshape(*options); }; });
+}
+
+} // namespace millwright::app

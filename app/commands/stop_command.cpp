@@ -1,0 +1,105 @@
+#include "app/commands/stop_command.h"
+
+#include "app/interrupt.h"
+#include "app/series.h"
+#include "core/base/error.h"
+#include "core/machine/driver.h"
+#include "core/machine/drivers/make_driver.h"
+#include "core/machine/position_memory.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+struct Options {
+    machine::DriverChoice machine;
+    std::string driver;
+    std::string log = SeriesChoice().log;
+    bool emergency = false;
+};
+
+bool moves(const machine::DriverStatus& now) {
+    using machine::DriverState;
+    return now.state == DriverState::running || now.state == DriverState::holding ||
+           now.state == DriverState::stopping;
+}
+
+std::string sentence(const machine::DriverStatus& now) {
+    std::string text(machine::to_text(now.state));
+    return now.message.empty() ? text : text + ": " + now.message;
+}
+
+/// When it stands and was asked what it is, which looks like a link that is yet to be made. It brakes also
+/// where nobody waits for that.
+machine::DriverStatus
+at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_token& stop) {
+    constexpr double glance = 0.02; // s
+    machine::DriverStatus now = driver.status();
+    while (moves(now) || (now.state == machine::DriverState::disconnected && !now.link_lost)) {
+        if (stop.stop_requested()) {
+            throw Cancelled();
+        }
+        clock.wait(glance);
+        now = driver.status();
+    }
+    return now;
+}
+
+int stop_machine(const Options& options) {
+    const Interrupt interrupt;
+    machine::SteadyClock clock;
+    machine::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
+    const auto driver = machine::make_driver(options.machine, {}, clock);
+    driver->connect();
+    memory.remind(*driver);
+    if (const machine::DriverStatus found = driver->status(); !moves(found) && !options.emergency) {
+        fmt::print("The machine stands ({}).\n", sentence(found));
+        return 0;
+    }
+    if (options.emergency) {
+        driver->emergency_stop();
+    } else {
+        driver->stop();
+    }
+    const machine::DriverStatus now = at_rest(*driver, clock, interrupt.token());
+    memory.keep(now);
+    if (now.link_lost) {
+        throw Error(now.message, {}, "use the switch at the machine");
+    }
+    fmt::print("The machine was stopped ({}).\n", sentence(now));
+    return 0;
+}
+
+} // namespace
+
+void add_stop_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("stop", "Stop a machine that moves for nobody here");
+    command.add_option("--driver", options->driver, "Kind of controller")
+        ->required()
+        ->check(CLI::IsMember({"grbl", "linuxcnc"}));
+    command.add_option("--port", options->machine.address, "Serial port, or tcp:HOST:PORT")
+        ->type_name("PORT")
+        ->required();
+    command.add_option("--axes", options->machine.axes, "Axes of the machine, for linuxcnc")
+        ->type_name("LETTERS")
+        ->capture_default_str();
+    command.add_option("--log", options->log, "Folder of the job logs")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.add_flag("--emergency", options->emergency, "At once, whatever that does to the position");
+    command.callback([&chosen, options] {
+        options->machine.kind = machine::driver_kind(options->driver);
+        chosen = [options] { return stop_machine(*options); };
+    });
+}
+
+} // namespace millwright::app

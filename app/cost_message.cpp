@@ -1,0 +1,63 @@
+#include "app/cost_message.h"
+
+#include "core/base/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <exception>
+
+namespace millwright::app {
+
+namespace {
+
+using nlohmann::json;
+using toolpath::SetUpPlace;
+
+/// Infinity, too, stays what it is.
+std::string bytes_of(const json& value) {
+    std::string bytes;
+    json::to_msgpack(value, bytes);
+    return bytes;
+}
+
+template <class Read> auto understood(std::string_view bytes, const Read& read) {
+    try {
+        return read(json::from_msgpack(bytes.begin(), bytes.end()));
+    } catch (const std::exception& fault) {
+        throw Error(std::string("a rank told something that is not understood: ") + fault.what());
+    }
+}
+
+} // namespace
+
+std::string packed(std::span<const SetUpPlace> places) {
+    json numbers = json::array();
+    for (const SetUpPlace& place : places) {
+        for (const double number : place) {
+            numbers.push_back(number);
+        }
+    }
+    return bytes_of(numbers);
+}
+
+std::string packed(const CostMessage& message) {
+    return bytes_of({message.first, message.costs, message.why_not});
+}
+
+std::vector<SetUpPlace> unpacked_places(std::string_view bytes) {
+    return understood(bytes, [](const json& numbers) {
+        std::vector<SetUpPlace> places(numbers.size() / 4);
+        for (std::size_t n = 0; n < 4 * places.size(); ++n) {
+            places[n / 4][static_cast<Eigen::Index>(n % 4)] = numbers.at(n).get<double>();
+        }
+        return places;
+    });
+}
+
+CostMessage unpacked_costs(std::string_view bytes) {
+    return understood(bytes, [](const json& from) {
+        return CostMessage{from.at(0), from.at(1).get<std::vector<double>>(), from.at(2)};
+    });
+}
+
+} // namespace millwright::app

@@ -1,0 +1,75 @@
+#include "app/gather.h"
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <queue>
+#include <thread>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+/// What rank 0 says to itself, from the thread of its work.
+class Mailbox {
+public:
+    void put(std::string message) {
+        const std::scoped_lock lock(turn_);
+        messages_.push(std::move(message));
+    }
+    std::optional<std::string> take() {
+        const std::scoped_lock lock(turn_);
+        if (messages_.empty()) {
+            return std::nullopt;
+        }
+        std::string message = std::move(messages_.front());
+        messages_.pop();
+        return message;
+    }
+
+private:
+    std::mutex turn_;
+    std::queue<std::string> messages_;
+};
+
+} // namespace
+
+bool gather(const Ranks& ranks,
+            const std::function<void(const Tell&, const std::stop_token&)>& own,
+            const std::function<void(int from, const std::string& bytes)>& heard,
+            const std::function<bool()>& over,
+            const Progress& progress) {
+    // A rank that is gone says nothing more; mpirun then stops the others, and kills them a second later.
+    constexpr std::chrono::milliseconds patience_when_stopped{500};
+    constexpr std::chrono::milliseconds nap{5};
+    Mailbox mailbox;
+    std::stop_source stop;
+    const std::jthread thread(
+        [&] { own([&](const std::string& message) { mailbox.put(message); }, stop.get_token()); });
+    std::optional<std::chrono::steady_clock::time_point> stopped;
+    while (!over()) {
+        bool silent = true;
+        while (const auto message = mailbox.take()) {
+            heard(0, *message);
+            silent = false;
+        }
+        while (const auto message = ranks.heard()) {
+            heard(message->from, message->text);
+            silent = false;
+        }
+        if (progress.cancelled() && !stopped) {
+            stopped = std::chrono::steady_clock::now();
+            stop.request_stop();
+        }
+        if (stopped && std::chrono::steady_clock::now() - *stopped > patience_when_stopped) {
+            break;
+        }
+        if (silent) {
+            std::this_thread::sleep_for(nap);
+        }
+    }
+    return !stopped;
+}
+
+} // namespace millwright::app

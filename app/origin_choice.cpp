@@ -1,0 +1,35 @@
+#include "app/origin_choice.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace millwright::app {
+
+void add_origin_option(CLI::App& command, std::vector<double>& origin) {
+    constexpr std::size_t most = 3;
+    const auto take = [&origin](const std::vector<double>& given) {
+        if (given.size() > most) {
+            throw CLI::ArgumentMismatch::AtMost("--origin", most, given.size());
+        }
+        origin = given;
+    };
+    // Without an upper bound CLI11 takes no more words than the lower one: X,Y leaves the file behind it
+    // alone.
+    command
+        .add_option_function<std::vector<double>>(
+            "--origin", take, "Where the program's zero lies on the machine: X,Y or X,Y,Z, mm")
+        ->delimiter(',')
+        ->expected(2, CLI::detail::expected_max_vector_size)
+        ->allow_extra_args(false);
+}
+
+Vec3 origin_from(const std::vector<double>& given) {
+    Vec3 origin = Vec3::Zero();
+    for (std::size_t n = 0; n < given.size(); ++n) {
+        origin[static_cast<Eigen::Index>(n)] = given[n];
+    }
+    return origin;
+}
+
+} // namespace millwright::app

@@ -1,0 +1,20 @@
+// Where the zero of a G-code program lies on a machine, on the command line.
+#pragma once
+
+#include "core/geometry/vectors.h"
+
+#include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+/// Adds --origin X,Y or X,Y,Z to `command`.
+void add_origin_option(CLI::App& command, std::vector<double>& origin);
+
+/// Zero where none was given; mm.
+[[nodiscard]] Vec3 origin_from(const std::vector<double>& given);
+
+} // namespace millwright::app

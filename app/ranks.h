@@ -1,0 +1,40 @@
+// The processes of one `mpirun`, which share a piece of work. Started otherwise, or in a build without MPI,
+// there is one: rank 0.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::app {
+
+/// One at a time in a process.
+class Ranks {
+public:
+    /// Joins the others. Throws Error if mpirun started several and this build has no MPI.
+    Ranks();
+    Ranks(const Ranks&) = delete;
+    Ranks& operator=(const Ranks&) = delete;
+    ~Ranks(); ///< waits for the others
+
+    [[nodiscard]] int rank() const { return rank_; }
+    [[nodiscard]] int size() const { return size_; }
+
+    /// From another rank to rank 0; blocks until it is on its way.
+    void tell(std::string_view message) const;
+
+    struct Message {
+        int from = 0;
+        std::string text;
+    };
+    /// From rank 0 to every other; blocks until it is on its way.
+    void tell_all(std::string_view message) const;
+    /// The next one that has come, nothing if none has.
+    [[nodiscard]] std::optional<Message> heard() const;
+
+private:
+    int rank_ = 0;
+    int size_ = 1;
+};
+
+} // namespace millwright::app

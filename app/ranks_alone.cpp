@@ -1,0 +1,31 @@
+// In a build without MPI.
+#include "app/ranks.h"
+#include "core/base/error.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace millwright::app {
+
+Ranks::Ranks() {
+    const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
+    if (size != nullptr && std::string(size) != "1") {
+        throw Error("this build has no MPI, each process would do the whole work",
+                    {},
+                    "install libopenmpi-dev, then build again");
+    }
+}
+
+Ranks::~Ranks() = default;
+
+void Ranks::tell(std::string_view) const {
+    throw Defect("rank 0 is told, it does not tell");
+}
+
+void Ranks::tell_all(std::string_view) const {} // there is nobody else
+
+std::optional<Ranks::Message> Ranks::heard() const {
+    return std::nullopt;
+}
+
+} // namespace millwright::app

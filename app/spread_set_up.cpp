@@ -1,0 +1,181 @@
+#include "app/spread_set_up.h"
+
+#include "app/cost_message.h"
+#include "app/gather.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+using toolpath::SetUpCost;
+using toolpath::SetUpPlace;
+
+/// The places of one rank, some at a time; each is told of, or why there are no more.
+void work(const Ranks& ranks,
+          const SetUpCost& cost,
+          std::span<const SetUpPlace> places,
+          const Tell& tell,
+          const std::stop_token& stop) {
+    constexpr std::size_t at_a_time = 16;
+    const auto step = static_cast<std::size_t>(ranks.size());
+    try {
+        for (auto from = static_cast<std::size_t>(ranks.rank()); from < places.size();
+             from += at_a_time * step) {
+            std::vector<SetUpPlace> some;
+            for (std::size_t n = from; n < places.size() && some.size() < at_a_time; n += step) {
+                some.push_back(places[n]);
+            }
+            tell(packed(CostMessage{from, costs_at(cost, some, Progress({}, stop)), {}}));
+        }
+    } catch (const Cancelled&) {
+        tell(packed(CostMessage{0, {}, "was stopped"}));
+    } catch (const std::exception& failure) {
+        tell(packed(CostMessage{0, {}, std::string("failed: ") + failure.what()}));
+    }
+}
+
+std::string name_of(const SetUpPlace& place) {
+    return fmt::format("({}, {}, {}) mm turned by {} degrees",
+                       fixed(place[0], 1),
+                       fixed(place[1], 1),
+                       fixed(place[2], 1),
+                       fixed(to_degrees(place[3]), 1));
+}
+
+/// What has come of one request.
+class Costs {
+public:
+    Costs(std::span<const SetUpPlace> places, int ranks)
+        : places_(places), ranks_(static_cast<std::size_t>(ranks)), costs_(places.size()), why_not_(ranks_) {}
+
+    void take(int from, const CostMessage& message) {
+        if (!message.why_not.empty()) {
+            why_not_[static_cast<std::size_t>(from)] = message.why_not;
+        }
+        for (std::size_t n = 0; n < message.costs.size(); ++n) {
+            std::optional<double>& cost = costs_.at(message.first + n * ranks_);
+            come_ += cost ? 0 : 1;
+            cost = message.costs[n];
+        }
+    }
+    [[nodiscard]] bool over() const {
+        for (std::size_t rank = 0; rank < ranks_; ++rank) {
+            if (why_not_[rank].empty() && !missing(rank).empty()) {
+                return false;
+            }
+        }
+        return true;
+    }
+    [[nodiscard]] double fraction() const {
+        return places_.empty() ? 1.0 : static_cast<double>(come_) / static_cast<double>(places_.size());
+    }
+    [[nodiscard]] std::size_t come() const { return come_; }
+
+    /// A sentence a rank whose costs are not all here; those that were only stopped are silent.
+    [[nodiscard]] std::vector<std::string> lost() const {
+        std::vector<std::string> sentences;
+        for (std::size_t rank = 0; rank < ranks_; ++rank) {
+            const std::vector<std::size_t> without = missing(rank);
+            if (without.empty() || why_not_[rank] == "was stopped") {
+                continue;
+            }
+            sentences.push_back(fmt::format("rank {} {}; without {} of its places: from {} to {}",
+                                            rank,
+                                            why_not_[rank].empty() ? "has not ended" : why_not_[rank],
+                                            without.size(),
+                                            name_of(places_[without.front()]),
+                                            name_of(places_[without.back()])));
+        }
+        return sentences;
+    }
+    [[nodiscard]] std::vector<double> all() const {
+        std::vector<double> all;
+        std::ranges::transform(costs_, std::back_inserter(all), [](const auto& cost) { return *cost; });
+        return all;
+    }
+
+private:
+    [[nodiscard]] std::vector<std::size_t> missing(std::size_t rank) const {
+        std::vector<std::size_t> found;
+        for (std::size_t n = rank; n < costs_.size(); n += ranks_) {
+            if (!costs_[n]) {
+                found.push_back(n);
+            }
+        }
+        return found;
+    }
+
+    std::span<const SetUpPlace> places_;
+    std::size_t ranks_;
+    std::vector<std::optional<double>> costs_;
+    std::vector<std::string> why_not_; ///< of each rank that has ended early
+    std::size_t come_ = 0;
+};
+
+} // namespace
+
+SpreadCosts::SpreadCosts(const Ranks& ranks,
+                         const SetUpCost& cost,
+                         std::function<void(const std::string&)> say)
+    : ranks_(ranks), cost_(cost), say_(std::move(say)) {}
+
+SpreadCosts::~SpreadCosts() {
+    if (!lost_) {
+        ranks_.tell_all({});
+    }
+}
+
+std::vector<double> SpreadCosts::at(std::span<const SetUpPlace> places, const Progress& progress) {
+    ranks_.tell_all(packed(places));
+    Costs costs(places, ranks_.size());
+    const bool whole = gather(
+        ranks_,
+        [&](const Tell& tell, const std::stop_token& stop) { work(ranks_, cost_, places, tell, stop); },
+        [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
+        [&] {
+            progress.report(costs.fraction(),
+                            fmt::format("{} places on {} ranks", places.size(), ranks_.size()));
+            return costs.over();
+        },
+        progress);
+    const std::vector<std::string> lost = costs.lost();
+    lost_ = !lost.empty();
+    std::ranges::for_each(lost, say_);
+    if (lost_) {
+        throw Error(fmt::format("{} of {} places were measured: {}", costs.come(), places.size(), lost[0]));
+    }
+    if (!whole) {
+        throw Cancelled();
+    }
+    return costs.all();
+}
+
+void help_with_costs(const Ranks& ranks, const SetUpCost& cost, const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds nap{5};
+    while (!stop.stop_requested()) {
+        const auto word = ranks.heard();
+        if (!word) {
+            std::this_thread::sleep_for(nap);
+        } else if (word->text.empty()) {
+            return;
+        } else {
+            const std::vector<SetUpPlace> places = unpacked_places(word->text);
+            work(
+                ranks, cost, places, [&](const std::string& bytes) { ranks.tell(bytes); }, stop);
+        }
+    }
+}
+
+} // namespace millwright::app

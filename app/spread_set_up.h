@@ -1,0 +1,42 @@
+// The places of a set-up search on all ranks: place n on rank n % size. The costs are those of one process,
+// to the bit.
+#pragma once
+
+#include "app/ranks.h"
+#include "core/base/progress.h"
+#include "core/toolpath/set_up_search.h"
+
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+/// At rank 0, while the others are in help_with_costs() with the same cost.
+class SpreadCosts {
+public:
+    /// `say` is told of ranks that failed or went, in a sentence each with their places.
+    SpreadCosts(const Ranks& ranks,
+                const toolpath::SetUpCost& cost,
+                std::function<void(const std::string&)> say);
+    SpreadCosts(const SpreadCosts&) = delete;
+    SpreadCosts& operator=(const SpreadCosts&) = delete;
+    ~SpreadCosts(); ///< lets the others go
+
+    /// As toolpath::SetUpCosts. Throws Error if costs did not come; Cancelled.
+    [[nodiscard]] std::vector<double> at(std::span<const toolpath::SetUpPlace> places,
+                                         const Progress& progress);
+
+private:
+    const Ranks& ranks_;
+    const toolpath::SetUpCost& cost_;
+    std::function<void(const std::string&)> say_;
+    bool lost_ = false; ///< some rank, which nothing can be told any more
+};
+
+/// At the others, until rank 0 lets them go.
+void help_with_costs(const Ranks& ranks, const toolpath::SetUpCost& cost, const std::stop_token& stop);
+
+} // namespace millwright::app

@@ -1,0 +1,155 @@
+#include "app/spread_study.h"
+
+#include "app/gather.h"
+#include "app/study_message.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <numeric>
+#include <stop_token>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+using project::StudyCase;
+using project::StudyRow;
+
+/// The cases of one rank, one after another; every one is told of, and the end in any case.
+void work(const Ranks& ranks,
+          std::span<const StudyCase> cases,
+          const StudyOne& study,
+          const Tell& tell_bytes,
+          const std::stop_token& stop) {
+    const auto tell = [&](const StudyMessage& message) { tell_bytes(packed(message)); };
+    constexpr std::chrono::milliseconds between_reports{200};
+    auto last = std::chrono::steady_clock::now();
+    StudyMessage end{.ended = true};
+    try {
+        for (std::size_t n = static_cast<std::size_t>(ranks.rank()); n < cases.size();
+             n += static_cast<std::size_t>(ranks.size())) {
+            const auto report = [&, n](const Progress::Report& now) {
+                if (std::chrono::steady_clock::now() - last > between_reports) {
+                    last = std::chrono::steady_clock::now();
+                    tell({.at = n, .fraction = now.fraction, .text = now.text});
+                }
+            };
+            tell({.at = n, .fraction = 1.0, .rows = study(cases[n], Progress(report, stop))});
+        }
+    } catch (const Cancelled&) {
+        end.text = "stopped";
+    } catch (const std::exception& failure) {
+        end.text = failure.what();
+        end.failed = true;
+    }
+    tell(end);
+}
+
+std::string name_of(const StudyCase& of) {
+    return fmt::format("{} on {} with {} points", of.surface, of.machine, of.points);
+}
+
+/// Where all ranks are.
+class Gathering {
+public:
+    Gathering(int ranks, std::span<const StudyCase> cases)
+        : cases_(cases), ranks_(static_cast<std::size_t>(ranks)), fractions_(cases.size(), 0.0) {
+        study_.rows.resize(cases.size());
+    }
+
+    void take(int from, StudyMessage message) {
+        Rank& rank = ranks_[static_cast<std::size_t>(from)];
+        rank.ended = rank.ended || message.ended;
+        if (message.failed) {
+            rank.why = message.text;
+        }
+        if (message.at) {
+            fractions_.at(*message.at) = message.fraction;
+        }
+        if (message.rows) {
+            study_.rows.at(*message.at) = std::move(*message.rows);
+        }
+    }
+    [[nodiscard]] bool over() const { return std::ranges::all_of(ranks_, &Rank::ended); }
+    [[nodiscard]] double fraction() const {
+        return std::accumulate(fractions_.begin(), fractions_.end(), 0.0) /
+               static_cast<double>(cases_.size());
+    }
+    [[nodiscard]] const std::vector<StudyRow>& rows(std::size_t n) const { return study_.rows[n]; }
+
+    [[nodiscard]] SpreadStudy result() && {
+        for (std::size_t r = 0; r < ranks_.size(); ++r) {
+            std::string missing;
+            for (std::size_t n = r; n < cases_.size(); n += ranks_.size()) {
+                if (study_.rows[n].empty()) {
+                    missing += (missing.empty() ? "" : ", ") + name_of(cases_[n]);
+                }
+            }
+            if (!missing.empty()) {
+                study_.lost.push_back(
+                    fmt::format("rank {} {}; without its cases: {}", r, fate(ranks_[r]), missing));
+            }
+        }
+        return std::move(study_);
+    }
+
+private:
+    struct Rank {
+        bool ended = false;
+        std::string why; ///< it failed
+    };
+
+    static std::string fate(const Rank& rank) {
+        if (!rank.why.empty()) {
+            return "failed: " + rank.why;
+        }
+        return rank.ended ? "was stopped" : "has not ended";
+    }
+
+    std::span<const StudyCase> cases_;
+    std::vector<Rank> ranks_;
+    std::vector<double> fractions_;
+    SpreadStudy study_;
+};
+
+} // namespace
+
+SpreadStudy gather_study(const Ranks& ranks,
+                         std::span<const StudyCase> cases,
+                         const StudyOne& study,
+                         const std::function<void(std::span<const StudyRow>)>& done,
+                         const Progress& progress) {
+    Gathering gathering(ranks.size(), cases);
+    std::size_t shown = 0;
+    const bool whole = gather(
+        ranks,
+        [&](const Tell& tell, const std::stop_token& stop) { work(ranks, cases, study, tell, stop); },
+        [&](int from, const std::string& bytes) { gathering.take(from, unpacked(bytes)); },
+        [&] {
+            for (; shown < cases.size() && !gathering.rows(shown).empty(); ++shown) {
+                done(gathering.rows(shown));
+            }
+            progress.report(gathering.fraction(),
+                            fmt::format("{} cases on {} ranks", cases.size(), ranks.size()));
+            return gathering.over();
+        },
+        progress);
+    SpreadStudy result = std::move(gathering).result();
+    result.stopped = !whole;
+    return result;
+}
+
+void help_with_study(const Ranks& ranks,
+                     std::span<const StudyCase> cases,
+                     const StudyOne& study,
+                     const std::stop_token& stop) {
+    work(
+        ranks, cases, study, [&](const std::string& bytes) { ranks.tell(bytes); }, stop);
+}
+
+} // namespace millwright::app

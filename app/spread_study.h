@@ -1,0 +1,39 @@
+// The cases of a study on all ranks: case n on rank n % size. The rows are those of one process, to the bit.
+#pragma once
+
+#include "app/ranks.h"
+#include "core/base/progress.h"
+#include "core/project/kinematic_study.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+struct SpreadStudy {
+    std::vector<std::vector<project::StudyRow>> rows; ///< one element a case; empty for one that did not come
+    std::vector<std::string>
+        lost;             ///< a sentence a rank that failed or went, with its cases that did not come
+    bool stopped = false; ///< because the user, or mpirun, said so
+};
+
+/// One case on this rank. Throws as it likes.
+using StudyOne = std::function<std::vector<project::StudyRow>(const project::StudyCase&, const Progress&)>;
+
+/// At rank 0: does its own cases in a thread and gathers those of the others; `done` is called with the rows
+/// of each case in the order of the cases, as soon as those before it have come.
+[[nodiscard]] SpreadStudy gather_study(const Ranks& ranks,
+                                       std::span<const project::StudyCase> cases,
+                                       const StudyOne& study,
+                                       const std::function<void(std::span<const project::StudyRow>)>& done,
+                                       const Progress& progress);
+
+/// At the others: does their cases and tells rank 0. Never throws what `study` throws: rank 0 is told.
+void help_with_study(const Ranks& ranks,
+                     std::span<const project::StudyCase> cases,
+                     const StudyOne& study,
+                     const std::stop_token& stop);
+
+} // namespace millwright::app

@@ -1,0 +1,281 @@
+// Reading and writing by Open CASCADE 7.6; reading in a process of its own.
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/exchange/cad_file.h"
+#include "core/exchange/internal/cad_child.h"
+#include "core/exchange/internal/cad_faces.h"
+#include "core/exchange/internal/cad_frames.h"
+#include "core/exchange/internal/cad_reading.h"
+#include "core/exchange/internal/file_kind.h"
+#include "core/exchange/internal/occt.h"
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <Precision.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_StepModel.hxx>
+#include <TColStd_Array2OfReal.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace millwright::exchange {
+
+namespace {
+
+enum class CadKind { step, iges };
+
+/// By its content: the library reads anything as far as it can, and says nothing.
+CadKind checked_kind(const std::filesystem::path& file) {
+    constexpr std::size_t section_column = 72;
+    std::ifstream stream(file, std::ios::binary);
+    std::string head(1024, '\0');
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    if (!stream && !stream.eof()) {
+        throw Error("the file cannot be read", file);
+    }
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    const std::size_t start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (start == std::string::npos) {
+        throw Error("the file is empty", file);
+    }
+    const bool step_name = kind_of(file) == "step" || kind_of(file) == "stp";
+    if (head.compare(start, 12, "ISO-10303-21") == 0) {
+        return CadKind::step;
+    }
+    if (!step_name && head.size() > section_column && head[section_column] == 'S') {
+        return CadKind::iges;
+    }
+    throw Error(step_name ? "no STEP file: it does not begin with ISO-10303-21"
+                          : "no IGES file: column 73 of the first line is not S",
+                file);
+}
+
+/// The two kinds of file name the same units differently.
+std::string short_unit(std::string unit) {
+    std::ranges::transform(unit, unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    return unit == "millimetre" ? "mm" : unit == "in" ? "inch" : unit;
+}
+
+std::string unit_of(STEPControl_Reader& reader) {
+    TColStd_SequenceOfAsciiString lengths;
+    TColStd_SequenceOfAsciiString angles;
+    TColStd_SequenceOfAsciiString solid_angles;
+    reader.FileUnits(lengths, angles, solid_angles);
+    return short_unit(lengths.IsEmpty() ? "" : lengths.First().ToCString());
+}
+
+std::string unit_of(const IGESControl_Reader& reader) {
+    const Handle(TCollection_HAsciiString) name = reader.IGESModel()->GlobalSection().UnitName();
+    return short_unit(name.IsNull() ? "" : name->ToCString());
+}
+
+template <typename Reader>
+CadModel read_by(Reader reader, const std::filesystem::path& file, const Progress& progress) {
+    progress.report(0.0, "reading the file");
+    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+        throw Error("the file is damaged, no model can be read from it", file);
+    }
+    progress.check();
+    const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
+    reader.TransferRoots(indicator->Start());
+    progress.check();
+    const TopoDS_Shape shape = reader.OneShape();
+    if (shape.IsNull()) {
+        throw Error("the file has no body and no surface", file);
+    }
+    CadModel model = faces_of(shape, file, progress.part(0.6, 1.0));
+    model.unit = unit_of(reader);
+    return model;
+}
+
+Handle(Geom_BezierSurface) bezier_of(const geometry::BezierPatch& patch) {
+    const geometry::ControlNet& net = patch.net();
+    TColgp_Array2OfPnt points(1, net.rows, 1, net.columns);
+    TColStd_Array2OfReal weights(1, net.rows, 1, net.columns);
+    for (int i = 0; i < net.rows; ++i) {
+        for (int j = 0; j < net.columns; ++j) {
+            const Vec3& point = net.point(i, j);
+            points(i + 1, j + 1) = gp_Pnt(point.x(), point.y(), point.z());
+            weights(i + 1, j + 1) = net.weight(i, j);
+        }
+    }
+    return patch.rational() ? new Geom_BezierSurface(points, weights) : new Geom_BezierSurface(points);
+}
+
+TopoDS_Face face_of(const geometry::BezierPatch& patch, const std::filesystem::path& file) {
+    if (std::max(patch.degree_u(), patch.degree_v()) > Geom_BezierSurface::MaxDegree()) {
+        throw Error(fmt::format("a patch of degree {} x {} cannot be written, {} is the highest",
+                                patch.degree_u(),
+                                patch.degree_v(),
+                                Geom_BezierSurface::MaxDegree()),
+                    file);
+    }
+    BRepBuilderAPI_MakeFace face(bezier_of(patch), Precision::Confusion());
+    if (!face.IsDone()) {
+        throw Error("a patch makes no face: it has no area or touches itself", file);
+    }
+    return face.Face();
+}
+
+/// All of them together: the library's writer looks through its whole model for each shape it is given.
+TopoDS_Compound
+faces_of(const geometry::Surface& surface, const std::filesystem::path& file, const Progress& progress) {
+    TopoDS_Compound all;
+    const BRep_Builder builder;
+    builder.MakeCompound(all);
+    double done = 0.0;
+    for (const geometry::BezierPatch& patch : surface.patches()) {
+        progress.check();
+        builder.Add(all, face_of(patch, file));
+        progress.report(++done / surface.patch_count());
+    }
+    return all;
+}
+
+/// The library's own name counts what one run of the program has written.
+void name_product(const StepData_StepModel& model, const std::string& name) {
+    for (int n = 1; n <= model.NbEntities(); ++n) {
+        const Handle(StepBasic_Product) product = Handle(StepBasic_Product)::DownCast(model.Value(n));
+        if (!product.IsNull()) {
+            product->SetId(new TCollection_HAsciiString(name.c_str()));
+            product->SetName(new TCollection_HAsciiString(name.c_str()));
+        }
+    }
+}
+
+/// A file of its own in the folder for such, gone with the object.
+class ScratchFile {
+public:
+    ScratchFile() : path_((std::filesystem::temp_directory_path() / "millwright-XXXXXX.step").string()) {
+        constexpr int suffix = 5;
+        const int handle = ::mkstemps(path_.data(), suffix);
+        if (handle < 0) {
+            throw Error("no file can be made there", path_);
+        }
+        ::close(handle);
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile() {
+        std::error_code gone_already;
+        std::filesystem::remove(path_, gone_already);
+    }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+} // namespace
+
+namespace {
+
+/// Throws the error that the child tells.
+void heed(const Frame& frame,
+          std::optional<CadModel>& model,
+          const std::filesystem::path& file,
+          const Progress& progress) {
+    if (frame.kind == FrameKind::model) {
+        model = unpacked(frame.bytes);
+    } else if (frame.kind == FrameKind::error) {
+        const std::size_t end = std::min(frame.bytes.find('\0'), frame.bytes.size());
+        const std::size_t hint = std::min(end + 1, frame.bytes.size());
+        throw Error(frame.bytes.substr(0, end), file, frame.bytes.substr(hint));
+    } else if (frame.bytes.size() == sizeof(double)) {
+        double fraction = 0.0;
+        std::memcpy(&fraction, frame.bytes.data(), sizeof fraction);
+        progress.report(fraction, "reading the file");
+    }
+}
+
+} // namespace
+
+bool reads_cad_files() {
+    return true;
+}
+
+CadModel read_cad_here(const std::filesystem::path& file, const Progress& progress) {
+    const CadKind kind = checked_kind(file);
+    return with_occt(file, [&] {
+        return kind == CadKind::step ? read_by(STEPControl_Reader(), file, progress)
+                                     : read_by(IGESControl_Reader(), file, progress);
+    });
+}
+
+CadModel read_cad(const std::filesystem::path& file, const Progress& progress) {
+    (void)checked_kind(file);
+    CadChild child(file);
+    std::optional<CadModel> model;
+    std::string stream;
+    for (bool talks = true; talks;) {
+        progress.check();
+        talks = child.listen(stream);
+        while (const auto frame = take_frame(stream)) {
+            heed(*frame, model, file, progress);
+        }
+    }
+    const std::string fault = child.end();
+    if (!fault.empty() || !model) {
+        throw Error("the file is damaged: Open CASCADE ends while it reads it" +
+                        (fault.empty() ? "" : ", " + fault),
+                    file);
+    }
+    return std::move(*model);
+}
+
+void write_step(const geometry::Surface& surface,
+                const std::filesystem::path& file,
+                const Progress& progress) {
+    const ScratchFile scratch;
+    progress.report(0.0, "making the faces");
+    with_occt(file, [&] {
+        STEPControl_Writer writer;
+        constexpr int one_part = 0; // else each face is a part of an assembly
+        Interface_Static::SetIVal("write.step.assembly", one_part);
+        const TopoDS_Compound faces = faces_of(surface, file, progress.part(0.0, 0.1));
+        const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
+        const bool taken =
+            writer.Transfer(faces, STEPControl_AsIs, Standard_True, indicator->Start()) == IFSelect_RetDone;
+        progress.check();
+        progress.report(0.6, "writing the file");
+        if (!taken) {
+            throw Error("the surface cannot be written as STEP", file);
+        }
+        name_product(*writer.Model(), file.stem().string());
+        // Without a time, so that the same surface is the same file.
+        APIHeaderSection_MakeHeader header(writer.Model());
+        header.SetTimeStamp(new TCollection_HAsciiString(""));
+        header.SetName(new TCollection_HAsciiString(file.stem().c_str()));
+        header.SetOriginatingSystem(new TCollection_HAsciiString("Millwright"));
+        if (writer.Write(scratch.path().c_str()) != IFSelect_RetDone) {
+            throw Error("the surface cannot be written as STEP", file);
+        }
+    });
+    progress.check();
+    write_file(file, read_file(scratch.path()));
+    progress.report(1.0);
+}
+
+} // namespace millwright::exchange

@@ -1,0 +1,52 @@
+// millwright-cad FILE: reads a STEP or IGES file and says on standard output what is in it, in frames. A
+// process of its own, so that a file that breaks the library breaks nothing else.
+#include "core/base/error.h"
+#include "core/exchange/internal/cad_frames.h"
+#include "core/exchange/internal/cad_reading.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+namespace millwright::exchange {
+
+namespace {
+
+bool say(const Frame& frame) {
+    const std::string bytes = framed(frame);
+    return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
+}
+
+bool say_error(const std::string& message, const std::string& hint) {
+    return say({FrameKind::error, message + '\0' + hint});
+}
+
+int read(const char* file) {
+    const Progress progress(
+        [](const Progress::Report& report) {
+            const double fraction = report.fraction;
+            (void)say({FrameKind::progress, {reinterpret_cast<const char*>(&fraction), sizeof fraction}});
+        },
+        {});
+    try {
+        return say({FrameKind::model, packed(read_cad_here(file, progress))}) ? 0 : 1;
+    } catch (const Error& error) {
+        return say_error(error.diagnostic().message, error.diagnostic().hint) ? 0 : 1;
+    } catch (const std::exception& failure) {
+        return say_error(std::string("the file cannot be read: ") + failure.what(), "") ? 0 : 1;
+    }
+}
+
+} // namespace
+
+} // namespace millwright::exchange
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fputs("usage: millwright-cad FILE\n", stderr);
+        return 2;
+    }
+    // All is said and flushed; what the library still holds goes with the process.
+    std::_Exit(millwright::exchange::read(argv[1]));
+}

@@ -1,0 +1,13 @@
+// Designs and bodies that come from other programs and go to them: triangles (STL, OBJ, PLY) and exact
+// surfaces (STEP, IGES).
+//
+//   const TriangleMesh mesh = read_mesh("scan.stl", 1.0, progress);    the reference
+//   const MeshFit fit = fit_patch(mesh, settings, progress);           a patch near it, and how near
+//   const CadModel model = read_cad("part.step", progress);            faces as Bezier patches
+//   write_surface(surface, "part.step", tolerance, progress);          the way back
+#pragma once
+
+#include "core/exchange/cad_file.h"
+#include "core/exchange/mesh_file.h"
+#include "core/exchange/patch_fit.h"
+#include "core/exchange/surface_file.h"

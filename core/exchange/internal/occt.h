@@ -1,0 +1,53 @@
+// What reading and writing by Open CASCADE have in common: its own failures as ours, its messages silent, one
+// caller at a time, because its settings are global.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/base/progress.h"
+
+#include <Message_ProgressIndicator.hxx>
+#include <Standard_Failure.hxx>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <mutex>
+
+namespace millwright::exchange {
+
+/// Held while the library is at work.
+class OcctTurn {
+public:
+    OcctTurn();
+
+private:
+    std::unique_lock<std::mutex> turn_;
+};
+
+/// Passes the library's reports on, and that the user said stop.
+class OcctProgress final : public Message_ProgressIndicator {
+public:
+    explicit OcctProgress(Progress progress) : progress_(std::move(progress)) {}
+
+protected:
+    Standard_Boolean UserBreak() override { return progress_.cancelled() ? Standard_True : Standard_False; }
+    void Show(const Message_ProgressScope&, Standard_Boolean) override { progress_.report(GetPosition()); }
+
+private:
+    Progress progress_;
+};
+
+/// Calls `work`; what the library throws becomes an Error about `file`.
+template <typename Work> auto with_occt(const std::filesystem::path& file, Work work) {
+    const OcctTurn turn;
+    try {
+        return work();
+    } catch (const Standard_Failure& failure) {
+        const char* const reason = failure.GetMessageString();
+        throw Error(
+            fmt::format("Open CASCADE gives up: {}",
+                        reason != nullptr && *reason != '\0' ? reason : failure.DynamicType()->Name()),
+            file);
+    }
+}
+
+} // namespace millwright::exchange

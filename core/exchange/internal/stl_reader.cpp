@@ -1,0 +1,103 @@
+#include "core/exchange/internal/mesh_readers.h"
+#include "core/exchange/internal/word_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+namespace millwright::exchange {
+
+namespace {
+
+constexpr std::size_t head_size = 84;  // 80 bytes of text and the count
+constexpr std::size_t facet_size = 50; // normal, three corners, two bytes more
+constexpr std::uint32_t between_checks = 10'000;
+
+/// Intel's byte order, which is ours.
+template <typename Value> Value value_at(std::string_view bytes, std::size_t place) {
+    Value value;
+    std::memcpy(&value, bytes.data() + place, sizeof value);
+    return value;
+}
+
+void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
+    if (bytes.size() < head_size) {
+        soup.fail(
+            fmt::format("neither text, nor the {} bytes that a binary STL file begins with", head_size));
+    }
+    const auto count = value_at<std::uint32_t>(bytes, 80);
+    const std::uint64_t wanted = head_size + std::uint64_t{count} * facet_size;
+    if (bytes.size() < wanted) {
+        soup.fail(fmt::format("{} triangles take {} bytes, the file has {}", count, wanted, bytes.size()));
+    }
+    for (std::uint32_t n = 0; n < count; ++n) {
+        if (n % between_checks == 0) {
+            progress.check();
+        }
+        const int first = static_cast<int>(soup.point_count());
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t at = head_size + n * facet_size + 12 * (k + 1);
+            soup.add_point(Eigen::Vector3f(value_at<float>(bytes, at),
+                                           value_at<float>(bytes, at + 4),
+                                           value_at<float>(bytes, at + 8))
+                               .cast<double>());
+        }
+        soup.add_face(std::array{first, first + 1, first + 2});
+    }
+}
+
+void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
+    WordLines lines(bytes);
+    int corners = -1; // outside of a loop
+    while (const auto* words = lines.next()) {
+        if (static_cast<std::uint32_t>(lines.number()) % between_checks == 0) {
+            progress.check();
+        }
+        if (words->empty()) {
+            continue;
+        }
+        const std::string_view word = words->front();
+        if (word == "outer") {
+            corners = 0;
+        } else if (word == "vertex") {
+            if (corners < 0) {
+                soup.fail("a vertex outside of a loop", lines.number());
+            }
+            soup.add_point(vector_from(*words, 1, soup, lines.number()), lines.number());
+            ++corners;
+        } else if (word == "endloop") {
+            if (corners != 3) {
+                soup.fail(fmt::format("a loop of {} corners", std::max(corners, 0)), lines.number());
+            }
+            const int last = static_cast<int>(soup.point_count());
+            soup.add_face(std::array{last - 3, last - 2, last - 1}, lines.number());
+            corners = -1;
+        } else if (word != "facet" && word != "endfacet" && word != "solid" && word != "endsolid") {
+            soup.fail(fmt::format("'{}' is no word of an STL file", word.substr(0, 40)), lines.number());
+        }
+    }
+    if (corners >= 0) {
+        soup.fail("the file ends inside of a loop", lines.number());
+    }
+}
+
+/// A binary file may begin with the word solid, too; its length tells.
+bool is_text(std::string_view bytes) {
+    const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+    if (start == std::string_view::npos || !bytes.substr(start).starts_with("solid")) {
+        return false;
+    }
+    return bytes.size() < head_size ||
+           bytes.size() != head_size + std::uint64_t{value_at<std::uint32_t>(bytes, 80)} * facet_size;
+}
+
+} // namespace
+
+void read_stl(std::string_view bytes, Soup& soup, const Progress& progress) {
+    is_text(bytes) ? read_text(bytes, soup, progress) : read_binary(bytes, soup, progress);
+}
+
+} // namespace millwright::exchange

@@ -1,0 +1,105 @@
+#include "core/exchange/mesh_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/exchange/internal/file_kind.h"
+#include "core/exchange/internal/mesh_readers.h"
+#include "core/exchange/internal/soup.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace millwright::exchange {
+
+namespace {
+
+/// For each point the first one, in the order of the file, that lies in the same place.
+std::vector<int> first_in_place(const std::vector<Vec3>& points) {
+    const auto key = [&](int n) {
+        const Vec3& p = points[static_cast<std::size_t>(n)];
+        return std::tuple(p.x(), p.y(), p.z());
+    };
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, [&](int a, int b) { return key(a) < key(b); });
+    std::vector<int> first(points.size());
+    for (std::size_t n = 0; n < order.size(); ++n) {
+        const int at = order[n];
+        const bool same = n > 0 && key(order[n - 1]) == key(at);
+        first[static_cast<std::size_t>(at)] = same ? first[static_cast<std::size_t>(order[n - 1])] : at;
+    }
+    return first;
+}
+
+/// Each place once, and triangles with an area alone.
+MeshFile joined(const TriangleMesh& soup) {
+    const std::vector<int> first = first_in_place(soup.points);
+    MeshFile result;
+    std::vector<int> place(soup.points.size(), -1);
+    const auto placed = [&](int corner) {
+        int& at = place[static_cast<std::size_t>(first[static_cast<std::size_t>(corner)])];
+        if (at < 0) {
+            at = static_cast<int>(result.mesh.points.size());
+            result.mesh.points.push_back(soup.points[static_cast<std::size_t>(corner)]);
+        }
+        return at;
+    };
+    for (std::size_t n = 0; n < soup.triangles.size(); ++n) {
+        const auto& [a, b, c] = soup.triangles[n];
+        if (!(soup.doubled_area(n).norm() > 0.0)) {
+            ++result.without_area;
+            continue;
+        }
+        result.mesh.triangles.push_back({placed(a), placed(b), placed(c)});
+    }
+    return result;
+}
+
+} // namespace
+
+bool is_mesh_file(const std::filesystem::path& file) {
+    constexpr std::array<std::string_view, 3> kinds{"stl", "obj", "ply"};
+    return std::ranges::find(kinds, kind_of(file)) != kinds.end();
+}
+
+MeshFile parse_mesh(std::string_view bytes,
+                    const std::filesystem::path& file,
+                    double mm_per_unit,
+                    const Progress& progress) {
+    expects(std::isfinite(mm_per_unit) && mm_per_unit > 0.0, "a unit of length is above zero");
+    if (!is_mesh_file(file)) {
+        throw Error("this kind of file is not read as a mesh", file, "STL, OBJ and PLY are");
+    }
+    if (bytes.empty()) {
+        throw Error("the file is empty", file);
+    }
+    progress.report(0.0, "reading the mesh");
+    Soup soup(file, mm_per_unit);
+    const std::string kind = kind_of(file);
+    if (kind == "stl") {
+        read_stl(bytes, soup, progress);
+    } else if (kind == "obj") {
+        read_obj(bytes, soup, progress);
+    } else {
+        read_ply(bytes, soup, progress);
+    }
+    progress.report(0.6, "joining points");
+    MeshFile result = joined(std::move(soup).take());
+    progress.check();
+    if (result.mesh.triangles.empty()) {
+        throw Error("the file has no triangle with an area", file);
+    }
+    return result;
+}
+
+MeshFile read_mesh(const std::filesystem::path& file, double mm_per_unit, const Progress& progress) {
+    return parse_mesh(read_file(file), file, mm_per_unit, progress);
+}
+
+} // namespace millwright::exchange

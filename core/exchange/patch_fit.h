@@ -1,0 +1,57 @@
+// A Bezier patch of chosen degree near a mesh: least squares over points spread evenly on the triangles.
+// After each round their parameters go to the nearest point of the patch (Hoschek and Lasser, Fundamentals of
+// Computer Aided Geometric Design, ch. 4.4), and the next one counts the distance from the tangent plane
+// there, which lets points slide along the patch and needs few rounds (Blake and Isard 1998, "tangent
+// distance minimization").
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/exchange/triangle_mesh.h"
+#include "core/geometry/bezier_patch.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace millwright::exchange {
+
+/// Above it the basis is too badly conditioned for least squares.
+inline constexpr int max_fit_degree = 12;
+
+/// Values outside their range throw Defect.
+struct FitSettings {
+    int degree_u = 5; ///< 1 to `max_fit_degree`
+    int degree_v = 5; ///< the same
+    std::optional<Vec3> along =
+        std::nullopt;   ///< unit, out of the part: the side that is fitted; else found, see `fit_patch`
+    int points = 5'000; ///< spread over the triangles, at least 100
+    int rounds = 12;    ///< of correcting the parameters, at most
+};
+
+/// Distances of points of the mesh from the patch, mm; above zero on the side of its normal.
+struct Deviation {
+    std::vector<double> at_points; ///< one a point of `MeshFit::side`
+    double max = 0.0;              ///< without sign
+    double mean = 0.0;             ///< without sign
+    double rms = 0.0;
+};
+
+struct MeshFit {
+    geometry::BezierPatch patch;
+    TriangleMesh side;          ///< the part of the mesh that was fitted
+    TriangleMesh left_out;      ///< the triangles that look the other way or sideways
+    double left_out_area = 0.0; ///< mm^2
+    Vec3 along = Vec3::UnitZ(); ///< unit, the way from which the side was seen
+    bool follows_outline = false;
+    Deviation deviation;
+    int rounds = 0;
+};
+
+/// The side of the mesh that is seen from `along` (if not given its mean normal, or +z where the mesh is
+/// closed). Where that is one sheet with four corners and no hole the patch follows its outline; else it
+/// fills the least rectangle around it, and goes on with little bending where that is empty. Throws Error if
+/// no triangle looks that way or they all lie in a line; Cancelled.
+[[nodiscard]] MeshFit
+fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const Progress& progress);
+
+} // namespace millwright::exchange

@@ -1,0 +1,63 @@
+#include "core/machine/drivers/pmac/arm_axes.h"
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_zone.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace millwright::machine {
+
+PmacSettings five_axis_arm_settings() {
+    PmacSettings settings = arm_settings();
+    settings.axes.push_back({.letter = 'B', .motor = 5, .counts_per_degree = 25'600.0 / 360.0});
+    return settings;
+}
+
+PmacSettings arm_settings_of(std::string_view axes) {
+    return axes.find('B') == std::string_view::npos ? arm_settings() : five_axis_arm_settings();
+}
+
+PmacSettings within_limits(PmacSettings settings, const kinematics::ArmModel& arm) {
+    if (arm.joint_count() < std::ssize(settings.axes)) {
+        throw Error(fmt::format("the card moves {} axes, and arm '{}' has {} joints",
+                                settings.axes.size(),
+                                arm.name(),
+                                arm.joint_count()));
+    }
+    for (std::size_t n = 0; n < settings.axes.size(); ++n) {
+        const kinematics::ArmJoint& joint = arm.joint(static_cast<int>(n));
+        if (joint.kind != kinematics::JointKind::revolute) {
+            throw Error(
+                fmt::format("joint {} of arm '{}' slides, and the card's axes turn", joint.name, arm.name()));
+        }
+        const auto limit = [](double angle) {
+            return std::isfinite(angle) ? std::optional(to_degrees(angle)) : std::nullopt;
+        };
+        settings.axes[n].min_deg = limit(joint.min);
+        settings.axes[n].max_deg = limit(joint.max);
+    }
+    settings.arm = std::make_shared<const kinematics::ArmModel>(arm);
+    return settings;
+}
+
+std::string leaves_zone(const PmacSettings& settings,
+                        const std::vector<double>& from_deg,
+                        const std::vector<double>& to_deg,
+                        double slack) {
+    if (!settings.arm) {
+        return {};
+    }
+    const auto joints = [&](const std::vector<double>& degrees) {
+        kinematics::JointPositions q = kinematics::JointPositions::Zero(settings.arm->joint_count());
+        for (std::size_t n = 0; n < degrees.size(); ++n) {
+            q[static_cast<Eigen::Index>(n)] = from_degrees(degrees[n]);
+        }
+        return q;
+    };
+    return kinematics::leaves_zone(*settings.arm, joints(from_deg), joints(to_deg), slack);
+}
+
+} // namespace millwright::machine

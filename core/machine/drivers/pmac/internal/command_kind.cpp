@@ -1,0 +1,63 @@
+#include "core/machine/drivers/pmac/internal/command_kind.h"
+
+#include <regex>
+#include <string>
+
+namespace millwright::machine::pmac {
+
+namespace {
+
+bool is(std::string_view line, const std::regex& whole) {
+    return std::regex_match(line.begin(), line.end(), whole);
+}
+
+} // namespace
+
+bool only_asks(std::string_view line) {
+    static const std::regex questions(
+        " *(([#&][0-9]+ *)?(P[0-9]+[.][.][0-9]+|P[0-9]*|[IMQ][0-9]+([.][.][0-9]+)?|[VF?]) *)+",
+        std::regex::icase);
+    return is(line, questions);
+}
+
+bool only_stops(std::string_view line) {
+    static const std::regex stops(R"( *(([#&][0-9]+ *)?(J */|[AHQS\\/]) *)+)", std::regex::icase);
+    return is(line, stops);
+}
+
+bool only_kills(std::string_view line) {
+    static const std::regex kills(" *(([#&][0-9]+ *)?K *)+", std::regex::icase);
+    return is(line, kills);
+}
+
+bool jogs(std::string_view line) {
+    static const std::regex jog("J *[:=^]", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), jog);
+}
+
+bool jogs_without_end(std::string_view line) {
+    static const std::regex jog("J *[-+]", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), jog);
+}
+
+bool only_sets(std::string_view line) {
+    static const std::regex settings(
+        " *([IPQM][0-9]+ *= *[-+]?[$0-9.][0-9A-F.]* *)+| *M[0-9]+ *-> *[*A-Z0-9:$,]+ *", std::regex::icase);
+    return is(line, settings);
+}
+
+std::optional<MotorStep> step_of(std::string_view line) {
+    static const std::regex step(" *#([1-8]) *J *: *([-+]?[0-9]{1,6})( +M[0-9]+)? *", std::regex::icase);
+    std::cmatch found;
+    if (!std::regex_match(line.data(), line.data() + line.size(), found, step)) {
+        return std::nullopt;
+    }
+    return MotorStep{std::stoi(found[1]), std::stod(found[2])};
+}
+
+bool opens_loop(std::string_view line) {
+    static const std::regex output("(^|[^A-Z])O *[-+]?[0.]*([1-9(]|[IPQM][0-9])", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), output);
+}
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,38 @@
+// What kind of on-line command a line to a PMAC is: which only ask, which only stop, which never end.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace millwright::machine::pmac {
+
+/// Whether `line` is nothing but questions after position, velocity, following error, status and variables,
+/// as `#1P M1023` and `&1??`: such a line changes nothing, also while motors move.
+[[nodiscard]] bool only_asks(std::string_view line);
+
+/// Whether `line` is nothing but stops, as `#1J/ #2J/`, `&1A`, `H`.
+[[nodiscard]] bool only_stops(std::string_view line);
+
+/// Whether `line` takes power away and does nothing else: `#1K`, `K`.
+[[nodiscard]] bool only_kills(std::string_view line);
+
+/// Whether `line` has a jog to a place, by a way or until a trigger (`J=`, `J:500`, `J^`).
+[[nodiscard]] bool jogs(std::string_view line);
+
+/// Whether `line` has a jog without an end (`J+`, `J-`), which runs until somebody thinks of stopping it.
+[[nodiscard]] bool jogs_without_end(std::string_view line);
+/// Whether `line` sets variables to numbers, or defines one, and does nothing else: `I130=2000`.
+[[nodiscard]] bool only_sets(std::string_view line);
+
+struct MotorStep {
+    int motor = 0;
+    double counts = 0.0;
+};
+
+/// `#1J:200`, with nothing but a question behind it.
+[[nodiscard]] std::optional<MotorStep> step_of(std::string_view line);
+
+/// Sets the output of a motor to anything but 0, its loop open.
+[[nodiscard]] bool opens_loop(std::string_view line);
+
+} // namespace millwright::machine::pmac

@@ -1,0 +1,30 @@
+// Jobs of G-code files whose motion is planned here.
+#pragma once
+
+#include "core/geometry/vectors.h"
+#include "core/machine/job.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace millwright::machine::internal {
+
+struct PlannedText {
+    std::optional<kinematics::AxisPositions> start = {}; ///< as planned_job()
+    Vec3 origin = Vec3::Zero();                          ///< where the program's zero lies on the machine
+};
+
+/// As planned_job().
+[[nodiscard]] Job planned_text(std::string_view text,
+                               const std::filesystem::path& file,
+                               std::shared_ptr<const kinematics::MachineModel> machine,
+                               const PlannedText& how);
+
+/// For Job::hash: the same file somewhere else on the machine is another job, which cannot go on with this
+/// one. Empty (that of the listing) at zero.
+[[nodiscard]] std::string hash_of(const gcode::Listing& listing, const Vec3& origin);
+
+} // namespace millwright::machine::internal

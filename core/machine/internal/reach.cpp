@@ -1,0 +1,91 @@
+#include "core/machine/internal/reach.h"
+
+#include "core/base/units.h"
+#include "core/kinematics/machine_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace millwright::machine::internal {
+
+namespace {
+
+constexpr double clearance = 1.0;                     // mm: more than any controller rounds or blends
+constexpr double clearance_angle = from_degrees(1.0); // rad
+constexpr double longest_doubt = 0.25;                // s: more than two reports
+
+/// Whether it begins as a survey does: G54, mm, absolute, XY.
+bool begins_plainly(std::string_view modes) {
+    constexpr std::array<std::string_view, 4> needed = {"G54", "G21", "G90", "G17"};
+    const std::string words = fmt::format(" {} ", modes);
+    return std::ranges::all_of(needed, [&words](std::string_view word) {
+        return words.find(fmt::format(" {} ", word)) != std::string::npos;
+    });
+}
+
+/// Grbl keeps the length of a tool as an offset that no survey knows.
+bool knows_offsets(const std::vector<StoredOffset>& offsets) {
+    return !offsets.empty() && std::ranges::none_of(offsets, [](const StoredOffset& offset) {
+        return offset.name == "TLO" && !offset.value.isZero();
+    });
+}
+
+} // namespace
+
+Reach::Reach(const Survey& found,
+             std::vector<gcode::ProgramAxis> axes,
+             const DriverStatus& before,
+             const std::vector<StoredOffset>& offsets)
+    : axes_(std::move(axes)), doubt_(before.position_doubt) {
+    if (found.errors.empty() && !found.probes && begins_plainly(before.modes) && knows_offsets(offsets)) {
+        found_ = found;
+    }
+}
+
+std::string Reach::watch(const DriverStatus& status, double now) {
+    const bool moves = status.state == DriverState::running && status.activity == Activity::program;
+    const bool rests = status.state == DriverState::idle;
+    if (!found_ || status.position_doubt != doubt_ || !(moves || rests)) {
+        return {};
+    }
+    std::string where = beyond(status);
+    if (where.empty()) {
+        since_.reset();
+        return {};
+    }
+    since_ = since_.value_or(now);
+    return rests || now - *since_ > longest_doubt ? where : std::string();
+}
+
+std::string Reach::beyond(const DriverStatus& status) const {
+    for (std::size_t n = 0; n < axes_.size() && std::cmp_less(n, status.position.size()); ++n) {
+        const gcode::ProgramAxis& axis = axes_[n];
+        const auto letter = std::ranges::find(gcode::axis_letters, axis.letter);
+        const auto index = static_cast<std::size_t>(letter - gcode::axis_letters.begin());
+        const std::optional<double> start = found_->start[index];
+        if (!start) {
+            continue;
+        }
+        const bool rotary = axis.kind == kinematics::AxisKind::rotary;
+        const double at = status.position[static_cast<Eigen::Index>(n)];
+        const double low = std::min(*start, found_->ranges[index].min);
+        const double high = std::max(*start, found_->ranges[index].max);
+        const double room = rotary ? clearance_angle : clearance;
+        if (at < low - room || at > high + room) {
+            const auto shown = [rotary](double value) { return rotary ? to_degrees(value) : value; };
+            return fmt::format("the machine reports {} {:.3f}, and the program never goes beyond {} {:.3f} "
+                               "(machine coordinates): a line was changed on its way to the controller",
+                               axis.letter,
+                               shown(at),
+                               axis.letter,
+                               shown(at < low ? low : high));
+        }
+    }
+    return {};
+}
+
+} // namespace millwright::machine::internal

@@ -1,0 +1,38 @@
+// Whether a machine is where its program can have sent it: a number that was changed on the way to a
+// controller shows in what the controller reports. Lengths mm, angles rad, times s.
+#pragma once
+
+#include "core/machine/survey.h"
+
+#include <optional>
+#include <string>
+
+namespace millwright::machine::internal {
+
+/// The box around everything that a program sends, and the watch over it.
+class Reach {
+public:
+    /// Knows of nothing.
+    Reach() = default;
+    /// `before` and `offsets` as the controller told them, `found` surveyed with them. What cannot be told
+    /// beforehand is not watched: programs that probe, and those that begin with other modes or offsets than
+    /// the survey does.
+    Reach(const Survey& found,
+          std::vector<gcode::ProgramAxis> axes,
+          const DriverStatus& before,
+          const std::vector<StoredOffset>& offsets);
+
+    /// What is wrong, a part of a sentence, once a running machine has been beyond the box for longer than
+    /// one wrong report can last, or rests there; else empty.
+    [[nodiscard]] std::string watch(const DriverStatus& status, double now);
+
+private:
+    [[nodiscard]] std::string beyond(const DriverStatus& status) const;
+
+    std::optional<Survey> found_;
+    std::vector<gcode::ProgramAxis> axes_;
+    std::string doubt_; ///< of the position, before
+    std::optional<double> since_;
+};
+
+} // namespace millwright::machine::internal

@@ -1,0 +1,15 @@
+#include "core/plot/standing_tabs.h"
+
+#include "core/base/error.h"
+
+namespace millwright::plot {
+
+std::vector<Level> with_standing_tabs(std::vector<Level> levels, double tool_diameter) {
+    expects(tool_diameter >= 0.0, "a tool has a width");
+    for (Level& level : levels) {
+        level.tabs.width += level.tabs.count > 0 ? tool_diameter : 0.0;
+    }
+    return levels;
+}
+
+} // namespace millwright::plot

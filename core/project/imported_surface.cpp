@@ -1,0 +1,250 @@
+#include "core/project/imported_surface.h"
+
+#include "core/base/error.h"
+#include "core/geometry/closest_point.h"
+#include "core/project/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::project {
+
+namespace {
+
+using exchange::CadFace;
+using exchange::TriangleMesh;
+
+exchange::FitSettings fit_settings(const ImportChoice& choice) {
+    const FitDegrees degrees = choice.degrees.value_or(FitDegrees{});
+    exchange::FitSettings settings;
+    settings.degree_u = degrees.u;
+    settings.degree_v = degrees.v;
+    settings.along = choice.along;
+    return settings;
+}
+
+void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
+    imported.surface.patches = {fit.patch.net()};
+    if (fit.left_out_area > 0.0) {
+        imported.notes.push_back(fmt::format(
+            "{:.4g} mm2 of the mesh look the other way or sideways and are left out", fit.left_out_area));
+    }
+    if (!fit.follows_outline) {
+        imported.notes.emplace_back(
+            "the mesh is no sheet with four corners: the patch fills the rectangle around it");
+    }
+    Box3 box;
+    for (const Vec3& point : fit.side.points) {
+        box.extend(point);
+    }
+    constexpr double far_off = 0.03; // of the diagonal
+    if (fit.deviation.max > far_off * box.diagonal().norm()) {
+        imported.notes.push_back(fmt::format("the patch is up to {:.3g} mm off: seen from this side the mesh "
+                                             "folds over itself, or the degree is too low",
+                                             fit.deviation.max));
+    }
+    imported.fit = std::move(fit);
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+    for (Vec3& point : mesh.points) {
+        point *= factor;
+    }
+    return mesh;
+}
+
+ImportedSurface
+import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Progress& progress) {
+    ImportedSurface imported;
+    if (read.without_area > 0) {
+        imported.notes.push_back(
+            fmt::format("{} triangles have no area and are left out", read.without_area));
+    }
+    take_fit(imported,
+             exchange::fit_patch(scaled(read.mesh, choice.mm_per_unit), fit_settings(choice), progress));
+    return imported;
+}
+
+/// All patches of a face; points on common sides are one.
+TriangleMesh triangles_of(const CadFace& face) {
+    constexpr int steps = 24; // of a patch each way
+    TriangleMesh mesh;
+    const int across = face.columns * steps + 1;
+    for (int i = 0; i <= face.rows * steps; ++i) {
+        for (int j = 0; j < across; ++j) {
+            const int row = std::min(i / steps, face.rows - 1);
+            const int column = std::min(j / steps, face.columns - 1);
+            const geometry::BezierPatch& patch =
+                face.patches[static_cast<std::size_t>(row * face.columns + column)];
+            mesh.points.push_back(patch.position(static_cast<double>(i - row * steps) / steps,
+                                                 static_cast<double>(j - column * steps) / steps));
+        }
+    }
+    for (int i = 0; i < face.rows * steps; ++i) {
+        for (int j = 0; j + 1 < across; ++j) {
+            const int a = i * across + j;
+            const int b = a + across;
+            mesh.triangles.push_back({a, b, b + 1});
+            mesh.triangles.push_back({a, b + 1, a + 1});
+        }
+    }
+    return mesh;
+}
+
+std::vector<geometry::Trim::Loop> loops_of(const CadFace& face) {
+    std::vector<geometry::Trim::Loop> loops;
+    if (face.trimmed()) {
+        loops.push_back(face.outline);
+        loops.insert(loops.end(), face.holes.begin(), face.holes.end());
+    }
+    return loops;
+}
+
+/// In the parameters of the whole face.
+Vec3 position_on(const CadFace& face, const Vec2& at) {
+    const int row = std::clamp(static_cast<int>(at.x()), 0, face.rows - 1);
+    const int column = std::clamp(static_cast<int>(at.y()), 0, face.columns - 1);
+    return face.patches[static_cast<std::size_t>(row * face.columns + column)].position(at.x() - row,
+                                                                                        at.y() - column);
+}
+
+/// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
+/// more corners, because they need not stay straight.
+geometry::Trim::Loop
+moved_onto(const geometry::ClosestPointSearch& patch, const CadFace& face, const geometry::Trim::Loop& loop) {
+    constexpr double longest = 1.0 / 16.0; // of an edge, in patches
+    geometry::Trim::Loop moved;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+        const Vec2& a = loop[n];
+        const Vec2 edge = loop[n + 1 == loop.size() ? 0 : n + 1] - a;
+        const int pieces = std::max(1, static_cast<int>(std::ceil(edge.norm() / longest)));
+        for (int k = 0; k < pieces; ++k) {
+            const Vec2 at = a + static_cast<double>(k) / pieces * edge;
+            const Vec2 start(at.x() / face.rows, at.y() / face.columns);
+            moved.push_back(patch.closest(position_on(face, at), start).parameters);
+        }
+    }
+    return moved;
+}
+
+ImportedSurface fitted_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
+    ImportedSurface imported;
+    take_fit(imported, exchange::fit_patch(triangles_of(face), fit_settings(choice), progress));
+    const geometry::ClosestPointSearch search(imported.fit->patch);
+    geometry::Trim trim;
+    for (const geometry::Trim::Loop& loop : loops_of(face)) {
+        progress.check();
+        trim.loops.push_back(moved_onto(search, face, loop));
+    }
+    if (!trim.everything()) {
+        imported.surface.trims = {std::move(trim)};
+    }
+    return imported;
+}
+
+/// Its patches, but those that lie outside of its outline.
+ImportedSurface face_as_it_is(const CadFace& face) {
+    ImportedSurface imported;
+    SurfaceInput& surface = imported.surface;
+    const std::vector<geometry::Trim::Loop> loops = loops_of(face);
+    for (int row = 0; row < face.rows; ++row) {
+        for (int column = 0; column < face.columns; ++column) {
+            const auto trim =
+                loops.empty() ? geometry::Trim{} : geometry::trim_in_square(loops, Vec2(row, column));
+            if (trim) {
+                surface.patches.push_back(
+                    face.patches[static_cast<std::size_t>(row * face.columns + column)].net());
+                surface.trims.push_back(*trim);
+            }
+        }
+    }
+    if (surface.patches.empty()) {
+        throw Error(fmt::format("face {} has nothing inside its outline", face.number));
+    }
+    if (std::ranges::all_of(surface.trims, &geometry::Trim::everything)) {
+        surface.trims.clear();
+    }
+    if (surface.patches.size() > 1) {
+        imported.notes.push_back(
+            fmt::format("face {} has {} patches, the first one is cut; a fitted patch is one for all",
+                        face.number,
+                        surface.patches.size()));
+    }
+    return imported;
+}
+
+const CadFace& chosen_face(const exchange::CadModel& model, const std::filesystem::path& file, int number) {
+    if (number == 0 && model.faces.size() == 1) {
+        return model.faces.front();
+    }
+    if (number == 0) {
+        throw Error(fmt::format("the file has {} faces", model.faces.size()),
+                    file,
+                    "choose one of them by its number");
+    }
+    const auto found = std::ranges::find(model.faces, number, &CadFace::number);
+    if (found == model.faces.end()) {
+        throw Error(fmt::format("the file has no face {} that can be used", number), file);
+    }
+    return *found;
+}
+
+void check_reach(const ImportedSurface& imported, const std::filesystem::path& file) {
+    for (const geometry::ControlNet& net : imported.surface.patches) {
+        for (const Vec3& point : net.points) {
+            if (!(point.cwiseAbs().maxCoeff() <= farthest_point_mm)) {
+                throw Error(
+                    fmt::format("a control point is farther than {} mm from the origin", farthest_point_mm),
+                    file,
+                    "is the unit right?");
+            }
+        }
+    }
+}
+
+} // namespace
+
+bool is_importable(const std::filesystem::path& file) {
+    return exchange::is_mesh_file(file) || exchange::is_cad_file(file);
+}
+
+ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
+    return choice.degrees ? fitted_face(face, choice, progress) : face_as_it_is(face);
+}
+
+ImportSource read_source(const std::filesystem::path& file, const Progress& progress) {
+    if (!is_importable(file)) {
+        throw Error("this kind of file is not imported", file, "STEP, IGES, STL, OBJ and PLY are");
+    }
+    ImportSource source;
+    source.file = file;
+    if (exchange::is_mesh_file(file)) {
+        source.mesh = exchange::read_mesh(file, 1.0, progress);
+    } else {
+        source.model = exchange::read_cad(file, progress);
+    }
+    return source;
+}
+
+ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice, const Progress& progress) {
+    ImportedSurface imported;
+    if (source.mesh) {
+        imported = import_mesh(*source.mesh, choice, progress);
+    } else {
+        imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
+        imported.notes.insert(
+            imported.notes.end(), source.model->left_out.begin(), source.model->left_out.end());
+    }
+    check_reach(imported, source.file);
+    return imported;
+}
+
+ImportedSurface
+import_surface(const std::filesystem::path& file, const ImportChoice& choice, const Progress& progress) {
+    return import_of(read_source(file, progress.part(0.0, 0.4)), choice, progress.part(0.4, 1.0));
+}
+
+} // namespace millwright::project

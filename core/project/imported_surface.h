@@ -1,0 +1,67 @@
+// A design from a file of another program: a face of a STEP or IGES file as it is, or a patch fitted to it or
+// to a mesh.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/exchange/cad_file.h"
+#include "core/exchange/mesh_file.h"
+#include "core/exchange/patch_fit.h"
+#include "core/project/project.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::project {
+
+/// Degrees of a patch that is fitted.
+struct FitDegrees {
+    int u = 5; ///< 1 to exchange::max_fit_degree
+    int v = 5; ///< the same
+
+    friend bool operator==(const FitDegrees&, const FitDegrees&) = default;
+};
+
+/// A file as it was read, before anything of it was chosen: one of both.
+struct ImportSource {
+    std::filesystem::path file;
+    std::optional<exchange::CadModel> model;
+    std::optional<exchange::MeshFile> mesh; ///< in the unit of the file, whichever that is
+};
+
+struct ImportChoice {
+    int face = 0;                           ///< of a STEP or IGES file, from 1; 0: the only one
+    double mm_per_unit = 1.0;               ///< of a mesh; the other files tell
+    std::optional<FitDegrees> degrees = {}; ///< meshes are always fitted, a face only if these are given
+    std::optional<Vec3> along = {};         ///< unit, out of the part: the side of a mesh that is fitted
+
+    friend bool operator==(const ImportChoice&, const ImportChoice&) = default;
+};
+
+struct ImportedSurface {
+    SurfaceInput surface;
+    std::optional<exchange::MeshFit> fit; ///< if one patch was fitted
+    std::vector<std::string> notes;       ///< what the person should know, a sentence each
+};
+
+/// Whether the name ends like that of a file that can be imported.
+[[nodiscard]] bool is_importable(const std::filesystem::path& file);
+
+/// Throws Error, naming the file, for one that cannot be read; Cancelled.
+[[nodiscard]] ImportSource read_source(const std::filesystem::path& file, const Progress& progress);
+
+/// Throws Error, naming the file, for no choice among several faces, a face or a side that there is not, and
+/// for control points beyond `farthest_point_mm`; Cancelled.
+[[nodiscard]] ImportedSurface
+import_of(const ImportSource& source, const ImportChoice& choice, const Progress& progress);
+
+/// Both in one go.
+[[nodiscard]] ImportedSurface
+import_surface(const std::filesystem::path& file, const ImportChoice& choice, const Progress& progress);
+
+/// The same of a face at hand.
+[[nodiscard]] ImportedSurface
+import_face(const exchange::CadFace& face, const ImportChoice& choice, const Progress& progress);
+
+} // namespace millwright::project

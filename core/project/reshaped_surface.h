@@ -1,0 +1,23 @@
+// The patches of a design by other control points, the shape kept (core/geometry/patch_refinement.h).
+#pragma once
+
+#include "core/geometry/patch_refinement.h"
+#include "core/project/project.h"
+
+namespace millwright::project {
+
+/// A patch of the design with a net of other degrees. Throws Error where a degree would sink, which would
+/// change the shape, or is above geometry::max_degree, or where there is no such patch.
+[[nodiscard]] SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int degree_v);
+
+/// The narrowest part of a patch that a split leaves, as a share of its parameter.
+inline constexpr double narrowest_split = 0.01;
+
+/// A patch of the design in two, where `parameter` is `at`: the second one comes right after the first. What
+/// a trimmed patch has on neither side of the line is left out. The machined patch stays it, or becomes the
+/// first of its halves. Throws Error where a part would be narrower than
+/// narrowest_split, or where there is no such patch.
+[[nodiscard]] SurfaceInput
+with_split(SurfaceInput surface, int patch, geometry::Parameter parameter, double at);
+
+} // namespace millwright::project

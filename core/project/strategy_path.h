@@ -1,0 +1,39 @@
+// What the program of a project follows: a zigzag over one of its grids, or the path of another strategy.
+#pragma once
+
+#include "core/project/evaluation.h"
+#include "core/project/project.h"
+
+#include <string>
+#include <string_view>
+
+namespace millwright::project {
+
+/// The grid whose nodes the program's path takes; uniform where the strategy makes its own points and takes
+/// the numbers of nodes alone.
+[[nodiscard]] GridMethod program_grid(const Project& project);
+
+/// Whether the program's path is another one than the zigzag over program_grid().
+[[nodiscard]] bool has_own_path(const Project& project);
+
+/// Whether that other path takes the nodes of a grid.
+[[nodiscard]] bool follows_nodes(StrategyInput strategy);
+
+/// Of a project that has_own_path(), and of the zigzag else.
+[[nodiscard]] toolpath::StrategySettings strategy_settings(const Project& project);
+
+/// "Constant scallop, 0.01 mm" for people; with the tolerance or height where there is one.
+[[nodiscard]] std::string strategy_text(const Project& project);
+
+/// What is being done when it is made, for people.
+inline constexpr std::string_view title_of_path = "Making the path";
+
+/// The path of the project's strategy over the grid of `base`, with its error. Throws Error where the
+/// surface cannot be covered like this or a pose cannot be reached; Cancelled.
+[[nodiscard]] Evaluation path_evaluation(const Project& project,
+                                         const Workpiece& workpiece,
+                                         const Evaluation& base,
+                                         int samples,
+                                         const Progress& progress);
+
+} // namespace millwright::project

@@ -1,0 +1,89 @@
+#include "tests/app/scratch_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace millwright::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class ImportCommand : public ScratchFiles {
+protected:
+    /// The dome of the shipped projects as a file of the other kind.
+    [[nodiscard]] std::string exported(const std::string& name, const std::string& tolerance = "0.02") const {
+        const Ended ended =
+            run({"export", "assets/projects/dome.json", "--out", path(name), "--tolerance", tolerance});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return path(name);
+    }
+};
+
+TEST_F(ImportCommand, StepComesBackAsItWas) {
+    const std::string file = exported("dome.step");
+    const Ended ended = run({"import", file, "--out", path("back.json"), "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(json::parse(ended.out).at("patches"), 1);
+    const Ended planned = run({"plan", path("back.json"), "--out", path("plan")});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    const auto nets = [](const std::string& project) {
+        return json::parse(content_of(project)).at("surface").at("patches");
+    };
+    ASSERT_EQ(run({"export", path("back.json"), "--out", path("again.step")}).exit_code, 0);
+    ASSERT_EQ(run({"import", path("again.step"), "--out", path("again.json")}).exit_code, 0);
+    EXPECT_EQ(nets(path("again.json")), nets(path("back.json")));
+}
+
+TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {
+    const std::string file = exported("dome.stl");
+    const Ended ended = run({"import",
+                             file,
+                             "--out",
+                             path("fit.json"),
+                             "--degree",
+                             "3x3",
+                             "--deviation",
+                             path("deviation.csv"),
+                             "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json told = json::parse(ended.out);
+    EXPECT_EQ(told.at("fit").at("degree"), (json{3, 3}));
+    EXPECT_TRUE(told.at("fit").at("follows_outline"));
+    EXPECT_LT(told.at("fit").at("max_mm"), 0.06); // the triangles lie up to 0.02 mm below the points
+    EXPECT_THAT(content_of(path("deviation.csv")), ::testing::StartsWith("x_mm,y_mm,z_mm,deviation_mm\n"));
+}
+
+TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {
+    const Ended faces = run({"import", exported("dome.step")});
+    ASSERT_EQ(faces.exit_code, 0) << faces.err;
+    EXPECT_THAT(faces.out, HasSubstr("1 x 1"));
+    EXPECT_THAT(faces.out, HasSubstr("3 x 3"));
+    EXPECT_THAT(faces.out, HasSubstr("unit of the file: mm"));
+    const Ended mesh = run({"import", exported("dome.ply", "1"), "--unit", "inch", "--json"});
+    ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
+    EXPECT_NEAR(json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
+}
+
+TEST_F(ImportCommand, SaysWhatIsWrong) {
+    const auto refusal = [&](const std::vector<std::string>& arguments) {
+        const Ended ended = run(arguments);
+        EXPECT_NE(ended.exit_code, 0);
+        return ended.err;
+    };
+    const std::string broken = written("broken.step", "ISO-10303-21;\nHEADER;\n");
+    EXPECT_THAT(refusal({"import", broken, "--out", path("p.json")}), HasSubstr("broken.step: "));
+    EXPECT_FALSE(std::filesystem::exists(path("p.json")));
+    EXPECT_THAT(refusal({"import", written("a.txt", "x")}),
+                HasSubstr("a.txt: this kind of file is not imported"));
+    EXPECT_THAT(refusal({"import", exported("d.step"), "--out", path("p.json"), "--face", "7"}),
+                HasSubstr("no face 7"));
+    EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),
+                HasSubstr("'40' is no degree"));
+    EXPECT_THAT(refusal({"export", "assets/projects/dome.json", "--out", path("dome.dwg")}),
+                HasSubstr("dome.dwg: a design is not written"));
+}
+
+} // namespace
+} // namespace millwright::test

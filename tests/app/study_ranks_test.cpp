@@ -1,0 +1,114 @@
+// A study on several ranks of a real mpirun.
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+namespace millwright::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<std::string> study(const std::string& out) {
+    return {"study", "kinematic-error", "--quick", "--surface", "dome", "--out", out};
+}
+
+const std::vector<std::string> two_ranks{"mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2"};
+
+/// The process that mpirun made rank `rank`; 0 if there is none.
+pid_t process_of_rank(pid_t mpirun, int rank) {
+    const std::string wanted = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
+    std::istringstream children(
+        content_of("/proc/" + std::to_string(mpirun) + "/task/" + std::to_string(mpirun) + "/children"));
+    for (pid_t child = 0; children >> child;) {
+        std::istringstream environment(content_of("/proc/" + std::to_string(child) + "/environ"));
+        for (std::string entry; std::getline(environment, entry, '\0');) {
+            if (entry == wanted) {
+                return child;
+            }
+        }
+    }
+    return 0;
+}
+
+class StudyOnRanks : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::system("mpirun --version > /dev/null 2>&1") != 0) {
+            GTEST_SKIP() << "Open MPI's mpirun is not installed";
+        }
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(StudyOnRanks, ResultsAreThoseOfOneProcess) {
+    const Ended alone = run(study(folder_ / "one"));
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    const Ended both = Program(study(folder_ / "two"), {}, two_ranks).end();
+    ASSERT_EQ(both.exit_code, 0) << both.err;
+    for (const char* name : {"kinematic-error.csv", "kinematic-error.json", "kinematic-error.md"}) {
+        EXPECT_EQ(content_of(folder_ / "one" / name), content_of(folder_ / "two" / name)) << name;
+    }
+    EXPECT_EQ(alone.out, both.out);
+    EXPECT_THAT(both.err, HasSubstr("3 cases on 2 ranks"));
+}
+
+TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndTheOthersWritten) {
+    Program program(
+        {"study", "kinematic-error", "--surface", "dome", "--out", folder_ / "out"}, {}, two_ranks);
+    program.wait_for_error_text("cases on 2 ranks");
+    const pid_t lost = process_of_rank(program.pid(), 1);
+    ASSERT_GT(lost, 0);
+    ::kill(lost, SIGKILL);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("rank 1 has not ended; without its cases: dome on rotary-tilt-listing with 20 points, "));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "kinematic-error.csv"));
+}
+
+std::vector<std::string> set_up(const std::string& out, const std::string& places) {
+    return {
+        "study", "set-up", "assets/projects/dome.json", "--out", out, "--places", places, "--nodes", "12"};
+}
+
+TEST_F(StudyOnRanks, ASetUpSearchFindsWhatOneProcessFinds) {
+    const Ended alone = run(set_up(folder_ / "one", "9"));
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    const Ended both = Program(set_up(folder_ / "two", "9"), {}, two_ranks).end();
+    ASSERT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_EQ(alone.out, both.out);
+    for (const char* name : {"set-up.csv", "set-up.png"}) {
+        EXPECT_EQ(content_of(folder_ / "one" / name), content_of(folder_ / "two" / name)) << name;
+    }
+    EXPECT_THAT(both.err, HasSubstr("81 places on 2 ranks"));
+}
+
+TEST_F(StudyOnRanks, PlacesOfALostRankAreNamed) {
+    Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
+    program.wait_for_error_text("90000 places on 2 ranks");
+    const pid_t lost = process_of_rank(program.pid(), 1);
+    ASSERT_GT(lost, 0);
+    ::kill(lost, SIGKILL);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("rank 1 has not ended; without "));
+    EXPECT_THAT(ended.err, HasSubstr(" of its places: from ("));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
+}
+
+TEST_F(StudyOnRanks, WhatIsWrongEndsAllOfThem) {
+    const Ended none = Program(set_up("/proc/no-such-folder", "9"), {}, two_ranks).end();
+    EXPECT_NE(none.exit_code, 0);
+    EXPECT_THAT(none.err, HasSubstr("/proc/no-such-folder"));
+}
+
+} // namespace
+} // namespace millwright::test

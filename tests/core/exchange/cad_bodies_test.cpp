@@ -1,0 +1,177 @@
+// Bodies that Open CASCADE itself writes: faces of all kinds, trimmed, in other units, as IGES.
+#include "core/base/error.h"
+#include "core/exchange/cad_file.h"
+#include "tests/support/scratch_folder.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopoDS_Shape.hxx>
+#include <gmock/gmock.h>
+#include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace millwright::exchange {
+namespace {
+
+class CadBodies : public ::testing::Test {
+protected:
+    CadBodies() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
+
+    [[nodiscard]] CadModel through_step(const TopoDS_Shape& shape, const char* unit = "MM") const {
+        STEPControl_Controller::Init();
+        Interface_Static::SetCVal("write.step.unit", unit);
+        STEPControl_Writer writer;
+        EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
+        EXPECT_EQ(writer.Write((folder_ / "body.step").c_str()), IFSelect_RetDone);
+        Interface_Static::SetCVal("write.step.unit", "MM");
+        return read_cad(folder_ / "body.step", {});
+    }
+
+    [[nodiscard]] CadModel through_iges(const TopoDS_Shape& shape) const {
+        IGESControl_Writer writer("MM", 0);
+        EXPECT_TRUE(writer.AddShape(shape));
+        EXPECT_TRUE(writer.Write((folder_ / "body.igs").c_str()));
+        return read_cad(folder_ / "body.igs", {});
+    }
+
+    test::ScratchFolder folder_;
+};
+
+/// Calls `look(position, unit normal)` on a raster of every patch.
+template <typename Look> void everywhere(const CadFace& face, Look look) {
+    for (const geometry::BezierPatch& patch : face.patches) {
+        for (int i = 1; i < 10; ++i) {
+            for (int j = 1; j < 10; ++j) {
+                const auto normal = patch.unit_normal(i / 10.0, j / 10.0);
+                ASSERT_TRUE(normal);
+                look(patch.position(i / 10.0, j / 10.0), *normal);
+            }
+        }
+    }
+}
+
+double area_of(const std::vector<Vec2>& outline) {
+    double doubled = 0.0;
+    for (std::size_t n = 0; n < outline.size(); ++n) {
+        const Vec2& a = outline[n];
+        const Vec2& b = outline[(n + 1) % outline.size()];
+        doubled += a.x() * b.y() - a.y() * b.x();
+    }
+    return std::abs(0.5 * doubled);
+}
+
+TEST_F(CadBodies, SphereIsExactAndLooksOutwards) {
+    const CadModel model = through_step(BRepPrimAPI_MakeSphere(gp_Pnt(5.0, 6.0, 7.0), 20.0).Shape());
+    ASSERT_EQ(model.faces.size(), 1u);
+    everywhere(model.faces.front(), [](const Vec3& position, const Vec3& normal) {
+        const Vec3 out = position - Vec3(5.0, 6.0, 7.0);
+        EXPECT_NEAR(out.norm(), 20.0, 1e-9);
+        EXPECT_GT(normal.dot(out.normalized()), 1.0 - 1e-9);
+    });
+}
+
+TEST_F(CadBodies, EveryFaceOfABoxLooksOutwards) {
+    const CadModel model = through_step(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape());
+    ASSERT_EQ(model.faces.size(), 6u);
+    Vec3 sum = Vec3::Zero();
+    for (const CadFace& face : model.faces) {
+        EXPECT_FALSE(face.trimmed()) << face.number;
+        everywhere(face, [&](const Vec3& position, const Vec3& normal) {
+            EXPECT_GT(normal.dot(position - Vec3(15.0, 10.0, 5.0)), 1.0);
+            sum += normal;
+        });
+    }
+    EXPECT_LT(sum.norm(), 1e-9);
+}
+
+TEST_F(CadBodies, InchesBecomeMillimetres) {
+    const CadModel model = through_step(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape(), "INCH");
+    Box3 box;
+    for (const CadFace& face : model.faces) {
+        box.extend(face.box);
+    }
+    EXPECT_LT((box.sizes() - Vec3(30.0, 20.0, 10.0)).norm(), 1e-6);
+    EXPECT_THAT(model.unit, ::testing::HasSubstr("inch"));
+}
+
+TEST_F(CadBodies, OutlineOfADiskIsACircle) {
+    const TopoDS_Wire circle = BRepBuilderAPI_MakeWire(
+        BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(0, 0, 4), gp_Dir(0, 0, 1)), 10.0)));
+    const CadModel model = through_step(BRepBuilderAPI_MakeFace(circle).Shape());
+    ASSERT_EQ(model.faces.size(), 1u);
+    const CadFace& face = model.faces.front();
+    ASSERT_TRUE(face.trimmed());
+    EXPECT_NEAR(area_of(face.outline), std::numbers::pi / 4.0 * face.rows * face.columns, 0.01);
+    EXPECT_LT((face.box.sizes() - Vec3(20.0, 20.0, 0.0)).norm(), 1e-5);
+}
+
+TEST_F(CadBodies, CylinderWithAHoleKeepsItsRadiusAndIsTrimmed) {
+    const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(10.0, 40.0).Shape();
+    const TopoDS_Shape drill =
+        BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-30, 0, 40), gp_Dir(1, 0, 0)), 6.0, 60.0).Shape();
+    const CadModel model = through_step(BRepAlgoAPI_Cut(bar, drill).Shape());
+    EXPECT_TRUE(model.left_out.empty());
+    int trimmed = 0;
+    for (const CadFace& face : model.faces) {
+        trimmed += face.trimmed() ? 1 : 0;
+        for (const Vec2& place : face.outline) {
+            EXPECT_GE(place.minCoeff(), 0.0);
+            EXPECT_LE(place.x(), face.rows);
+            EXPECT_LE(place.y(), face.columns);
+        }
+    }
+    EXPECT_GE(trimmed, 2);
+}
+
+TEST_F(CadBodies, HolesOfAPlateComeWithItsOutline) {
+    TopoDS_Shape plate = BRepPrimAPI_MakeBox(80.0, 60.0, 5.0).Shape();
+    for (const double x : {20.0, 60.0}) {
+        const TopoDS_Shape drill =
+            BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 30, -1), gp_Dir(0, 0, 1)), 8.0, 7.0).Shape();
+        plate = BRepAlgoAPI_Cut(plate, drill).Shape();
+    }
+    int drilled = 0;
+    for (const CadFace& face : through_step(plate).faces) {
+        if (face.holes.empty()) {
+            continue;
+        }
+        ++drilled;
+        ASSERT_EQ(face.holes.size(), 2U);
+        const double square = 80.0 * 60.0 / (face.rows * face.columns); // mm^2 of a patch
+        EXPECT_NEAR(area_of(face.outline) * square, 80.0 * 60.0, 1e-3);
+        for (const auto& hole : face.holes) {
+            EXPECT_NEAR(area_of(hole) * square, std::numbers::pi * 64.0, 1.0);
+        }
+    }
+    EXPECT_EQ(drilled, 2);
+}
+
+TEST_F(CadBodies, IgesIsTheSame) {
+    const CadModel model = through_iges(BRepPrimAPI_MakeSphere(gp_Pnt(5.0, 6.0, 7.0), 20.0).Shape());
+    ASSERT_FALSE(model.faces.empty());
+    EXPECT_EQ(model.unit, "mm");
+    for (const CadFace& face : model.faces) {
+        everywhere(face, [](const Vec3& position, const Vec3&) {
+            EXPECT_NEAR((position - Vec3(5.0, 6.0, 7.0)).norm(), 20.0, 1e-6);
+        });
+    }
+}
+
+} // namespace
+} // namespace millwright::exchange

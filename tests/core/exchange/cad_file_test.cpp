@@ -1,0 +1,183 @@
+#include "core/exchange/cad_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/geometry/presets.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+namespace millwright::exchange {
+namespace {
+
+using geometry::BezierPatch;
+using geometry::ControlNet;
+using geometry::PatchId;
+using geometry::Surface;
+using ::testing::HasSubstr;
+
+class CadFile : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!reads_cad_files()) {
+            GTEST_SKIP() << "this build has no Open CASCADE";
+        }
+    }
+
+    [[nodiscard]] CadModel read_text(const std::string& text, const char* name) const {
+        write_file(folder_ / name, text);
+        return read_cad(folder_ / name, {});
+    }
+
+    [[nodiscard]] std::string refusal(const std::string& text, const char* name) const {
+        try {
+            (void)read_text(text, name);
+        } catch (const Error& error) {
+            return error.diagnostic().message;
+        }
+        return "none";
+    }
+
+    test::ScratchFolder folder_;
+};
+
+/// A quarter of a cylinder of radius 10 about z, 30 high, exactly.
+BezierPatch quarter_cylinder() {
+    ControlNet net = ControlNet::sized(3, 2);
+    for (int j = 0; j < 2; ++j) {
+        net.point(0, j) = {10.0, 0.0, 30.0 * j};
+        net.point(1, j) = {10.0, 10.0, 30.0 * j};
+        net.point(2, j) = {0.0, 10.0, 30.0 * j};
+        net.weight(1, j) = std::numbers::sqrt2 / 2.0;
+    }
+    return BezierPatch(net);
+}
+
+void expect_same(const BezierPatch& a, const BezierPatch& b) {
+    ASSERT_EQ(a.degree_u(), b.degree_u());
+    ASSERT_EQ(a.degree_v(), b.degree_v());
+    for (std::size_t n = 0; n < a.net().points.size(); ++n) {
+        EXPECT_LT((a.net().points[n] - b.net().points[n]).norm(), 1e-9) << n;
+        EXPECT_NEAR(a.net().weights[n], b.net().weights[n], 1e-12) << n;
+    }
+}
+
+TEST_F(CadFile, EverySurfaceComesBackAsItWas) {
+    for (const auto& known : geometry::surface_presets()) {
+        write_step(known.make(), folder_ / "design.step", {});
+        const CadModel model = read_cad(folder_ / "design.step", {});
+        EXPECT_EQ(model.unit, "mm");
+        ASSERT_EQ(model.faces.size(), static_cast<std::size_t>(known.make().patch_count())) << known.id;
+        for (std::size_t n = 0; n < model.faces.size(); ++n) {
+            const CadFace& face = model.faces[n];
+            ASSERT_EQ(face.patches.size(), 1u);
+            EXPECT_FALSE(face.trimmed());
+            expect_same(face.patches.front(), known.make().patches()[n]);
+        }
+    }
+}
+
+TEST_F(CadFile, RationalPatchesKeepTheirWeights) {
+    write_step(Surface({quarter_cylinder()}), folder_ / "cylinder.stp", {});
+    const CadModel model = read_cad(folder_ / "cylinder.stp", {});
+    ASSERT_EQ(model.faces.size(), 1u);
+    ASSERT_EQ(model.faces.front().patches.size(), 1u);
+    expect_same(model.faces.front().patches.front(), quarter_cylinder());
+}
+
+TEST_F(CadFile, SameSurfaceSameBytes) {
+    std::filesystem::create_directory(folder_ / "other");
+    write_step(geometry::surface_preset("dome").make(), folder_ / "dome.step", {});
+    write_step(geometry::surface_preset("dome").make(), folder_ / "other" / "dome.step", {});
+    EXPECT_EQ(read_file(folder_ / "dome.step"), read_file(folder_ / "other" / "dome.step"));
+}
+
+/// `side` x `side` domes beside each other.
+Surface field_of_domes(int side) {
+    std::vector<BezierPatch> patches;
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            ControlNet net = geometry::surface_preset("dome").make().patches().front().net();
+            for (Vec3& point : net.points) {
+                point += Vec3(200.0 * i, 200.0 * j, 0.0);
+            }
+            patches.emplace_back(net);
+        }
+    }
+    return Surface(std::move(patches));
+}
+
+// Given one by one, each face costs the library a look at all that came before, and makes a part of its own.
+TEST_F(CadFile, ManyPatchesAreOnePartInTheirOrder) {
+    const Surface domes = field_of_domes(10);
+    double last = 0.0;
+    write_step(domes,
+               folder_ / "domes.step",
+               Progress(
+                   [&](const Progress::Report& now) {
+                       EXPECT_GE(now.fraction, last);
+                       last = now.fraction;
+                   },
+                   {}));
+    EXPECT_EQ(last, 1.0);
+    const std::string text = read_file(folder_ / "domes.step");
+    EXPECT_EQ(text.find("PRODUCT('domes'"), text.rfind("PRODUCT('"));
+    const CadModel model = read_cad(folder_ / "domes.step", {});
+    ASSERT_EQ(model.faces.size(), domes.patches().size());
+    for (std::size_t n = 0; n < model.faces.size(); ++n) {
+        expect_same(model.faces[n].patches.front(), domes.patches()[n]);
+    }
+}
+
+TEST_F(CadFile, WritingCanBeCancelledAndLeavesTheFile) {
+    for (const double at : {0.0, 0.05, 0.3, 0.6}) {
+        write_file(folder_ / "old.step", "as it was");
+        std::stop_source stop;
+        const Progress progress(
+            [&](const Progress::Report& now) {
+                if (now.fraction >= at) {
+                    stop.request_stop();
+                }
+            },
+            stop.get_token());
+        EXPECT_THROW(write_step(field_of_domes(5), folder_ / "old.step", progress), Cancelled) << at;
+        EXPECT_EQ(read_file(folder_ / "old.step"), "as it was");
+    }
+}
+
+TEST_F(CadFile, DamagedAndOtherFilesAreRefused) {
+    EXPECT_THAT(refusal("", "part.step"), HasSubstr("empty"));
+    EXPECT_THAT(refusal("solid plate\n", "part.step"), HasSubstr("ISO-10303-21"));
+    EXPECT_THAT(refusal("hello\n", "part.igs"), HasSubstr("column 73"));
+    EXPECT_NE(refusal("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n", "part.step"),
+              "none");
+    write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
+    const std::string whole = read_file(folder_ / "whole.step");
+    EXPECT_NE(refusal(whole.substr(0, whole.size() / 2), "half.step"), "none");
+    EXPECT_THROW((void)read_cad(folder_ / "missing.step", {}), Error);
+}
+
+// The library follows a reference that the file does not have; the process that reads it ends, this one goes
+// on.
+TEST_F(CadFile, WhatBreaksTheLibraryBreaksNothingElse) {
+    write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
+    std::string text = read_file(folder_ / "whole.step");
+    const std::size_t vector = text.find("VECTOR('',#");
+    ASSERT_NE(vector, std::string::npos);
+    text.replace(vector, 11, "VECTOR('',#9");
+    EXPECT_NE(refusal(text, "broken.step"), "none");
+}
+
+TEST_F(CadFile, CanBeCancelled) {
+    write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)read_cad(folder_ / "whole.step", Progress({}, stop.get_token())), Cancelled);
+}
+
+} // namespace
+} // namespace millwright::exchange

@@ -1,0 +1,206 @@
+#include "core/exchange/mesh_file.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "tests/support/reason.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+namespace millwright::exchange {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::string_view two_triangles = R"(solid plate
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 2 0 0
+vertex 2 1 0
+endloop
+endfacet
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 2 1 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid plate
+)";
+
+MeshFile parsed(std::string_view bytes, const char* name = "part.stl", double unit = 1.0) {
+    return parse_mesh(bytes, name, unit, {});
+}
+
+std::string refusal(std::string_view bytes, const char* name = "part.stl") {
+    try {
+        (void)parsed(bytes, name);
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "none";
+}
+
+void append(std::string& bytes, const void* value, std::size_t size) {
+    bytes.append(static_cast<const char*>(value), size);
+}
+
+/// The two triangles as a binary STL file.
+std::string binary_stl(const std::array<float, 18>& corners) {
+    std::string bytes(80, ' ');
+    const std::uint32_t count = 2;
+    append(bytes, &count, 4);
+    for (std::size_t n = 0; n < 2; ++n) {
+        const std::array<float, 3> normal{0.0F, 0.0F, 1.0F};
+        const std::uint16_t attribute = 0;
+        append(bytes, normal.data(), 12);
+        append(bytes, corners.data() + 9 * n, 36);
+        append(bytes, &attribute, 2);
+    }
+    return bytes;
+}
+
+constexpr std::array<float, 18> plate{0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 0, 0, 2, 1, 0, 0, 1, 0};
+
+double area(const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        sum += 0.5 * mesh.doubled_area(n).norm();
+    }
+    return sum;
+}
+
+TEST(MeshFile, JoinsCornersInOnePlace) {
+    const MeshFile read = parsed(two_triangles);
+    EXPECT_EQ(read.mesh.points.size(), 4u);
+    EXPECT_EQ(read.mesh.triangles.size(), 2u);
+    EXPECT_DOUBLE_EQ(area(read.mesh), 2.0);
+    EXPECT_EQ(read.without_area, 0);
+}
+
+TEST(MeshFile, BinaryStlIsTheSame) {
+    const MeshFile read = parsed(binary_stl(plate));
+    EXPECT_EQ(read.mesh.points, parsed(two_triangles).mesh.points);
+    EXPECT_EQ(read.mesh.triangles, parsed(two_triangles).mesh.triangles);
+}
+
+TEST(MeshFile, FacesOfManyCornersAreCutUp) {
+    const MeshFile read = parsed("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1.5 0\nv 0 1 0\nf 1 2 3 4 5\n", "part.OBJ");
+    EXPECT_EQ(read.mesh.triangles.size(), 3u);
+    EXPECT_DOUBLE_EQ(area(read.mesh), 2.5);
+}
+
+TEST(MeshFile, ReadsPly) {
+    const MeshFile read =
+        parsed("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n4 0 0\n0 3 0\n3 0 1 2\n",
+               "part.ply");
+    EXPECT_EQ(read.mesh.triangles.size(), 1u);
+    EXPECT_DOUBLE_EQ(area(read.mesh), 6.0);
+}
+
+TEST(MeshFile, UnitIsTheCallers) {
+    EXPECT_EQ(parsed(two_triangles, "part.stl", 25.4).mesh.points[1], Vec3(50.8, 0.0, 0.0));
+}
+
+TEST(MeshFile, TrianglesWithoutAreaAreLeftOutAndCounted) {
+    const MeshFile read = parsed("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\nf 1 2 2\n", "part.obj");
+    EXPECT_EQ(read.mesh.triangles.size(), 1u);
+    EXPECT_EQ(read.without_area, 2);
+}
+
+// A concave arrow: a fan from its first corner would cover what is outside.
+TEST(MeshFile, ConcaveFacesKeepTheirArea) {
+    const MeshFile read = parsed("v 1 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv 0 0 0\nf 1 2 3 4 5\n", "part.obj");
+    EXPECT_NEAR(area(read.mesh), 4.0, 1e-12);
+    for (std::size_t n = 0; n < read.mesh.triangles.size(); ++n) {
+        EXPECT_GT(read.mesh.doubled_area(n).z(), 0.0);
+    }
+}
+
+TEST(MeshFile, CornersMayCountFromTheEndAndGoOnInTheNextLine) {
+    const MeshFile read =
+        parsed("v 9 9 9\nv 0 0 0\nv 2 0 0\nv 2 1 0 # last\nf -3/1/2 \\\n-2//1 -1 # corner\n", "part.obj");
+    EXPECT_EQ(read.mesh.triangles.size(), 1u);
+    EXPECT_DOUBLE_EQ(area(read.mesh), 1.0);
+}
+
+TEST(MeshFile, BinaryPlyOfEitherByteOrder) {
+    for (const bool big : {false, true}) {
+        std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                            "_endian 1.0\ncomment made by hand\nelement vertex 3\nproperty double x\n"
+                            "property float y\nproperty float z\nproperty uchar red\nelement face 1\n"
+                            "property list uchar short vertex_index\nend_header\n";
+        const auto put = [&](auto value) {
+            std::array<char, sizeof value> raw{};
+            std::memcpy(raw.data(), &value, sizeof value);
+            if (big) {
+                std::ranges::reverse(raw);
+            }
+            bytes.append(raw.data(), raw.size());
+        };
+        for (const auto& [x, y] : {std::pair(0.0, 0.0F), std::pair(4.0, 0.0F), std::pair(0.0, 3.0F)}) {
+            put(x);
+            put(y);
+            put(0.0F);
+            put(std::uint8_t{200});
+        }
+        put(std::uint8_t{3});
+        for (const int corner : {0, 1, 2}) {
+            put(static_cast<std::int16_t>(corner));
+        }
+        EXPECT_DOUBLE_EQ(area(parsed(bytes, "part.ply").mesh), 6.0);
+        EXPECT_THAT(refusal(bytes.substr(0, bytes.size() - 1), "part.ply"), HasSubstr("ends too early"));
+    }
+}
+
+TEST(MeshFile, SaysWhatIsWrongAndWhere) {
+    EXPECT_THAT(refusal(two_triangles, "part.dxf"), HasSubstr("part.dxf: this kind of file is not read"));
+    EXPECT_THAT(refusal(""), HasSubstr("part.stl: the file is empty"));
+    EXPECT_THAT(refusal("hello, this is no mesh"), HasSubstr("part.stl: neither text, nor"));
+    EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 zero\n"),
+                HasSubstr("part.stl:3: 'zero' is no number"));
+    EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 1\nendloop\n"), HasSubstr("part.stl:4: a loop of 1"));
+    EXPECT_THAT(refusal("solid\nvertex 0 0 1\n"), HasSubstr("part.stl:2: a vertex outside of a loop"));
+    EXPECT_THAT(refusal("solid\nouter loop\n"), HasSubstr("the file ends inside of a loop"));
+    EXPECT_THAT(refusal(binary_stl(plate).substr(0, 150)),
+                HasSubstr("part.stl: 2 triangles take 184 bytes, the file has 150"));
+    EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "part.obj"), HasSubstr("no triangle with an area"));
+    EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 2\n", "part.obj"), HasSubstr("no triangle with an area"));
+    EXPECT_THAT(refusal("v 0 0 0\nf 1 2 3\n", "part.obj"),
+                HasSubstr("part.obj:2: a face has a corner 2, there are 1"));
+    EXPECT_THAT(refusal("v 0 0 0\nf 1 0 1\n", "part.obj"), HasSubstr("part.obj:2: '0' is no corner"));
+    EXPECT_THAT(refusal("v 0 0 0\nf 1 1\n", "part.obj"), HasSubstr("part.obj:2: a face has 2 corners"));
+    EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 0\n", "part.ply"), HasSubstr("no end_header"));
+    EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 300000000\n", "part.ply"),
+                HasSubstr("part.ply:3: '300000000' is no number of elements in this file"));
+    EXPECT_THAT(refusal("plyx\n", "part.ply"), HasSubstr("begins with the word ply"));
+}
+
+TEST(MeshFile, NumbersThatAreNotFiniteAreRefused) {
+    std::array<float, 18> broken = plate;
+    broken[4] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(refusal(binary_stl(broken)), HasSubstr("not a finite number"));
+    broken[4] = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(refusal(binary_stl(broken)), HasSubstr("not a finite number"));
+}
+
+TEST(MeshFile, CanBeCancelled) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)parse_mesh(two_triangles, "part.stl", 1.0, Progress({}, stop.get_token())), Cancelled);
+}
+
+} // namespace
+} // namespace millwright::exchange

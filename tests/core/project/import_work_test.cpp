@@ -1,0 +1,127 @@
+#include "core/project/import_work.h"
+
+#include "core/base/files.h"
+#include "core/exchange/surface_file.h"
+#include "core/project/plan.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+
+namespace millwright::project {
+namespace {
+
+class Importing : public ::testing::Test {
+protected:
+    [[nodiscard]] std::filesystem::path dome_mesh() const {
+        exchange::write_surface(
+            surface_of(project_from_preset("dome").surface), folder_ / "dome.stl", 0.05, {});
+        return folder_ / "dome.stl";
+    }
+
+    test::ScratchFolder folder_;
+    std::atomic<int> woken_ = 0;
+    ImportWorker worker_{[this] { ++woken_; }};
+};
+
+TEST_F(Importing, ReadsOnceAndMakesWhatIsChosen) {
+    worker_.open(dome_mesh(), {});
+    worker_.wait_idle();
+    const auto first = worker_.latest();
+    ASSERT_TRUE(first && first->surface && first->reference);
+    EXPECT_GT(woken_, 0);
+    EXPECT_EQ(first->reference->deviation.size(), first->reference->fitted.points.size());
+    EXPECT_EQ(first->reference->largest, first->surface->fit->deviation.max);
+    ImportChoice inches;
+    inches.mm_per_unit = 25.4;
+    inches.degrees = FitDegrees{2, 4};
+    worker_.make(inches);
+    worker_.wait_idle();
+    const auto second = worker_.latest();
+    ASSERT_TRUE(second && second->surface);
+    EXPECT_EQ(second->source, first->source) << "the file was not read again";
+    EXPECT_EQ(second->surface->fit->patch.degree_v(), 4);
+    EXPECT_GT(second->revision, first->revision);
+    Box3 in_mm;
+    Box3 in_inches;
+    for (std::size_t n = 0; n < first->reference->fitted.points.size(); ++n) {
+        in_mm.extend(first->reference->fitted.points[n]);
+        in_inches.extend(second->reference->fitted.points[n]);
+    }
+    EXPECT_NEAR(in_inches.sizes().x(), 25.4 * in_mm.sizes().x(), 1e-9);
+}
+
+TEST_F(Importing, AFaultIsToldAndTheFileCanStillBeLookedAt) {
+    write_file(folder_ / "plate.obj", "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n");
+    ImportChoice from_below;
+    from_below.along = Vec3(0.0, 0.0, -1.0);
+    worker_.open(folder_ / "plate.obj", from_below);
+    worker_.wait_idle();
+    const auto found = worker_.latest();
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->failure);
+    EXPECT_EQ(found->surface, nullptr);
+    ASSERT_TRUE(found->reference);
+    EXPECT_EQ(found->reference->rest.triangles.size(), 2U);
+    write_file(folder_ / "none.obj", "# nothing\n");
+    worker_.open(folder_ / "none.obj", {});
+    worker_.wait_idle();
+    EXPECT_EQ(worker_.latest()->source, nullptr);
+    EXPECT_TRUE(worker_.latest()->failure);
+}
+
+TEST_F(Importing, ClosedNothingIsPublishedAnyMore) {
+    worker_.open(dome_mesh(), {});
+    worker_.close();
+    worker_.wait_idle();
+    EXPECT_EQ(worker_.latest(), nullptr);
+}
+
+TEST(ImportedFace, ItsOutlineIsWhatIsCutOfIt) {
+    exchange::CadFace face;
+    face.rows = 2;
+    const geometry::Surface dome = surface_of(project_from_preset("dome").surface);
+    face.patches = {dome.patches().front(), dome.patches().front()};
+    face.outline = {{0.0, 0.0}, {0.75, 0.0}, {0.75, 1.0}, {0.0, 1.0}};
+    face.holes = {{{0.2, 0.2}, {0.4, 0.2}, {0.4, 0.4}}};
+    const ImportedSurface imported = import_face(face, {}, {});
+    ASSERT_EQ(imported.surface.patches.size(), 1U) << "the second one is outside";
+    const geometry::Trim trim = imported.surface.trim(0);
+    EXPECT_TRUE(trim.contains({0.6, 0.5}));
+    EXPECT_FALSE(trim.contains({0.9, 0.5}));
+    EXPECT_FALSE(trim.contains({0.35, 0.25}));
+}
+
+TEST(ImportedFace, AFittedPatchGetsTheOutlineToo) {
+    exchange::CadFace face;
+    const geometry::Surface sine = surface_of(project_from_preset("sine").surface);
+    face.patches = {sine.patches().front()};
+    face.outline = {{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}};
+    const geometry::BezierPatch& patch = face.patches.front();
+    ImportChoice choice;
+    choice.degrees = FitDegrees{patch.degree_u(), patch.degree_v()};
+    const ImportedSurface imported = import_face(face, choice, {});
+    ASSERT_EQ(imported.surface.patches.size(), 1U);
+    const geometry::BezierPatch fitted(imported.surface.patches.front());
+    const geometry::Trim trim = imported.surface.trim(0);
+    ASSERT_EQ(trim.loops.size(), 1U);
+    for (const Vec2& corner : trim.loops.front()) {
+        const Vec3 at = fitted.position(corner.x(), corner.y());
+        double nearest = 1e9; // to the outline of the face itself
+        for (int side = 0; side < 4; ++side) {
+            for (int k = 0; k <= 400; ++k) {
+                const Vec2& a = face.outline[static_cast<std::size_t>(side)];
+                const Vec2& b = face.outline[static_cast<std::size_t>((side + 1) % 4)];
+                const Vec2 uv = a + k / 400.0 * (b - a);
+                nearest = std::min(nearest, (patch.position(uv.x(), uv.y()) - at).norm());
+            }
+        }
+        EXPECT_LT(nearest, 0.3);
+    }
+}
+
+} // namespace
+} // namespace millwright::project

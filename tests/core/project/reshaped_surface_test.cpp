@@ -1,0 +1,91 @@
+#include "core/project/reshaped_surface.h"
+
+#include "core/base/error.h"
+#include "core/project/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::project {
+namespace {
+
+using geometry::Parameter;
+using geometry::Trim;
+
+SurfaceInput two_patches() {
+    SurfaceInput surface = project_from_preset("two-bell").surface;
+    surface.patches.push_back(surface.patches.front());
+    surface.machined_patch = 1;
+    return surface;
+}
+
+TEST(ReshapedSurface, HalvesStandWhereTheWholePatchStood) {
+    const SurfaceInput before = two_patches();
+    const SurfaceInput first = with_split(before, 0, Parameter::u, 0.25);
+    ASSERT_EQ(first.patches.size(), 3U);
+    EXPECT_EQ(first.patches[2], before.patches[1]);
+    EXPECT_EQ(first.machined_patch, 2) << "the same one as before";
+    EXPECT_TRUE(first.trims.empty());
+    EXPECT_EQ(with_split(before, 1, Parameter::v, 0.25).machined_patch, 1);
+    const geometry::Surface whole = surface_of(before), halves = surface_of(first);
+    for (double s = 0.0; s <= 1.0; s += 0.25) {
+        EXPECT_NEAR(
+            (halves.patches()[1].position(s, 0.3) - whole.patches()[0].position(0.25 + 0.75 * s, 0.3)).norm(),
+            0.0,
+            1e-11);
+    }
+}
+
+TEST(ReshapedSurface, OutlinesAreSplitToo) {
+    SurfaceInput surface = two_patches();
+    surface.trims.resize(2);
+    surface.trims[0].loops = {{{0.1, 0.2}, {0.5, 0.2}, {0.5, 0.8}, {0.1, 0.8}}};
+    const SurfaceInput halves = with_split(surface, 0, Parameter::u, 0.2);
+    ASSERT_EQ(halves.patches.size(), 3U);
+    EXPECT_TRUE(halves.trim(0).contains({0.75, 0.5}));  // u = 0.15
+    EXPECT_FALSE(halves.trim(0).contains({0.25, 0.5})); // u = 0.05
+    EXPECT_TRUE(halves.trim(1).contains({0.25, 0.5}));  // u = 0.4
+    EXPECT_FALSE(halves.trim(1).contains({0.5, 0.5}));  // u = 0.6
+    EXPECT_TRUE(halves.trim(2).everything());
+
+    const SurfaceInput cut = with_split(surface, 0, Parameter::u, 0.75);
+    ASSERT_EQ(cut.patches.size(), 2U) << "nothing is left behind the line";
+    EXPECT_EQ(cut.machined_patch, 1);
+    EXPECT_TRUE(cut.trim(0).contains({0.4, 0.5}));
+    EXPECT_TRUE(cut.trim(1).everything());
+}
+
+TEST(ReshapedSurface, HigherDegreesKeepTheShape) {
+    const SurfaceInput before = two_patches();
+    const int degree = before.patches[1].rows - 1;
+    const SurfaceInput after = with_degrees(before, 1, degree + 2, degree);
+    EXPECT_EQ(after.patches[1].rows, degree + 3);
+    const Vec3 apart = surface_of(after).patches()[1].position(0.3, 0.7) -
+                       surface_of(before).patches()[1].position(0.3, 0.7);
+    EXPECT_NEAR(apart.norm(), 0.0, 1e-12);
+}
+
+template <class Change> std::string refusal(const Change& change) {
+    try {
+        (void)change();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ReshapedSurface, WhatWouldChangeTheShapeIsRefused) {
+    const SurfaceInput surface = two_patches();
+    EXPECT_THAT(refusal([&] { return with_degrees(surface, 0, 1, 3); }),
+                testing::HasSubstr("change its shape"));
+    EXPECT_THAT(refusal([&] { return with_degrees(surface, 0, 4, 99); }),
+                testing::HasSubstr("63 is the highest"));
+    EXPECT_THAT(refusal([&] { return with_degrees(surface, 2, 3, 3); }), testing::HasSubstr("no patch 2"));
+    EXPECT_THAT(refusal([&] { return with_split(surface, 0, Parameter::u, 1.0); }),
+                testing::HasSubstr("between 0.01 and 0.99, not at 1"));
+    EXPECT_THAT(refusal([&] { return with_split(surface, -1, Parameter::u, 0.5); }),
+                testing::HasSubstr("no patch -1"));
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,240 @@
+#include "core/project/strategy_path.h"
+
+#include "core/base/error.h"
+#include "core/project/pipeline.h"
+#include "core/project/project_file.h"
+#include "core/project/report.h"
+#include "core/project/settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thread>
+
+namespace millwright::project {
+namespace {
+
+using testing::HasSubstr;
+
+const Folders folders{"assets/projects", "assets"};
+
+Project sample(StrategyInput strategy, int nodes = 7) {
+    Project project = read_project("assets/projects/dome.json");
+    project.grid.nu = nodes;
+    project.grid.nv = nodes;
+    project.grid.tracks.lattice = 40; // enough for a test
+    project.grid.tracks.polish_sweeps = 3;
+    project.toolpath.strategy = strategy;
+    if (strategy == StrategyInput::constant_scallop) {
+        project.tool = {.cutter = toolpath::CutterKind::ball, .diameter_mm = 10.0};
+        project.tool.scallop_mm = 1.0;
+    }
+    project.toolpath.tolerance_mm = 0.5;
+    return project;
+}
+
+/// The tips of the strategy itself on the grid of `base`.
+std::vector<Vec3>
+contacts_by(const toolpath::StrategySettings& settings, const Workpiece& workpiece, const Evaluation& base) {
+    std::vector<Vec3> found;
+    const toolpath::Covering all{workpiece.patch,
+                                 workpiece.machine,
+                                 workpiece.tool,
+                                 base.outcome.grid,
+                                 workpiece.direction,
+                                 workpiece.flipped};
+    for (const auto& point : toolpath::make_strategy(settings)->contacts(all, Progress()).points) {
+        found.push_back(point.contact);
+    }
+    return found;
+}
+
+std::vector<Vec3> contacts_of(const Evaluation& evaluation) {
+    std::vector<Vec3> found;
+    for (const auto& point : evaluation.toolpath.points) {
+        found.push_back(point.contact);
+    }
+    return found;
+}
+
+class StrategyOfAProject : public testing::TestWithParam<StrategyInput> {};
+
+TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBackground) {
+    const Project project = sample(GetParam());
+    const Plan plan = make_plan(project, folders, Progress());
+    const Evaluation& base = *plan.evaluation(program_grid(project));
+    ASSERT_EQ(plan.program_path(project), plan.path);
+    EXPECT_EQ(contacts_of(*plan.path), contacts_by(strategy_settings(project), *plan.workpiece, base));
+    EXPECT_GT(plan.program_notes.cut_moves, 0);
+    EXPECT_EQ(plan.path_time, plan.trajectory->duration());
+    EXPECT_THAT(plan.listing->text, HasSubstr(strategy_text(project)));
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    const auto& path = report.at("error").at("path");
+    EXPECT_NEAR(path.at("closest").at("max"), plan.path->closest.max, 1e-6);
+    EXPECT_EQ(report.at("points"), std::ssize(plan.path->toolpath.points));
+    EXPECT_EQ(path.at("track_gap_mm").is_null(), !plan.path->track_gap);
+
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    ASSERT_TRUE(published->exact) << (published->failure ? published->failure->message : "");
+    EXPECT_EQ(published->plan.listing->text, plan.listing->text);
+    EXPECT_EQ(published->plan.path->closest.max, plan.path->closest.max);
+}
+
+TEST_P(StrategyOfAProject, ComesBackFromItsFile) {
+    const Project project = sample(GetParam());
+    EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each,
+                         StrategyOfAProject,
+                         testing::Values(StrategyInput::spiral,
+                                         StrategyInput::constant_scallop,
+                                         StrategyInput::fewest_points),
+                         [](const auto& param) {
+                             std::string id(row_of(strategies(), param.param).id);
+                             std::erase(id, '-');
+                             return id;
+                         });
+
+TEST(StrategyPath, IsoParametricIsTheZigzagOverTheUniformGrid) {
+    Project project = sample(StrategyInput::iso_parametric);
+    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    EXPECT_EQ(plan.program_path(project), plan.uniform);
+    EXPECT_EQ(plan.optimised, nullptr) << "its nodes are of no use";
+    project.toolpath.strategy = StrategyInput::zigzag;
+    project.grid.method = GridMethod::uniform;
+    const Plan uniform = make_plan(project, folders, Progress(), Scope::program);
+    EXPECT_EQ(plan.program->block_count(), uniform.program->block_count());
+    EXPECT_EQ(plan.trajectory->duration(), uniform.trajectory->duration());
+}
+
+TEST(StrategyPath, ConstantScallopOfAPointIsToldAndTheGridsStay) {
+    Project project = sample(StrategyInput::constant_scallop);
+    project.tool = {};
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto published = pipeline.latest();
+    ASSERT_TRUE(published->failure);
+    EXPECT_THAT(published->failure->message, HasSubstr("a point leaves no scallop"));
+    EXPECT_NE(published->plan.uniform, nullptr);
+    EXPECT_EQ(published->plan.program, nullptr);
+    EXPECT_NO_THROW((void)project_text(project)) << "it can be saved all the same";
+}
+
+TEST(StrategyPath, TheBackgroundKeepsAPathWhoseChoicesStand) {
+    Project project = sample(StrategyInput::fewest_points);
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto before = pipeline.latest();
+    project.program.feed_mm_per_min = 900.0;
+    project.grid.method = GridMethod::uniform;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.path, before->plan.path);
+    EXPECT_NE(pipeline.latest()->plan.program, before->plan.program);
+    project.toolpath.tolerance_mm = 0.2;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto finer = pipeline.latest();
+    EXPECT_GT(finer->plan.path->toolpath.points.size(), before->plan.path->toolpath.points.size());
+    EXPECT_LE(finer->plan.path->closest.max, 0.2);
+    project.toolpath.strategy = StrategyInput::zigzag;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.path, nullptr);
+    EXPECT_TRUE(pipeline.latest()->exact);
+    ASSERT_NE(pipeline.latest()->plan.program, nullptr);
+}
+
+TEST(StrategyPath, ASpiralFollowsTheGridThatIsMadeAnew) {
+    Project project = sample(StrategyInput::spiral);
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto before = pipeline.latest();
+    project.grid.tracks.error_exponent = 6.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_NE(contacts_of(*pipeline.latest()->plan.path), contacts_of(*before->plan.path));
+    EXPECT_EQ(pipeline.latest()->plan.path->outcome.grid, pipeline.latest()->plan.optimised->outcome.grid);
+}
+
+TEST(StrategyPath, CancelStopsItAtOnce) {
+    Project project = sample(StrategyInput::fewest_points, 60);
+    project.toolpath.tolerance_mm = 0.002;
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    while (pipeline.activity().text.find(title_of_path) == std::string::npos) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    pipeline.cancel();
+    pipeline.wait_idle();
+    EXPECT_TRUE(!pipeline.latest() || !pipeline.latest()->plan.path);
+}
+
+class GridMethodOfAProject : public testing::TestWithParam<GridMethod> {};
+
+TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFile) {
+    Project project = sample(StrategyInput::zigzag);
+    project.tool = {};
+    project.grid.method = GetParam();
+    project.grid.redistribution = {.floor = 0.2, .smoothing_passes = 3};
+    EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
+    const Plan plan = make_plan(project, folders, Progress());
+    const toolpath::KinematicError error = plan.workpiece->error_model();
+    const auto improver = make_improver(GetParam(), project.grid, error);
+    const GridOutcome outcome = improved_outcome(*improver, Progress());
+    EXPECT_EQ(plan.program_path(project)->outcome.grid, outcome.grid);
+    EXPECT_LT(plan.program_path(project)->closest.mean, plan.uniform->closest.mean);
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    EXPECT_TRUE(report.at("error").contains(row_of(grid_methods(), GetParam()).id));
+
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.listing->text, plan.listing->text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each,
+                         GridMethodOfAProject,
+                         testing::Values(GridMethod::redistribution, GridMethod::harmonic),
+                         [](const auto& param) {
+                             return std::string(row_of(grid_methods(), param.param).id);
+                         });
+
+TEST(GridMethods, TheHarmonicMapIsNotMadeAnewForWhatItDoesNotHave) {
+    Project project = sample(StrategyInput::zigzag);
+    project.grid.method = GridMethod::harmonic;
+    Pipeline pipeline(folders, [] {});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto before = pipeline.latest();
+    project.grid.elliptic.adaptation = 50.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.harmonic, before->plan.harmonic);
+    EXPECT_NE(pipeline.latest()->plan.elliptic, before->plan.elliptic);
+    project.grid.elliptic.sliding_boundary = false;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_NE(pipeline.latest()->plan.harmonic, before->plan.harmonic);
+}
+
+TEST(GridMethods, AFileOfTheTimeWhenTheHarmonicMapWasASolverOpensAsOneOfItsMethod) {
+    const std::string text = R"({"format": "millwright-project", "version": 1, "name": "",
+        "machine": {"file": "ac-table"}, "surface": {"preset": "dome"},
+        "grid": {"method": "elliptic", "elliptic": {"solver": "harmonic"}}})";
+    const Project project = project_from_text(text, "old.json");
+    EXPECT_EQ(project.grid.method, GridMethod::harmonic);
+    EXPECT_EQ(project.grid.elliptic.solver, EllipticInput{}.solver);
+    EXPECT_TRUE(faults_of(project).empty());
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,120 @@
+#include "core/toolpath/trimmed_path.h"
+
+#include "core/base/error.h"
+#include "core/toolpath/spiral.h"
+#include "core/toolpath/strategy.h"
+#include "core/toolpath/zigzag.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::toolpath {
+namespace {
+
+using geometry::Trim;
+using grid::Grid;
+using grid::TrackDirection;
+
+/// A square with a square hole.
+Trim frame() {
+    return {
+        {{{0.2, 0.1}, {0.8, 0.1}, {0.8, 0.9}, {0.2, 0.9}}, {{0.4, 0.4}, {0.6, 0.4}, {0.6, 0.6}, {0.4, 0.6}}}};
+}
+
+/// By hand, not by Trim.
+bool in_frame(const Vec2& uv, double grown) {
+    const auto within = [&](double low, double high, double value) { return value > low && value < high; };
+    const bool outer = within(0.2 - grown, 0.8 + grown, uv.x()) && within(0.1 - grown, 0.9 + grown, uv.y());
+    const bool hole = within(0.4 + grown, 0.6 - grown, uv.x()) && within(0.4 + grown, 0.6 - grown, uv.y());
+    return outer && !hole;
+}
+
+double cut_length(const Toolpath& path) {
+    double sum = 0.0;
+    for (std::size_t n = 1; n < path.points.size(); ++n) {
+        if (path.points[n].reached_by == MoveKind::track) {
+            sum += (path.points[n].origin.uv - path.points[n - 1].origin.uv).norm();
+        }
+    }
+    return sum;
+}
+
+TEST(TrimmedPath, WithoutAnOutlineIsTheSame) {
+    const Toolpath whole = zigzag(test::patch("dome"), Grid::uniform(5, 6), TrackDirection::along_v, false);
+    const Toolpath same = trimmed(test::patch("dome"), {}, whole, false);
+    ASSERT_EQ(same.points.size(), whole.points.size());
+}
+
+TEST(TrimmedPath, CutsInsideOnlyAndAllOfThat) {
+    const auto patch = test::patch("dome");
+    const Toolpath whole = zigzag(patch, Grid::uniform(21, 13), TrackDirection::along_v, false);
+    const Toolpath path = trimmed(patch, frame(), whole, false);
+    EXPECT_EQ(path.points.front().reached_by, MoveKind::start);
+    for (std::size_t n = 1; n < path.points.size(); ++n) {
+        const PathPoint& a = path.points[n - 1];
+        const PathPoint& b = path.points[n];
+        EXPECT_EQ(b.contact, patch.position(b.origin.uv.x(), b.origin.uv.y()));
+        for (double t = 0.05; t < 1.0 && b.reached_by == MoveKind::track; t += 0.1) {
+            const Vec2 at = a.origin.uv + t * (b.origin.uv - a.origin.uv);
+            EXPECT_TRUE(in_frame(at, 1e-6)) << at.transpose();
+        }
+    }
+    // Tracks at u = 0.25 ... 0.75 and on the sides 0.2, 0.8, of which the rule keeps one or none.
+    double expected = 0.0;
+    for (int k = 5; k <= 15; ++k) {
+        const double u = k / 20.0;
+        expected += u > 0.4 + 1e-9 && u < 0.6 - 1e-9 ? 0.6 : 0.8;
+    }
+    const double kept = cut_length(path);
+    EXPECT_GT(kept,
+              expected - 2.0 * 0.2 - 1e-6); // the tracks along the sides of the hole may be whole or not
+    EXPECT_LT(kept, expected + 2.0 * 0.8 + 1e-6);
+}
+
+TEST(TrimmedPath, GoesOverTheHoleAndLinksWhereItCan) {
+    const auto patch = test::patch("dome");
+    const Toolpath whole = zigzag(patch, Grid::uniform(8, 9), TrackDirection::along_v, false);
+    const Toolpath path = trimmed(patch,
+                                  {{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}},
+                                    {{0.4, 0.4}, {0.6, 0.4}, {0.6, 0.6}, {0.4, 0.6}}}},
+                                  whole,
+                                  false);
+    const auto count = [&](MoveKind kind) {
+        return std::ranges::count(path.points, kind, &PathPoint::reached_by);
+    };
+    EXPECT_EQ(count(MoveKind::cross), 7) << "ends of tracks on the border of the patch";
+    EXPECT_EQ(count(MoveKind::over), 2) << "u = 3/7 and 4/7 meet the hole";
+    EXPECT_LT(length(path), length(whole)) << "what is gone over does not count";
+}
+
+TEST(TrimmedPath, EveryStrategyStaysInside) {
+    const auto patch = test::patch("dome");
+    const auto machine = test::machine("ac-table");
+    const Tool tool;
+    const Grid grid = Grid::uniform(11, 11);
+    const Toolpath spiral =
+        Spiral().contacts({patch, machine, tool, grid, TrackDirection::along_v, false}, Progress());
+    const Toolpath path = trimmed(patch, frame(), spiral, false);
+    ASSERT_GT(path.points.size(), 20U);
+    for (const PathPoint& point : path.points) {
+        EXPECT_TRUE(in_frame(point.origin.uv, 1e-6));
+    }
+}
+
+TEST(TrimmedPath, NothingLeftIsToldWithAHint) {
+    const auto patch = test::patch("dome");
+    const Toolpath whole = zigzag(patch, Grid::uniform(3, 3), TrackDirection::along_v, false);
+    const Trim between{{{{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}}}};
+    try {
+        (void)trimmed(patch, between, whole, false);
+        FAIL() << "no track meets it";
+    } catch (const Error& error) {
+        EXPECT_NE(error.diagnostic().hint.find("more tracks"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace millwright::toolpath

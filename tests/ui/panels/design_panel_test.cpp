@@ -1,0 +1,83 @@
+// The inspector of the Design workspace: symmetric editing, degrees and splitting by real mouse and keys.
+#include "core/project/plan.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::panels {
+namespace {
+
+using geometry::ControlNet;
+using test::Person;
+
+const ControlNet& net(Person& person) {
+    return person.project().surface.patches.front();
+}
+
+TEST(DesignPanel, ASymmetricDragMovesTheImagesMirroredAndOneUndoTakesAllBack) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    person.click("inspector/point/symmetric_x");
+    person.click("inspector/point/symmetric_y");
+    const ControlNet before = net(person);
+    const auto handle = person.place("view/control_point(1,2)").centre();
+    person.drag(handle, {handle.x + 20.0F, handle.y - 60.0F});
+    person.keep("symmetric-drag");
+    const auto moved = [&](int i, int j) -> Vec3 { return net(person).point(i, j) - before.point(i, j); };
+    const Vec3 way = moved(1, 2);
+    EXPECT_GT(way.norm(), 1.0);
+    for (const auto& [i, j] : {std::pair{1, 1}, {2, 1}, {2, 2}}) {
+        EXPECT_NEAR(moved(i, j).cwiseAbs().x(), std::abs(way.x()), 1e-9);
+        EXPECT_NEAR(moved(i, j).cwiseAbs().y(), std::abs(way.y()), 1e-9);
+        EXPECT_NEAR(moved(i, j).z(), way.z(), 1e-9);
+    }
+    EXPECT_NEAR((moved(2, 1) + moved(1, 2)).head<2>().norm(), 0.0, 1e-9) << "opposite across both planes";
+    EXPECT_EQ(moved(0, 0), Vec3(Vec3::Zero()));
+    person.press_key(render::Key::z, true);
+    EXPECT_EQ(net(person), before);
+}
+
+TEST(DesignPanel, ANumberIsSetOnBothSides) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    person.click("inspector/point/symmetric_x");
+    person.click("view/control_point(1,2)");
+    const ControlNet before = net(person);
+    person.fill_in("inspector/point/z", "47");
+    int higher = 0;
+    for (int i = 0; i < before.rows; ++i) {
+        for (int j = 0; j < before.columns; ++j) {
+            higher += net(person).point(i, j) != before.point(i, j) ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(higher, 2);
+    person.fill_in("inspector/point/weight", "2");
+    EXPECT_EQ(std::ranges::count(net(person).weights, 2.0), 2);
+}
+
+TEST(DesignPanel, TheDegreeIsElevatedAndThePatchSplitWithoutAChangeOfShape) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    const project::SurfaceInput start = person.project().surface;
+    const geometry::Surface before = project::surface_of(start);
+    person.fill_in("inspector/patch/degree_u", "5");
+    ASSERT_EQ(net(person).rows, 6);
+    person.fill_in("inspector/patch/at", "0.25");
+    person.click("inspector/patch/split_v");
+    person.wait_idle();
+    person.keep("split");
+    ASSERT_EQ(person.project().surface.patches.size(), 2U);
+    const geometry::Surface after = project::surface_of(person.project().surface);
+    const Vec3 there = before.patches()[0].position(0.4, 0.25 + 0.75 * 0.5);
+    EXPECT_NEAR((after.patches()[1].position(0.4, 0.5) - there).norm(), 0.0, 1e-9);
+
+    person.fill_in("inspector/patch/degree_u", "4");
+    EXPECT_EQ(net(person).rows, 6) << "a lower degree would change the shape";
+    person.press_key(render::Key::escape);
+    person.press_key(render::Key::z, true);
+    person.press_key(render::Key::z, true);
+    EXPECT_EQ(person.project().surface, start);
+}
+
+} // namespace
+} // namespace millwright::panels

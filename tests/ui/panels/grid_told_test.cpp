@@ -1,0 +1,93 @@
+// What the window tells of grids while they are made and after: progress, cancelling, warnings, failures.
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using project::GridMethod;
+using project::WeightSource;
+using test::Person;
+
+class GridTold : public ::testing::Test {
+protected:
+    GridTold() {
+        person_.open("assets/projects/dome.json");
+        person_.press_key(render::Key::f3);
+    }
+
+    void change(int nodes, GridMethod method, const std::string& formula = {}) {
+        person_.workshop().edit("Change the grid",
+                                [&](project::Project& p) {
+                                    p.grid.nu = p.grid.nv = nodes;
+                                    p.grid.method = method;
+                                    if (!formula.empty()) {
+                                        p.grid.elliptic.weight = WeightSource::expression;
+                                        p.grid.elliptic.expression = formula;
+                                    }
+                                },
+                                {});
+    }
+    [[nodiscard]] bool was_told(const std::string& words) {
+        return std::ranges::any_of(person_.workshop().session().log,
+                                   [&](const std::string& line) { return line.find(words) != line.npos; });
+    }
+
+    Person person_{{1600, 1400}};
+};
+
+TEST_F(GridTold, ACancelledChainLeavesANotice) {
+    change(20, GridMethod::chain);
+    ASSERT_TRUE(person_.live_until(
+        [&] { return person_.workshop().look().activity.text == "Moving all nodes at once"; }, 120.0));
+    EXPECT_LT(person_.workshop().look().activity.fraction, 1.0);
+    person_.keep("grid-chain-running");
+    person_.workshop().run("work.cancel");
+    person_.wait_idle();
+    EXPECT_TRUE(
+        was_told("Cancelled: Moving all nodes at once. What is missing is made with the next change"));
+    EXPECT_FALSE(person_.workshop().look().plan->plan.chain);
+    person_.keep("grid-chain-cancelled");
+}
+
+TEST_F(GridTold, AWatchedChainThatIsCancelledIsNoProgram) {
+    change(20, GridMethod::tracks);
+    person_.wait_idle();
+    person_.click("inspector/watch/grid_chain");
+    const auto watched = [&] { return person_.workshop().look().watched; };
+    ASSERT_TRUE(person_.live_until([&] { return watched() && watched()->state; }, 60.0));
+    person_.workshop().run("work.cancel");
+    person_.wait_idle();
+    ASSERT_TRUE(watched() && watched()->state);
+    EXPECT_FALSE(watched()->playing);
+    EXPECT_EQ(watched()->state->status, grid::ImproverStatus::running);
+    EXPECT_TRUE(person_.sees("inspector/watch/grid_use_chain"));
+    EXPECT_EQ(person_.workshop().look().shown_name(), "Track optimiser");
+    person_.keep("grid-watched-cancelled");
+}
+
+TEST_F(GridTold, AWeightThatIsNotPositiveStaysTold) {
+    change(8, GridMethod::tracks, "u - 0.5");
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("outline/warning_elliptic"));
+    person_.keep("grid-weight-warning");
+    change(8, GridMethod::tracks, "u + 0.5");
+    person_.wait_idle();
+    EXPECT_FALSE(person_.sees("outline/warning_elliptic"));
+}
+
+TEST_F(GridTold, AComparedGridThatFailsIsMarkedAndTheProgramStays) {
+    change(8, GridMethod::tracks, "1/(u-u)");
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("outline/failure"));
+    EXPECT_TRUE(person_.workshop().look().program());
+    EXPECT_FALSE(person_.workshop().look().evaluation(GridMethod::elliptic));
+    person_.keep("grid-compared-failed");
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,55 @@
+// Patches of a surface are joined from the menu, by real mouse and keys.
+#include "core/geometry/patch_join.h"
+#include "core/project/plan.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::panels {
+namespace {
+
+using test::Person;
+
+/// A flat dome, and beside it another one with a gap and an edge between them.
+void put_two_domes(project::Project& draft) {
+    for (Vec3& point : draft.surface.patches.front().points) {
+        point.z() *= 0.2;
+    }
+    geometry::ControlNet second = draft.surface.patches.front();
+    Box3 box;
+    for (const Vec3& point : second.points) {
+        box.extend(point);
+    }
+    for (Vec3& point : second.points) {
+        point.x() += 1.01 * box.sizes().x();
+    }
+    draft.surface.patches.push_back(second);
+    draft.surface.preset.clear();
+}
+
+TEST(JoinPatches, FromTheMenuAndBackByUndo) {
+    Person person({1280, 800});
+    person.open("assets/projects/dome.json");
+    person.click("menu/edit");
+    EXPECT_NE(person.refusal("menu/edit/edit_join_tangent"), "") << "one patch has no neighbour";
+    person.press_key(render::Key::escape);
+    person.workshop().edit("Two domes", put_two_domes, {});
+    person.wait_idle();
+    person.press_key(render::Key::f);
+    person.keep("join-before");
+    const project::SurfaceInput before = person.project().surface;
+    person.click("menu/edit");
+    person.click("menu/edit/edit_join_tangent");
+    person.wait_idle();
+    person.keep("join-after");
+    const auto patches = project::surface_of(person.project().surface).patches();
+    const auto seams = geometry::seams_of(patches, 1e-6);
+    ASSERT_EQ(seams.size(), 1U);
+    EXPECT_LT(geometry::figures_of(patches, seams.front()).angle, 1e-6);
+    person.press_key(render::Key::z, true);
+    person.wait_idle();
+    EXPECT_EQ(person.project().surface, before);
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,139 @@
+// A table that takes records and does not tell where it stands, in the Machine workspace.
+#include "core/base/files.h"
+#include "tests/ui/panels/at_machine.h"
+#include "tests/ui/panels/person.h"
+#include "tests/ui/panels/table_bench.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using machine::DriverState;
+using test::Person;
+using test::TableBench;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int lines = 40;
+
+/// A row a line, from line 4 on: line n goes to Y n.
+std::filesystem::path rows(const std::filesystem::path& folder) {
+    std::string text = "G21 G90 G94 G17\nG0 Z5\nG1 Z-1 F3000\n";
+    for (int n = 4; n < lines; ++n) {
+        text += "X" + std::to_string(n % 2 == 0 ? 5 : 50) + " Y" + std::to_string(n) + "\n";
+    }
+    write_file(folder / "rows.ngc", text + "M2\n");
+    return folder / "rows.ngc";
+}
+
+class MachineTable : public ::testing::Test {
+protected:
+    void connect() {
+        person.open(rows(person.folder()));
+        auto& choice = person.workshop().session().hand.choice;
+        choice.kind = machine::DriverKind::records;
+        choice.address = table.port();
+        choice.record.emplace();
+        choice.record->answer = "ok";
+        test::connect(person);
+    }
+    [[nodiscard]] actions::Workbench now() { return person.workshop().look(); }
+    [[nodiscard]] bool known() {
+        const machine::DriverStatus status = now().controller.status;
+        return status.position_known && status.position_doubt.empty();
+    }
+    void begin_at(int line) {
+        person.click("inspector/job/begin/on");
+        person.fill_in("inspector/job/begin/line", std::to_string(line));
+        person.wait_idle();
+    }
+    /// As it is read at the table.
+    void say_where(const std::string& path, double x, double y, double z) {
+        person.fill_in(path + "/X", std::to_string(x));
+        person.fill_in(path + "/Y", std::to_string(y));
+        person.fill_in(path + "/Z", std::to_string(z));
+        person.click(path + "/there");
+        ASSERT_TRUE(person.live_until([&] { return known(); }));
+    }
+
+    TableBench table{{.takes_time = true, .keep = true}};
+    Person person{{1280, 1100}};
+};
+
+TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
+    connect();
+    EXPECT_FALSE(known());
+    EXPECT_TRUE(person.sees("inspector/messages/stands/there"));
+    begin_at(20);
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
+    person.workshop().run("machine.run");
+    person.frames(5);
+    EXPECT_FALSE(now().job.running);
+    EXPECT_EQ(table.records(), 0);
+    person.keep("table-asks");
+
+    say_where("inspector/job/begin/stands", 30.0, 33.0, -1.0);
+    EXPECT_FALSE(person.sees("inspector/messages/stands/there"));
+    EXPECT_EQ(table.records(), 0); // nothing moves by that
+    person.wait_idle();
+    EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
+    person.click("inspector/job/machine_run");
+    int first_line = lines;
+    ASSERT_TRUE(person.live_until(
+        [&] {
+            const actions::Workbench shown = now();
+            if (shown.job.running && shown.job.report) {
+                first_line = std::min(first_line, shown.file_place().value().line);
+            }
+            return shown.job.outcome.has_value();
+        },
+        60.0));
+    EXPECT_EQ(now().job.outcome->end, machine::JobEnd::done) << now().job.outcome->sentence;
+    EXPECT_THAT(table.positions().front(), ElementsAre(30.0, 33.0, 5.0)); // up from there, before all else
+    EXPECT_GE(first_line, 20);
+    EXPECT_DOUBLE_EQ(table.position()[1], lines - 1);
+}
+
+/// What is offered then is the line that comes next, not one that was cut before.
+TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
+    connect();
+    say_where("inspector/messages/stands", 0.0, 0.0, 5.0);
+    begin_at(20);
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 26.0; }, 60.0));
+    person.workshop().run("machine.stop");
+    ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
+    const double row = table.position()[1];
+    EXPECT_LT(row, lines - 1);
+    person.frames(3);
+    person.click("inspector/job/begin/on");
+    person.frames(2);
+    EXPECT_NEAR(now().session.begin.line, row + 1.0, 1.0);
+    person.keep("table-goes-on");
+}
+
+TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
+    connect();
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 8.0; }, 60.0));
+    person.workshop().run("machine.emergency_stop");
+    ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
+    EXPECT_THAT(now().job.outcome->sentence, HasSubstr("was on its way, and nobody knows how far"));
+    ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::alarm); }));
+    person.workshop().run("machine.reset");
+    ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::idle); }));
+    person.frames(3);
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
+    person.keep("table-in-doubt");
+    const auto at = table.position();
+    say_where("inspector/messages/stands", at[0], at[1], at[2]);
+    person.frames(2);
+    EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,137 @@
+// Strategies and grid methods as a person chooses them: real mouse and keys, drawn in real OpenGL.
+#include "core/project/strategy_path.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using project::GridMethod;
+using project::StrategyInput;
+using test::Person;
+
+class Strategies : public ::testing::Test {
+protected:
+    Strategies() {
+        person_.open("assets/projects/dome.json");
+        person_.workshop().edit("Change the grid",
+                                [](project::Project& p) {
+                                    p.grid.nu = 7;
+                                    p.grid.nv = 9;
+                                },
+                                {});
+        person_.press_key(render::Key::f4);
+        person_.wait_idle();
+    }
+
+    [[nodiscard]] const project::Plan& plan() { return person_.workshop().look().plan->plan; }
+
+    Person person_{{1600, 1400}};
+};
+
+TEST_F(Strategies, ASpiralIsChosenShownAndUndone) {
+    const auto zigzag = person_.workshop().look().shown();
+    person_.choose("inspector/strategy/strategy", "spiral");
+    EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::spiral);
+    ASSERT_NE(plan().path, nullptr);
+    EXPECT_EQ(person_.workshop().look().shown(), plan().path);
+    EXPECT_EQ(person_.workshop().look().program_path(), plan().path);
+    EXPECT_FALSE(person_.sees("inspector/strategy/tolerance_mm"));
+    EXPECT_FALSE(person_.sees("inspector/strategy/scallop_mm"));
+    person_.keep("strategy-spiral");
+    person_.choose("inspector/error/shown", "tracks");
+    EXPECT_EQ(person_.workshop().look().shown(), plan().optimised);
+    person_.click("lower/tabs/compare");
+    person_.keep("strategy-compare");
+    person_.choose("inspector/error/shown", "path");
+    EXPECT_EQ(person_.workshop().look().shown(), plan().path);
+    person_.press_key(render::Key::z, true);
+    person_.wait_idle();
+    EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::zigzag);
+    EXPECT_EQ(plan().path, nullptr);
+    EXPECT_EQ(person_.workshop().look().shown()->closest.max, zigzag->closest.max);
+}
+
+TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {
+    person_.choose("inspector/strategy/strategy", "fewest-points");
+    EXPECT_TRUE(person_.sees("inspector/strategy/tolerance_mm"));
+    EXPECT_FALSE(person_.sees("inspector/strategy/scallop_mm"));
+    const auto coarse = plan().path->toolpath.points.size();
+    person_.fill_in("inspector/strategy/tolerance_mm", "0.05");
+    person_.wait_idle();
+    EXPECT_GT(plan().path->toolpath.points.size(), coarse);
+    EXPECT_LE(plan().path->closest.max, 0.05);
+    person_.keep("strategy-fewest-points");
+    person_.choose("inspector/strategy/strategy", "constant-scallop");
+    EXPECT_TRUE(person_.sees("inspector/strategy/no_cutter"));
+    EXPECT_EQ(plan().program, nullptr) << "a point leaves no scallop";
+    EXPECT_FALSE(person_.workshop().look().failure().empty());
+    person_.choose("inspector/tool/cutter", "ball");
+    EXPECT_FALSE(person_.sees("inspector/strategy/no_cutter"));
+    EXPECT_FALSE(person_.sees("inspector/tool/scallop_mm")) << "asked for once";
+    person_.fill_in("inspector/strategy/scallop_mm", "0.5");
+    person_.wait_idle();
+    ASSERT_NE(plan().path, nullptr);
+    ASSERT_NE(plan().program, nullptr);
+    const auto wide = plan().path->toolpath.points.size();
+    person_.keep("strategy-constant-scallop");
+    person_.fill_in("inspector/strategy/scallop_mm", "0.2");
+    person_.wait_idle();
+    EXPECT_GT(plan().path->toolpath.points.size(), wide);
+}
+
+TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
+    person_.press_key(render::Key::f3);
+    person_.frames();
+    EXPECT_FALSE(person_.sees("inspector/redistribution/floor"));
+    person_.choose("inspector/grid/method", "redistribution");
+    ASSERT_NE(plan().redistributed, nullptr);
+    EXPECT_TRUE(person_.sees("inspector/redistribution/floor"));
+    const double even = plan().redistributed->closest.mean;
+    person_.fill_in("inspector/redistribution/floor", "50");
+    person_.wait_idle();
+    EXPECT_GT(plan().redistributed->closest.mean, even) << "nearly equal steps again";
+    person_.choose("inspector/grid/method", "harmonic");
+    ASSERT_NE(plan().harmonic, nullptr);
+    EXPECT_EQ(person_.workshop().look().shown(), plan().harmonic);
+    EXPECT_FALSE(person_.sees("inspector/redistribution/floor"));
+    EXPECT_FALSE(person_.sees("inspector/elliptic/adaptation"));
+    EXPECT_FALSE(person_.sees("inspector/elliptic/solver"));
+    EXPECT_TRUE(person_.sees("inspector/elliptic/max_rounds"));
+    person_.keep("grid-harmonic");
+    person_.click("inspector/watch/grid_redistribute");
+    person_.wait_idle();
+    const auto watched = person_.workshop().look().watched;
+    ASSERT_TRUE(watched && watched->state);
+    EXPECT_EQ(watched->method, GridMethod::redistribution);
+    EXPECT_LT(watched->state->of_best.mean, watched->state->start.mean);
+}
+
+/// What was never made has no path and no figures: the uniform ones must not stand under its name.
+TEST_F(Strategies, OnlyGridsThatAreMadeAreShownAndKept) {
+    const auto look = [&] { return person_.workshop().look(); };
+    ASSERT_FALSE(look().evaluation(GridMethod::harmonic));
+    person_.click("inspector/error/shown");
+    EXPECT_TRUE(person_.sees("inspector/error/shown/elliptic"));
+    EXPECT_FALSE(person_.sees("inspector/error/shown/harmonic"));
+    EXPECT_FALSE(person_.sees("inspector/error/shown/chain"));
+    person_.keep("toolpath-shown-grids");
+    person_.click("inspector/error/shown/elliptic");
+    EXPECT_EQ(look().shown(), plan().evaluation(GridMethod::elliptic));
+    person_.workshop().run("view.show_harmonic"); // refused
+    EXPECT_EQ(look().shown_name(), "Elliptic");
+    person_.workshop().session().shown = GridMethod::harmonic; // as after a machine was changed
+    person_.frames();
+    EXPECT_EQ(look().shown(), plan().uniform);
+    EXPECT_EQ(look().shown_name(), "Uniform");
+    person_.keep("toolpath-shown-not-made");
+    person_.workshop().run("view.keep_result");
+    ASSERT_TRUE(person_.workshop().session().kept);
+    EXPECT_EQ(person_.workshop().session().kept->name.find("Uniform on "), 0U);
+}
+
+} // namespace
+} // namespace millwright::panels

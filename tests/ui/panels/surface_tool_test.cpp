@@ -1,0 +1,130 @@
+// Brush and outline on the surface in the Grid workspace: real mouse and keys, drawn in real OpenGL.
+#include "core/project/weight_map.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using test::Person;
+using viewport::SurfaceToolKind;
+
+class SurfaceTools : public ::testing::Test {
+protected:
+    SurfaceTools() {
+        person_.open("assets/projects/dome.json");
+        person_.workshop().edit("Change the grid",
+                                [](project::Project& p) {
+                                    p.grid.nu = 9;
+                                    p.grid.nv = 9;
+                                },
+                                {});
+        person_.press_key(render::Key::f3);
+        person_.wait_idle();
+        person_.press_key(render::Key::digit_2); // from the top
+        person_.wait_idle();
+    }
+
+    /// Shares of the view.
+    [[nodiscard]] widgets::Point at(float x, float y) {
+        const widgets::Rect view = person_.place("view");
+        return {view.x + x * view.w, view.y + y * view.h};
+    }
+    [[nodiscard]] const std::optional<grid::Field>& painted() {
+        return person_.project().grid.elliptic.painted;
+    }
+    [[nodiscard]] const grid::Region& region() { return person_.project().grid.elliptic.region; }
+
+    Person person_{{1600, 1400}};
+};
+
+TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
+    person_.click("inspector/surface_tool/tool/brush");
+    ASSERT_EQ(person_.workshop().session().surface_tool.kind, SurfaceToolKind::brush);
+    EXPECT_TRUE(person_.workshop().session().layers_now().weight);
+    person_.fill_in("inspector/surface_tool/radius", "12");
+    person_.fill_in("inspector/surface_tool/strength", "1");
+    person_.wait_idle();
+    const auto weight = person_.workshop().look().plan->plan.weight;
+    person_.hover(at(0.5F, 0.5F));
+    const render::Picture with_ring = person_.picture();
+    person_.hover(at(0.02F, 0.02F));
+    EXPECT_NE(person_.picture(), with_ring) << "the ring of the brush is gone beside the surface";
+    ASSERT_FALSE(painted());
+    person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
+    ASSERT_TRUE(painted());
+    EXPECT_EQ(person_.project().grid.elliptic.weight, project::WeightSource::mixed);
+    EXPECT_GT(person_.project().grid.elliptic.mix.painted, 0.0);
+    EXPECT_EQ(std::ranges::max(painted()->values), 1.0);
+    EXPECT_EQ(painted()->values.front(), 0.0) << "not in the corner of the surface";
+    person_.wait_idle();
+    EXPECT_NE(person_.workshop().look().plan->plan.weight->values, weight->values);
+    person_.hover(at(0.5F, 0.42F));
+    person_.keep("grid-brush");
+    const grid::Field once = *painted();
+    person_.drag(at(0.5F, 0.55F), at(0.5F, 0.6F), 12);
+    EXPECT_NE(*painted(), once);
+    person_.press_key(render::Key::z, true);
+    EXPECT_EQ(*painted(), once) << "a stroke is one step";
+    person_.press_key(render::Key::z, true);
+    EXPECT_FALSE(painted());
+    EXPECT_EQ(person_.project().grid.elliptic.weight, project::WeightSource::error);
+    person_.press_key(render::Key::y, true);
+    ASSERT_TRUE(painted());
+    person_.click("inspector/surface_tool/stroke/erase");
+    person_.fill_in("inspector/surface_tool/radius", "40");
+    person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
+    EXPECT_EQ(std::ranges::max(painted()->values), 0.0);
+    person_.click("inspector/surface_tool/clear_paint");
+    EXPECT_FALSE(painted());
+}
+
+TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
+    person_.click("inspector/surface_tool/tool/outline");
+    for (const auto& [x, y] : {std::pair{0.42F, 0.42F}, {0.58F, 0.42F}, {0.58F, 0.58F}, {0.42F, 0.58F}}) {
+        person_.click_at(at(x, y));
+    }
+    EXPECT_EQ(person_.workshop().session().surface_tool.draft.size(), 4U);
+    EXPECT_TRUE(region().everywhere()) << "not before it is closed";
+    person_.click("view/corner(0)");
+    ASSERT_EQ(region().outline.size(), 4U);
+    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    person_.wait_idle();
+    const auto everywhere = person_.workshop().look().plan->plan.weight;
+    person_.keep("grid-outline");
+    const Vec2 before = region().outline[1];
+    person_.drag(person_.place("view/corner(1)").centre(), at(0.64F, 0.38F), 8);
+    EXPECT_NE(region().outline[1], before);
+    EXPECT_EQ(region().outline.size(), 4U) << "dragged, not added";
+    const Vec2 after = region().outline[1];
+    person_.press_key(render::Key::z, true);
+    EXPECT_EQ(region().outline[1], before) << "a drag is one step";
+    person_.press_key(render::Key::y, true);
+    EXPECT_EQ(region().outline[1], after);
+    person_.fill_in("inspector/surface_tool/border_mm", "3");
+    EXPECT_EQ(region().border_mm, 3.0);
+    person_.wait_idle();
+    EXPECT_NE(person_.workshop().look().plan->plan.weight->values, everywhere->values);
+    person_.click("inspector/surface_tool/clear_outline");
+    EXPECT_TRUE(region().everywhere());
+}
+
+TEST_F(SurfaceTools, EscDropsAnOutlineInTheMaking) {
+    person_.click("inspector/surface_tool/tool/outline");
+    person_.click_at(at(0.45F, 0.45F));
+    person_.click_at(at(0.55F, 0.45F));
+    EXPECT_EQ(person_.workshop().session().surface_tool.draft.size(), 2U);
+    person_.press_key(render::Key::escape);
+    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    person_.click_at(at(0.45F, 0.45F));
+    person_.click("inspector/surface_tool/tool/none");
+    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    EXPECT_TRUE(region().everywhere());
+}
+
+} // namespace
+} // namespace millwright::panels

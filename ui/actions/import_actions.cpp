@@ -1,0 +1,85 @@
+// Surfaces of other programs: bringing them in, and writing for them.
+#include "ui/actions/import_bench.h"
+#include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace {
+
+using widgets::Permission;
+
+Permission is_importing(const Workbench& now) {
+    return now.import.is_open() ? Permission{} : Permission::refused("No surface is being imported.");
+}
+
+Permission can_take(const Workbench& now) {
+    if (const Permission open = is_importing(now); !open.allowed) {
+        return open;
+    }
+    if (now.import.is_ready()) {
+        return {};
+    }
+    if (now.import.activity().busy) {
+        return Permission::refused("It is still being worked out.");
+    }
+    const auto found = now.import.latest();
+    return Permission::refused(found && found->failure ? "It cannot be imported like this."
+                                                       : "Choose a face first.");
+}
+
+Permission has_reference(const Workbench& now) {
+    return !now.import.is_open() && now.import.reference(now.project.surface)
+               ? Permission{}
+               : Permission::refused("There is no reference mesh.");
+}
+
+} // namespace
+
+void add_import_actions(Actions& actions) {
+    add(actions,
+        {"file.import",
+         "File",
+         "Import a surface ...",
+         "Takes a face of a STEP or IGES file, or fits a patch to an STL, OBJ or PLY mesh.",
+         "Ctrl+I",
+         ""},
+        always,
+        [](Hands& hands) { hands.session.question = FileQuestion::import_surface; });
+    add(actions,
+        {"file.export",
+         "File",
+         "Export the surface ...",
+         "Writes the surface as STEP, glb, STL, OBJ or PLY, by the end of the name.",
+         "",
+         ""},
+        always,
+        [](Hands& hands) { hands.session.question = FileQuestion::export_surface; });
+    add(actions,
+        {"file.drop_reference",
+         "File",
+         "Remove the reference mesh",
+         "The triangles of the imported file are no longer shown.",
+         "",
+         ""},
+        has_reference,
+        [](Hands& hands) { hands.workshop.import().drop_reference(); });
+    add(actions,
+        {"import.take",
+         dialog_menu,
+         "Import",
+         "Takes the place of the project's surface; undo brings that back.",
+         "",
+         ""},
+        can_take,
+        [](Hands& hands) { hands.workshop.take_import(); });
+    add(actions,
+        {"import.give_up", dialog_menu, "Cancel", "The project stays as it is.", "", ""},
+        is_importing,
+        [](Hands& hands) {
+            hands.workshop.import().close();
+            hands.session.fit_wanted = true;
+        });
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,55 @@
+#include "ui/actions/import_bench.h"
+
+namespace millwright::actions {
+
+void ImportBench::open(const std::filesystem::path& file) {
+    file_ = file;
+    choice_ = {};
+    worker_.open(file_, choice_);
+}
+
+void ImportBench::choose(const project::ImportChoice& choice) {
+    const auto now = latest();
+    if (!now || !now->source || choice == choice_) {
+        return;
+    }
+    choice_ = choice;
+    worker_.make(choice_);
+}
+
+void ImportBench::close() {
+    worker_.close();
+    file_.clear();
+}
+
+project::SurfaceInput ImportBench::take(const project::SurfaceInput& before) {
+    expects(is_ready(), "there is a surface to be taken");
+    const auto now = latest();
+    taken_ = std::make_unique<const Taken>(Taken{now->reference, now->surface->surface, before});
+    close();
+    return taken_->surface;
+}
+
+std::shared_ptr<const project::ImportResult> ImportBench::latest() const {
+    return is_open() ? worker_.latest() : nullptr;
+}
+
+bool ImportBench::is_ready() const {
+    const auto now = latest();
+    return now && now->surface && now->choice == choice_;
+}
+
+std::shared_ptr<const project::ReferenceMesh>
+ImportBench::reference(const project::SurfaceInput& design) const {
+    if (is_open()) {
+        const auto now = latest();
+        return now ? now->reference : nullptr;
+    }
+    return taken_ && !(design == taken_->before) ? taken_->reference : nullptr;
+}
+
+bool ImportBench::is_measured(const project::SurfaceInput& design) const {
+    return is_open() || (taken_ && design.patches == taken_->surface.patches);
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,75 @@
+// The part of the workshop that deals with surfaces of other programs.
+#include "core/base/error.h"
+#include "core/exchange/surface_file.h"
+#include "core/project/plan.h"
+#include "ui/actions/import_bench.h"
+#include "ui/actions/surface_export.h"
+#include "ui/actions/workshop.h"
+
+namespace millwright::actions {
+
+namespace fs = std::filesystem;
+
+void Workshop::open_surface(const fs::path& file) {
+    if (!fs::is_regular_file(file)) {
+        throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
+    }
+    import_->open(fs::absolute(file).lexically_normal());
+    session_.workspace = Workspace::design;
+    session_.panes.inspector_shown = true; // what is to be chosen stands there
+    session_.question = FileQuestion::none;
+    remember(file);
+}
+
+/// The view is fitted to what comes; what is wrong with a file is told once, and an unread one is given up.
+void Workshop::follow_import() {
+    if (const auto written = export_->take_news()) {
+        if (written->failure) {
+            tell(session_, widgets::Severity::danger, to_text(*written->failure));
+        } else {
+            tell(session_, widgets::Severity::good, "Surface written.", written->file.string());
+        }
+    }
+    const auto now = import_->latest();
+    if (!now || now->revision == followed_import_) {
+        return;
+    }
+    followed_import_ = now->revision;
+    session_.fit_wanted = true;
+    if (now->failure) {
+        Diagnostic told = *now->failure;
+        told.place.file = now->file.filename();
+        tell(session_, widgets::Severity::danger, to_text(told));
+    }
+    if (!now->source) {
+        import_->close();
+    }
+}
+
+void Workshop::take_import() {
+    const std::string title = "Import " + import_->file().filename().string();
+    const project::SurfaceInput before = history_.current().surface;
+    const auto now = import_->latest();
+    expects(import_->is_ready(), "there is a surface to be taken");
+    edit(title, [&](project::Project& draft) { draft.surface = now->surface->surface; }, {});
+    (void)import_->take(before); // only now: a surface that is refused stays on the bench
+    for (const std::string& note : now->surface->notes) {
+        tell(session_, widgets::Severity::info, note + ".", now->file.filename().string());
+    }
+    session_.selected.clear();
+    session_.fit_wanted = true;
+}
+
+void Workshop::export_surface(const fs::path& file) {
+    if (!exchange::is_surface_file(file)) {
+        throw Error("a surface is not written in this kind of file",
+                    file,
+                    "the name ends in .step, .glb, .stl, .obj or .ply");
+    }
+    export_->write(
+        {std::make_shared<const geometry::Surface>(project::surface_of(history_.current().surface)),
+         fs::absolute(file).lexically_normal()});
+    session_.question = FileQuestion::none;
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,78 @@
+#include "ui/panels/strategy_fields.h"
+
+#include "core/base/text.h"
+#include "core/project/strategy_path.h"
+#include "core/project/tool_settings.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using project::Project;
+using project::StrategyInput;
+
+void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    for (const auto& setting : project::tool_numbers()) {
+        if (setting.id == "scallop_mm") {
+            number_fields<project::ToolInput>(
+                ui, ask, {&setting, 1}, now.project.tool, [](Project& p) -> project::ToolInput& {
+                    return p.tool;
+                });
+        }
+    }
+    if (now.project.tool.cutter == toolpath::CutterKind::point) {
+        (void)widgets::banner(
+            ui,
+            "no_cutter",
+            {widgets::Severity::warning, "A point leaves no scallop: choose a cutter under Tool.", {}});
+    }
+}
+
+std::string grid_note(const Project& project) {
+    if (project::follows_nodes(project.toolpath.strategy)) {
+        return fmt::format("Over the nodes of the grid: {}.",
+                           project::row_of(project::grid_methods(), project.grid.method).label);
+    }
+    return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
+}
+
+} // namespace
+
+void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("strategy", "Strategy");
+    if (!section) {
+        return;
+    }
+    const project::ToolpathInput& input = now.project.toolpath;
+    const auto [options, index] = options_of(project::strategies(), input.strategy);
+    if (const auto chosen = ui.choice("strategy", "Path", index, options)) {
+        constexpr std::string_view prefix = "path.";
+        std::string id(project::strategies()[static_cast<std::size_t>(*chosen)].id);
+        std::ranges::replace(id, '-', '_');
+        ask.run(std::string(prefix) + id);
+    }
+    if (input.strategy == StrategyInput::constant_scallop) {
+        scallop_field(ui, now, ask);
+    }
+    if (input.strategy == StrategyInput::fewest_points) {
+        number_fields<project::ToolpathInput>(
+            ui, ask, project::toolpath_numbers(), input, [](Project& p) -> project::ToolpathInput& {
+                return p.toolpath;
+            });
+    }
+    ui.note(grid_note(now.project));
+    if (const auto path = now.program_path()) {
+        ui.value("points", "Points", fmt::format("{}", path->toolpath.points.size()));
+        ui.value("length", "Length", fixed(path->path_length, 1), "mm");
+    }
+}
+
+} // namespace millwright::panels

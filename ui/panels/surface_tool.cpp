@@ -1,0 +1,194 @@
+#include "ui/panels/surface_tool.h"
+
+#include "core/project/grids.h"
+#include "ui/panels/internal/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::Session;
+using project::Project;
+using viewport::DragStage;
+using viewport::SurfaceToolKind;
+
+constexpr std::array<widgets::Option, 3> tools{
+    {{"none", "None", "", "The mouse points at the path", {}},
+     {"brush", "Brush", "", "Paints the weight: drag over the surface", {}},
+     {"outline", "Outline", "", "Draws the region of adaptation: click its corners", {}}}};
+constexpr std::array<widgets::Option, 2> strokes{{{"paint", "Paint", "", "Cells become smaller there", {}},
+                                                  {"erase", "Erase", "", "Rubs out what was painted", {}}}};
+
+/// A corner may be moved while another change has taken it away.
+bool has_corner(const grid::Region& region, int corner) {
+    return corner >= 0 && corner < static_cast<int>(region.outline.size());
+}
+
+void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const actions::SurfaceToolView& tool = now.session.surface_tool;
+    if (const auto chosen = ui.segmented("stroke", "Stroke", tool.erases ? 1 : 0, strokes)) {
+        ask.show([erases = *chosen == 1](Session& session) { session.surface_tool.erases = erases; });
+    }
+    const widgets::FieldInfo radius{"radius",
+                                    "Radius",
+                                    "mm",
+                                    "Of the brush on the surface, as a distance in space",
+                                    0.1,
+                                    1000.0,
+                                    10.0,
+                                    1};
+    if (const auto value = ui.number(tool.radius_mm, radius)) {
+        ask.show([v = *value](Session& session) { session.surface_tool.radius_mm = v; });
+    }
+    const widgets::FieldInfo strength{
+        "strength", "Strength", "", "Share of the way to the full value with each dab", 0.01, 1.0, 0.5, 2};
+    if (const auto value = ui.number(tool.strength, strength)) {
+        ask.show([v = *value](Session& session) { session.surface_tool.strength = v; });
+    }
+    const auto& painted = now.project.grid.elliptic.painted;
+    if (ui.button("clear_paint",
+                  "Clear the paint",
+                  painted ? widgets::Permission{}
+                          : widgets::Permission::refused("Nothing has been painted."))) {
+        ask.edit("Clear the paint", [](Project& p) { p.grid.elliptic.painted.reset(); });
+    }
+}
+
+void outline_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const std::vector<Vec2>& draft = now.session.surface_tool.draft;
+    const grid::Region& region = now.project.grid.elliptic.region;
+    if (!draft.empty()) {
+        ui.note(
+            fmt::format("{} corners. Click on the surface for more, on the first one to close the outline; "
+                        "Esc drops it.",
+                        draft.size()));
+        return;
+    }
+    ui.note(region.everywhere() ? "Click corners on the surface; the grid adapts inside of them alone."
+                                : "Drag corners, or click beside them to draw another outline.");
+    number_fields<grid::Region>(ui, ask, project::region_numbers(), region, [](Project& p) -> grid::Region& {
+        return p.grid.elliptic.region;
+    });
+    if (ui.button("clear_outline",
+                  "Adapt everywhere",
+                  region.everywhere() ? widgets::Permission::refused("There is no outline.")
+                                      : widgets::Permission{})) {
+        ask.edit("Adapt everywhere", [](Project& p) { p.grid.elliptic.region.outline.clear(); });
+    }
+}
+
+} // namespace
+
+viewport::SurfaceTool surface_tool_of(const Workbench& now) {
+    if (now.session.workspace != actions::Workspace::grid) {
+        return {};
+    }
+    const actions::SurfaceToolView& tool = now.session.surface_tool;
+    const bool drawing = tool.kind == SurfaceToolKind::outline && !tool.draft.empty();
+    return {tool.kind,
+            geometry::PatchId{now.project.surface.machined_patch},
+            tool.radius_mm,
+            drawing ? tool.draft : now.project.grid.elliptic.region.outline,
+            !drawing};
+}
+
+void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto section = ui.section("surface_tool", "Brush and outline");
+    if (!section) {
+        return;
+    }
+    const SurfaceToolKind kind = now.session.surface_tool.kind;
+    if (const auto chosen = ui.segmented("tool", "In hand", static_cast<int>(kind), tools)) {
+        constexpr std::array<const char*, 3> ids{"grid.no_tool", "grid.brush", "grid.outline"};
+        ask.run(ids[static_cast<std::size_t>(*chosen)]);
+    }
+    if (kind == SurfaceToolKind::brush) {
+        brush_fields(ui, now, ask);
+    } else if (kind == SurfaceToolKind::outline) {
+        outline_fields(ui, now, ask);
+    }
+}
+
+void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQueue& ask) {
+    if (painted.stage != DragStage::going_on) {
+        ask.end_step();
+        if (painted.stage == DragStage::cancelled) {
+            ask.run("edit.undo");
+        }
+        return;
+    }
+    const actions::SurfaceToolView& tool = now.session.surface_tool;
+    const grid::Brush brush{
+        .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
+    ask.edit(
+        tool.erases ? "Erase the weight" : "Paint the weight",
+        [painted, brush](Project& p) {
+            const auto patch = static_cast<std::size_t>(p.surface.machined_patch);
+            project::paint_weight(p.grid.elliptic,
+                                  geometry::BezierPatch(p.surface.patches.at(patch)),
+                                  painted.from,
+                                  painted.to,
+                                  brush);
+            project::let_paint_count(p.grid.elliptic);
+        },
+        "paint the weight");
+}
+
+void obey(const viewport::AddOutlineCorner& corner, ActionQueue& ask) {
+    ask.show([uv = corner.uv](Session& session) {
+        std::vector<Vec2>& draft = session.surface_tool.draft;
+        if (std::ssize(draft) < grid::most_corners) {
+            draft.push_back(uv);
+        }
+    });
+}
+
+void obey(const viewport::CloseOutline&, const Workbench& now, ActionQueue& ask) {
+    const std::vector<Vec2>& draft = now.session.surface_tool.draft;
+    if (std::ssize(draft) < grid::fewest_corners) {
+        return;
+    }
+    ask.edit("Draw the region of adaptation",
+             [outline = draft](Project& p) { p.grid.elliptic.region.outline = outline; });
+    ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+}
+
+void obey(const viewport::DropOutline&, ActionQueue& ask) {
+    ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+}
+
+void obey(const viewport::MoveOutlineCorner& moved, const Workbench& now, ActionQueue& ask) {
+    const bool drawing = !now.session.surface_tool.draft.empty();
+    if (drawing && moved.stage == DragStage::going_on) {
+        ask.show([moved](Session& session) {
+            std::vector<Vec2>& draft = session.surface_tool.draft;
+            if (moved.corner < static_cast<int>(draft.size())) {
+                draft[static_cast<std::size_t>(moved.corner)] = moved.uv;
+            }
+        });
+    } else if (moved.stage == DragStage::going_on) {
+        ask.edit(
+            "Move a corner of the region",
+            [moved](Project& p) {
+                grid::Region& region = p.grid.elliptic.region;
+                if (has_corner(region, moved.corner)) {
+                    region.outline[static_cast<std::size_t>(moved.corner)] = moved.uv;
+                }
+            },
+            "drag a corner of the region");
+    } else if (!drawing) {
+        ask.end_step();
+        if (moved.stage == DragStage::cancelled) {
+            ask.run("edit.undo");
+        }
+    }
+}
+
+} // namespace millwright::panels
