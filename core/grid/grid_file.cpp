@@ -26,7 +26,8 @@ struct Number {
     int column = 0;
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file, int line, int column, std::string message, std::string hint = {}) {
+[[noreturn]] void
+fail(const std::filesystem::path& file, int line, int column, std::string message, std::string hint = {}) {
     Diagnostic found;
     found.place = {.file = file, .line = line, .column = column};
     found.message = std::move(message);
@@ -225,8 +226,10 @@ NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file,
     }
     if (contents == FileContents::nodes) {
         require_near(found, file);
-        require_unfolded(
-            found, file, columns == 2 ? "a file of two numbers a line may be pairs: give its rows and columns" : "");
+        require_unfolded(found,
+                         file,
+                         columns == 2 ? "a file of two numbers a line may be pairs: give its rows and columns"
+                                      : "");
     }
     return found.nodes;
 }
