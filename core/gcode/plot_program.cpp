@@ -212,8 +212,10 @@ void expect_on_table(const plot::CutPath& path, const kinematics::MachineModel& 
     }
     const Vec3 size = high - low;
     const std::string hint =
-        fits ? fmt::format(
-                   "put its origin at {0:.3f}, {1:.3f}, as --origin {0:.3f},{1:.3f}", better.x(), better.y())
+        fits ? fmt::format("put its origin at {0:.3f}, {1:.3f}: Origin X and Y in the window, --origin "
+                           "{0:.3f},{1:.3f}",
+                           better.x(),
+                           better.y())
              : fmt::format("it is {:.1f} x {:.1f} mm, too large for this machine", size.x(), size.y());
     throw Error(fault, {}, hint);
 }

@@ -170,7 +170,6 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!now.arm.loaded()) {
         return;
     }
-    connection_.draw_messages(ui, now, ask);
     draw_power(ui, now, ask);
     if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog the drawn arm")) {
         const int frame = static_cast<int>(now.session.hand.arm_frame);
@@ -188,6 +187,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             ui.note("Not done: " + refusal_ + ".");
         }
     }
+    connection_.draw_messages(ui, now, ask);
 }
 
 void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {

@@ -236,10 +236,9 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
         action_button(ui, now, ask, catalogue_, "arm.clear_trace", widgets::Rank::normal, "Clear trace");
     }
     const machine::DriverStatus& status = now.controller.status;
-    if (real && !status.message.empty()) { // always in sight, and it moves no button
-        ui.words(as_sentence(status.message),
-                 status.state == machine::DriverState::alarm ? widgets::Tone::danger
-                                                             : widgets::Tone::warning);
+    const bool alarm = status.state == machine::DriverState::alarm; // which stands above the drawing
+    if (real && !status.message.empty() && !alarm) {                // always in sight, and it moves no button
+        ui.words(as_sentence(status.message), widgets::Tone::warning);
     } else if (real) {
         ui.note("The picture follows the connected PMAC.");
     } else if (now.arm.duration() > 0.0) {

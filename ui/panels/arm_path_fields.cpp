@@ -45,7 +45,7 @@ void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         "five joints cannot hold it so; 0: not at all",
         0.0,
         90.0,
-        {},
+        project::PathPlace().most_lean_deg,
         1};
     if (const auto v = ui.number(place.most_lean_deg, lean)) {
         ask.edit("Lean of the tool on the arm",

@@ -105,6 +105,14 @@ std::string controller_text(const Workbench& now) {
            (machine.status.position_known ? "" : ", position not known");
 }
 
+std::string alarm_text(const Workbench& now) {
+    const machine::DriverStatus& status = now.controller.status;
+    if (!now.controller.connected() || status.state != DriverState::alarm) {
+        return "";
+    }
+    return (status.message.empty() ? "There is an alarm" : as_sentence(status.message)) + ". " + advice(now);
+}
+
 void ConnectionPanel::look_for_ports() {
     ports_.clear();
     for (const machine::SerialPort& port : machine::serial_ports()) {
@@ -244,10 +252,13 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
+bool ConnectionPanel::warns(const actions::ControllerView& machine) {
+    return machine.status.state != DriverState::alarm && !machine.status.message.empty();
+}
+
 bool ConnectionPanel::has_messages(const actions::ControllerView& machine) {
-    return machine.connected() &&
-           (!machine.status.message.empty() || !machine.status.position_doubt.empty() ||
-            asks_where_it_stands(machine) || !reports_advice(machine).empty());
+    return machine.connected() && (warns(machine) || !machine.status.position_doubt.empty() ||
+                                   asks_where_it_stands(machine) || !reports_advice(machine).empty());
 }
 
 void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -259,13 +270,9 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
     if (!section) {
         return;
     }
-    const bool alarm = machine.status.state == DriverState::alarm;
-    if (!machine.status.message.empty()) {
-        (void)widgets::banner(ui,
-                              "message",
-                              {alarm ? widgets::Severity::danger : widgets::Severity::warning,
-                               as_sentence(machine.status.message) + (alarm ? ". " + advice(now) : ""),
-                               {}});
+    if (warns(machine)) {
+        (void)widgets::banner(
+            ui, "message", {widgets::Severity::warning, as_sentence(machine.status.message), {}});
     }
     if (!machine.status.position_doubt.empty()) {
         ui.note(machine::doubt_sentence(machine.status.position_doubt));
@@ -294,9 +301,7 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         return;
     }
     ui.value("state", as_sentence(kind_text(machine.choice.kind)), state_text(machine.status));
-    if (!machine.status.position_known) {
-        ui.value("position_known", "Position", "not known");
-    }
+    ui.value("position_known", "Position", machine.status.position_known ? "known" : "not known");
     constexpr float address_label = 0.12F; // addresses are long
     const auto labels = ui.label_share(address_label);
     if (!machine.choice.address.empty()) {

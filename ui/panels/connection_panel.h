@@ -12,11 +12,12 @@ class ConnectionPanel final : public Panel {
 public:
     explicit ConnectionPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
-    /// Alarms, doubts and advice, in a section of their own: they come and go, and must not move the buttons
-    /// that stop a machine.
+    /// Warnings, doubts and advice, in a section of their own: they come and go, and must not move a button
+    /// that moves or stops a machine. The alarm stands above the drawing, see alarm_text().
     void draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
 private:
+    [[nodiscard]] static bool warns(const actions::ControllerView& machine);
     [[nodiscard]] static bool has_messages(const actions::ControllerView& machine);
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const;
@@ -32,6 +33,9 @@ private:
     std::vector<Port> ports_;
     bool looked_ = false;
 };
+
+/// What the alarm is and what to do about it, in sentences; empty where there is none.
+[[nodiscard]] std::string alarm_text(const Workbench& now);
 
 /// "Grbl at /dev/ttyUSB0: idle", "virtual machine: running (program)"; "no machine connected".
 [[nodiscard]] std::string controller_text(const Workbench& now);

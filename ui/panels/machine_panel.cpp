@@ -83,7 +83,6 @@ std::optional<double> time_left(const Workbench& now, const machine::JobReport& 
 void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
     draw_job(ui, now, ask);
-    connection_.draw_messages(ui, now, ask);
     if (now.controller.connected()) {
         controls_.draw(ui, now, ask);
     }
@@ -92,6 +91,7 @@ void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.controller.connected()) {
         hand_.draw(ui, now, ask);
+        connection_.draw_messages(ui, now, ask);
     } else {
         draw_position(ui, now);
     }

@@ -185,14 +185,30 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     status_bar(ui, now, ask_, view_.under_mouse());
 }
 
+/// What an alarm leaves of the drawing: it stands above that, where it moves no button.
+Rect Window::below_alarm(Ui& ui, const Workbench& now, const Rect& view) {
+    const Workspace shown = now.session.workspace;
+    const std::string text = shown == Workspace::machine || shown == Workspace::arm ? alarm_text(now) : "";
+    if (text.empty()) {
+        return view;
+    }
+    const widgets::Notice notice{widgets::Severity::danger, text, {}};
+    const float height = widgets::banner_height(ui, notice, view.w);
+    const auto pane = ui.bare_pane("alarm", {view.x, view.y, view.w, height});
+    (void)widgets::banner(ui, "message", notice);
+    const float taken = height + ui.px(seam);
+    return {view.x, view.y + taken, view.w, view.h - taken};
+}
+
 void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
     const bool processor = now.session.workspace == Workspace::processor;
     {
-        const auto pane = ui.bare_pane("view", place.view);
+        const Rect drawing = below_alarm(ui, now, place.view);
+        const auto pane = ui.bare_pane("view", drawing);
         if (processor) {
-            processor_diagram(ui, now, place.view);
+            processor_diagram(ui, now, drawing);
         } else {
-            view_.draw(ui, now, ask_, place.view);
+            view_.draw(ui, now, ask_, drawing);
         }
     }
     const auto pane = ui.pane("timeline", place.timeline);

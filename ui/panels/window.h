@@ -46,6 +46,7 @@ private:
     [[nodiscard]] static bool no_jog(const Workbench& now);
     void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
     void draw_emergency_stop(Ui& ui, const Workbench& now);
+    [[nodiscard]] static widgets::Rect below_alarm(Ui& ui, const Workbench& now, const widgets::Rect& view);
     void draw_middle(Ui& ui, const Workbench& now, const Layout& place);
     void draw_left(Ui& ui, const Workbench& now, const widgets::Rect& place);
     void draw_inspector(Ui& ui, const Workbench& now);

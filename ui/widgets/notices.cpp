@@ -151,6 +151,10 @@ bool banner(Ui& ui, std::string_view id, const Notice& notice, bool can_close) {
     return draw_notice(ui, ui.path(id), slot.rect(), notice, can_close);
 }
 
+float banner_height(const Ui& ui, const Notice& notice, float width) {
+    return layout(ui, notice, width, false).height;
+}
+
 void Toasts::push(Notice notice) {
     const auto same = std::find_if(shown_.begin(), shown_.end(), [&](const Shown& shown) {
         return shown.notice.text == notice.text && shown.notice.place == notice.place;

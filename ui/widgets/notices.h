@@ -20,6 +20,9 @@ struct Notice {
 /// A banner in the flow of the pane. True when it was closed; `can_close` false leaves the cross out.
 bool banner(Ui& ui, std::string_view id, const Notice& notice, bool can_close = false);
 
+/// Pixels that a banner without a cross takes where it has `width` pixels.
+[[nodiscard]] float banner_height(const Ui& ui, const Notice& notice, float width);
+
 /// The notices in the corner. Danger stays until it is closed; the others go by themselves.
 class Toasts {
 public:

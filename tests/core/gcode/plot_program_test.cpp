@@ -97,10 +97,10 @@ TEST(PlotProgram, SaysWhichOriginKeepsItOnTheTable) {
     EXPECT_EQ(fault_of(path_over(0.0, 480.0), {0.0, 0.0}), "");
     EXPECT_EQ(fault_of(path_over(-1.5, 100.0), {0.0, 0.0}),
               "axis X would have to go to -1.500, outside 0.000 ... 480.000 mm; "
-              "put its origin at 1.500, 0.000, as --origin 1.500,0.000");
+              "put its origin at 1.500, 0.000: Origin X and Y in the window, --origin 1.500,0.000");
     EXPECT_EQ(fault_of(path_over(100.0, 500.0), {50.0, 5.0}),
               "axis X would have to go to 500.000, outside 0.000 ... 480.000 mm; "
-              "put its origin at 30.000, 5.000, as --origin 30.000,5.000");
+              "put its origin at 30.000, 5.000: Origin X and Y in the window, --origin 30.000,5.000");
     EXPECT_NE(fault_of(path_over(-100.0, 500.0), {0.0, 0.0}).find("too large for this machine"),
               std::string::npos);
     EXPECT_EQ(fault_of({}, {0.0, 0.0}), "");

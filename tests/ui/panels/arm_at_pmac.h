@@ -40,7 +40,9 @@ struct ArmAtPmac {
         }
         if (!pmac.powered()) {
             person.click("hand/power/arm_enable");
-            (void)person.live_until([&] { return pmac.powered() || is(machine::DriverState::alarm); });
+            const auto told = [&] { return person.workshop().look().controller.status.powered; };
+            (void)person.live_until(
+                [&] { return (pmac.powered() && told()) || is(machine::DriverState::alarm); });
         }
     }
     void point_at(const char* path) {

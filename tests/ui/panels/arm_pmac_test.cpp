@@ -96,7 +96,7 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     bench.person.press_key(Key::k);
     EXPECT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
-    EXPECT_TRUE(bench.person.sees("hand/messages/message"));
+    EXPECT_TRUE(bench.person.sees("alarm/message"));
     EXPECT_EQ(bench.person.refusal("hand/power/machine_home"),
               "There is an alarm: look at the arm, then unlock it first.");
     bench.person.click("hand/connection/machine_reset");

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -180,11 +181,23 @@ TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     connect();
     const auto doubt = [this] { return machine().status.position_doubt; };
     person.frames(3);
-    person.click("inspector/messages/machine_trust_position"); // it stood at zero, and somebody looks
+    person.click("hand/messages/machine_trust_position"); // it stood at zero, and somebody looks
     ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
+    person.frames(3);
+    EXPECT_FALSE(person.sees("alarm/message"));
+    const auto tops = [this] {
+        return std::array{person.place("hand/position/zero_X").y,
+                          person.place("hand/jog/plus_X").y,
+                          person.place("inspector/job/machine_run").y,
+                          person.place("inspector/finding/machine_home").y};
+    };
+    const auto before = tops();
     grbl.raise_alarm();
     ASSERT_TRUE(person.live_until([&] { return is(DriverState::alarm); }));
     person.frames(3);
+    EXPECT_TRUE(person.sees("alarm/message"));
+    EXPECT_EQ(tops(), before); // an alarm moves no button
+    person.keep("machine-alarm");
     person.click("inspector/connection/machine_reset");
     ASSERT_TRUE(person.live_until([&] { return is(DriverState::idle); }));
     EXPECT_THAT(doubt(), HasSubstr("alarm 1"));
@@ -199,7 +212,7 @@ TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     connect_again();
     EXPECT_THAT(doubt(), HasSubstr("alarm 1"));
     person.keep("machine-position-doubt");
-    person.click("inspector/messages/machine_trust_position");
+    person.click("hand/messages/machine_trust_position");
     ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
     connect_again();
     EXPECT_THAT(doubt(), Not(HasSubstr("alarm 1")));

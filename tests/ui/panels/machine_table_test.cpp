@@ -67,7 +67,7 @@ protected:
 TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     connect();
     EXPECT_FALSE(known());
-    EXPECT_TRUE(person.sees("inspector/messages/stands/there"));
+    EXPECT_TRUE(person.sees("hand/messages/stands/there"));
     begin_at(20);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
     person.workshop().run("machine.run");
@@ -77,7 +77,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     person.keep("table-asks");
 
     say_where("inspector/job/begin/stands", 30.0, 33.0, -1.0);
-    EXPECT_FALSE(person.sees("inspector/messages/stands/there"));
+    EXPECT_FALSE(person.sees("hand/messages/stands/there"));
     EXPECT_EQ(table.records(), 0); // nothing moves by that
     person.wait_idle();
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
@@ -101,7 +101,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
 /// What is offered then is the line that comes next, not one that was cut before.
 TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
     connect();
-    say_where("inspector/messages/stands", 0.0, 0.0, 5.0);
+    say_where("hand/messages/stands", 0.0, 0.0, 5.0);
     begin_at(20);
     person.click("inspector/job/machine_run");
     ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 26.0; }, 60.0));
@@ -130,7 +130,7 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
     person.keep("table-in-doubt");
     const auto at = table.position();
-    say_where("inspector/messages/stands", at[0], at[1], at[2]);
+    say_where("hand/messages/stands", at[0], at[1], at[2]);
     person.frames(2);
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
 }
