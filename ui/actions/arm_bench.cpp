@@ -332,7 +332,11 @@ bool ArmBench::advance(double seconds) {
     return true;
 }
 
-void ArmBench::follow(const JointPositions& told) {
+void ArmBench::follow(const JointPositions& told, bool known) {
+    if (known && follows_unknown_) {
+        clear_trace();
+    }
+    follows_unknown_ = !known;
     JointPositions joints = joints_;
     for (Eigen::Index n = 0; n < std::min(told.size(), joints.size()); ++n) {
         joints[n] = told[n];
@@ -340,12 +344,19 @@ void ArmBench::follow(const JointPositions& told) {
     if ((joints - joints_).cwiseAbs().maxCoeff() > 0.0) {
         stop();
         refusal_.clear(); // of what was drawn before
-        place(joints);
+        joints_ = joints;
+        if (known) {
+            extend_trace();
+        }
     }
 }
 
 void ArmBench::place(const JointPositions& joints) {
     joints_ = joints;
+    extend_trace();
+}
+
+void ArmBench::extend_trace() {
     const Vec3 tip = tool().translation();
     if (trace_ && !trace_->empty() && (trace_->back() - tip).norm() < least_way_mm) {
         return;

@@ -109,8 +109,9 @@ public:
     bool advance(double seconds);
 
     void clear_trace() { trace_.reset(); }
-    /// Where a connected arm stands; joints that it does not tell stay. Draws the trace.
-    void follow(const kinematics::JointPositions& told);
+    /// Where a connected arm stands; joints that it does not tell stay. Draws the trace, if the position is
+    /// `known`: a trace begins anew when it becomes so, since homing moves the zero of what was told before.
+    void follow(const kinematics::JointPositions& told, bool known = true);
 
     [[nodiscard]] MotionProgramBench& program() { return program_; }
     [[nodiscard]] const MotionProgramBench& program() const { return program_; }
@@ -132,6 +133,7 @@ private:
     void solve();
     [[nodiscard]] motion::Trajectory planned(const std::vector<motion::ArmStop>& stops) const;
     void place(const kinematics::JointPositions& joints); ///< and the trace
+    void extend_trace();
     [[nodiscard]] std::string branch_of(const kinematics::JointPositions& joints) const;
 
     std::filesystem::path assets_;
@@ -150,6 +152,7 @@ private:
     std::optional<kinematics::JointPositions> held_; ///< rates of a jog
     std::optional<Vec3> held_line_;
     std::shared_ptr<const std::vector<Vec3>> trace_;
+    bool follows_unknown_ = false; ///< a controller whose zero means nothing yet
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;

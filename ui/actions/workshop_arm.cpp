@@ -84,7 +84,7 @@ bool Workshop::follow_arm(double seconds) {
     follow_arm_work();
     const ControllerView controller = controller_->view();
     if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
-        arm_->follow(controller.status.position);
+        arm_->follow(controller.status.position, controller.status.position_known);
     }
     return arm_->advance(seconds);
 }

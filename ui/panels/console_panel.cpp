@@ -4,6 +4,7 @@
 #include "core/base/text_search.h"
 #include "ui/panels/internal/hand_fields.h"
 #include "ui/widgets/listing.h"
+#include "ui/widgets/notices.h"
 
 #include <algorithm>
 
@@ -157,7 +158,8 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
         ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
     }
     if (refused) {
-        ui.words("Refused: " + answer.text, widgets::Tone::danger);
+        (void)widgets::banner(
+            ui, "refused", {widgets::Severity::danger, "Refused: " + answer.text, {}}); // of any length
     } else if (answer.state == machine::CommandAnswer::State::pending) {
         ui.words("Being executed \u2026", widgets::Tone::muted);
     }

@@ -142,6 +142,27 @@ TEST_F(ArmBenchTest, FollowsWhatAControllerTellsOfSomeJoints) {
     EXPECT_DOUBLE_EQ(bench_.joints()[4], 1.0);
 }
 
+TEST_F(ArmBenchTest, ATraceBeginsAnewWhereThePositionBecomesKnown) {
+    const auto points = [this] {
+        const auto trace = bench_.scene().trace;
+        return trace ? trace->size() : 0;
+    };
+    const auto told = [](double first) {
+        return kinematics::JointPositions(kinematics::JointPositions::Constant(4, first));
+    };
+    bench_.clear_trace();
+    bench_.follow(told(0.1), false);
+    bench_.follow(told(0.2), false);
+    EXPECT_EQ(points(), 0);
+    bench_.follow(told(-0.4), true);
+    bench_.follow(told(-0.3), true);
+    EXPECT_EQ(points(), 2);
+    bench_.follow(told(-0.2), false); // the link is lost: what was seen stays in sight
+    EXPECT_EQ(points(), 2);
+    bench_.follow(told(0.5), true);
+    EXPECT_EQ(points(), 1);
+}
+
 TEST_F(ArmBenchTest, AnArmThatCannotBeReadLeavesTheOldOne) {
     EXPECT_THROW(bench_.load("no-such-arm"), Error);
     EXPECT_EQ(bench_.name(), "motoman-l3");
