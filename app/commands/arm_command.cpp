@@ -184,10 +184,14 @@ int inverse(const ArmOptions& options) {
     if (!is_finite(tip) || !is_finite(axis)) {
         throw Error("the goal is not finite");
     }
+    constexpr double farthest_mm = 1e6;
+    if (!(tip.cwiseAbs().maxCoeff() <= farthest_mm)) {
+        throw Error(fmt::format("the goal is farther than {:g} mm", farthest_mm));
+    }
     if (!(axis.norm() > 1e-9)) {
         throw Error("the tool axis has no direction", {}, "its three numbers are 0");
     }
-    const Solutions found = solved(arm, {tip, axis.normalized()}, options.project);
+    const Solutions found = solved(arm, {tip, axis.stableNormalized()}, options.project);
     const auto list = shown(arm, found.joints);
     say_what_is_singular(arm, found.joints);
     if (options.json) {

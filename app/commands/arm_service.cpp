@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,6 +93,10 @@ void print_speed(const Options& options) {
 }
 
 int amplifier(const Options& options) {
+    if (options.peak > 0.0 && !(std::max(options.nominal, options.limit) <= options.peak)) {
+        throw Error(fmt::format(
+            "the peak current of the amplifier, {} A, is less than what the motor may have", options.peak));
+    }
     if (options.max_rpm > 0.0) {
         print_speed(options);
     }
@@ -145,8 +150,12 @@ void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<Optio
     command.add_option("--limit", options->limit, "Peak current that the motor may have, A")
         ->check(amperes)
         ->needs(peak);
-    command.require_option(2, 5);
-    command.callback([&chosen, options] { chosen = [options] { return amplifier(*options); }; });
+    command.callback([&chosen, options] {
+        if (!(options->max_rpm > 0.0 || options->nominal > 0.0 || options->limit > 0.0)) {
+            throw CLI::RequiredError("--max-rpm with --tacho, or --peak with --nominal or --limit,");
+        }
+        chosen = [options] { return amplifier(*options); };
+    });
 }
 
 } // namespace

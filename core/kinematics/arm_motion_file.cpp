@@ -83,7 +83,8 @@ private:
         const char* begin = text_.data() + at_ + plus;
         const auto [end, failure] = std::from_chars(begin, text_.data() + text_.size(), word.value);
         if (failure != std::errc() || !std::isfinite(word.value) || std::abs(word.value) > farthest_mm) {
-            fail(place_,
+            const bool line_is_over = place_.line != word.place.line;
+            fail(line_is_over ? word.place : place_,
                  fmt::format("{} needs a number from -{:g} to {:g}", word.letter, farthest_mm, farthest_mm));
         }
         advance(plus + static_cast<std::size_t>(end - begin));

@@ -34,6 +34,7 @@ TEST(Arm, FindsTheJointsThatReachAPoint) {
         EXPECT_NEAR(answer.at("solutions").at(0).at(n).get<double>(), home[n], 1e-6);
     }
     EXPECT_FALSE(answer.contains("reason"));
+    EXPECT_EQ(answer_to({"arm", "ik", "800", "0", "650", "0", "0", "1e300", "--json"}), answer);
 }
 
 TEST(Arm, SaysWhyNothingReachesAPoint) {
@@ -87,6 +88,7 @@ TEST(Arm, RefusesWhatIsNoPoseAndNoArm) {
     EXPECT_THAT(run({"arm", "fk", "0", "0"}).err, HasSubstr("has 5 joints, 2 positions were given"));
     EXPECT_THAT(run({"arm", "fk", "nan", "0", "0", "0", "0"}).err, HasSubstr("not a finite number"));
     EXPECT_THAT(run({"arm", "ik", "1", "2", "3", "0", "0", "0"}).err, HasSubstr("no direction"));
+    EXPECT_THAT(run({"arm", "ik", "1e300", "2", "3", "0", "0", "1"}).err, HasSubstr("farther than 1e+06 mm"));
     EXPECT_THAT(run({"arm", "fk", "0", "0", "0", "0", "0", "--arm", "puma"}).err,
                 HasSubstr("known: motoman-l3, scara, six-axis"));
     EXPECT_EQ(run({"arm", "ik", "1", "2"}).exit_code, 2);
@@ -147,6 +149,7 @@ TEST(Arm, HelpsWithSettingUp) {
     EXPECT_THAT(resistors.out, HasSubstr("18.18 kOhm"));
     EXPECT_THAT(resistors.out, HasSubstr("model 8/16: 18.00 kOhm"));
     EXPECT_THAT(resistors.out, HasSubstr("6.60 kOhm"));
+    EXPECT_THAT(run({"arm", "amplifier", "--peak", "7", "--nominal", "16"}).err, HasSubstr("7 A, is less"));
     EXPECT_EQ(run({"arm", "amplifier"}).exit_code, 2);
     EXPECT_EQ(run({"arm", "amplifier", "--nominal", "7"}).exit_code, 2);
     const Ended pins = run({"arm", "wiring", "2"});

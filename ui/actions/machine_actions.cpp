@@ -39,7 +39,9 @@ Permission machine_ready(const Workbench& now) {
     }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm) {
-        return Permission::refused("There is an alarm: home or unlock first.");
+        return Permission::refused(now.controller.can.home
+                                       ? "There is an alarm: home or unlock first."
+                                       : "There is an alarm: look at the machine, then unlock it first.");
     }
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}

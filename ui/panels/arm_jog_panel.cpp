@@ -174,9 +174,13 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog the drawn arm")) {
         const int frame = static_cast<int>(now.session.hand.arm_frame);
         if (const auto chosen = ui.segmented("frame", "Along", frame, frames)) {
+            refusal_.clear();
             ask.show([f = static_cast<ArmFrame>(*chosen)](actions::Session& session) {
                 session.hand.arm_frame = f;
             });
+        }
+        if (!can_jog(now, -1).allowed) {
+            refusal_.clear(); // of an earlier jog
         }
         Wish wish(now, ask, refusal_);
         draw_buttons(ui, now, wish);
@@ -244,7 +248,7 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
     if (hand.arm_keys) {
         ui.note("Joint " +
                 now.arm.arm().joint(std::min(hand.arm_joint, now.arm.arm().joint_count() - 1)).name +
-                " by + and \u2212, held.");
+                " by + and \u2212, held, whatever is chosen above.");
     }
 }
 

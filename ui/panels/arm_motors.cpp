@@ -104,7 +104,7 @@ void arm_motors(Ui& ui, const Workbench& now) {
                                                        {"Position", "\u00b0", 1.2F, true},
                                                        {"Limits", "\u00b0", 1.5F, true},
                                                        {"Speed", "\u00b0/s", 1.2F, true},
-                                                       {"Jog", "\u00b0/s", 1.0F, true},
+                                                       {"Card's jog", "\u00b0/s", 1.2F, true},
                                                        {"Max", "\u00b0/s", 1.0F, true},
                                                        {"Max", "\u00b0/s\u00b2", 1.0F, true},
                                                        {"Output", "V", 1.1F, true},

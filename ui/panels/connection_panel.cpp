@@ -40,9 +40,10 @@ std::string kind_text(DriverKind kind) {
                                                : std::string(kinds[static_cast<std::size_t>(kind)].label);
 }
 
-/// Drivers begin their messages small, as parts of longer ones.
+/// Drivers begin their messages small, as parts of longer ones; an address such as tcp:HOST stays as it is.
 std::string as_sentence(std::string text) {
-    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+    const bool is_address = text.substr(0, text.find(' ')).find(':') != std::string::npos;
+    if (!is_address && !text.empty() && text.front() >= 'a' && text.front() <= 'z') {
         text.front() = static_cast<char>(text.front() - 'a' + 'A');
     }
     return text;

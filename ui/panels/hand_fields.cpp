@@ -15,7 +15,11 @@ Permission at_rest(const ControllerView& machine) {
     }
     const DriverState state = machine.status.state;
     if (state == DriverState::alarm) {
-        return Permission::refused("There is an alarm: home or unlock first.");
+        return Permission::refused(machine.choice.kind == machine::DriverKind::pmac
+                                       ? "There is an alarm: look at the arm, then unlock it first."
+                                   : machine.can.home
+                                       ? "There is an alarm: home or unlock first."
+                                       : "There is an alarm: look at the machine, then unlock it first.");
     }
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}

@@ -298,6 +298,10 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
     for (const viewport::ViewEvent& event : events) {
         obey(event, now, ask);
     }
+    const bool four = view_.arrangement() == viewport::Arrangement::four; // by the button in the view
+    if (four != now.session.four_views) {
+        ask.show([four](actions::Session& session) { session.four_views = four; });
+    }
     layer_button(ui, now, ask, catalogue_, view_.next_button());
 }
 

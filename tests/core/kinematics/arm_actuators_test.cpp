@@ -12,7 +12,7 @@ ArmActuators shipped() {
     return *read_arm("assets/arms/motoman-l3.json").actuators;
 }
 
-TEST(ArmActuators, ReturnToTheirCounts) {
+TEST(ArmActuatorsK6, ReturnToTheirCounts) {
     const ArmActuators drives = shipped();
     std::mt19937 random(5);
     std::uniform_real_distribution<double> length(320.0, 760.0), counts(-20'000.0, 20'000.0);
@@ -25,7 +25,7 @@ TEST(ArmActuators, ReturnToTheirCounts) {
     }
 }
 
-TEST(ArmActuators, KeepLinksInTheirDirectionWhenOthersMove) {
+TEST(ArmActuatorsK6, KeepLinksInTheirDirectionWhenOthersMove) {
     const ArmActuators drives = shipped();
     DrivePositions a = drives_of(drives, test::degrees({0, -90, 90, 20, 0}));
     const JointPositions before = joints_of(drives, a);
@@ -36,7 +36,7 @@ TEST(ArmActuators, KeepLinksInTheirDirectionWhenOthersMove) {
     EXPECT_NEAR(after[1] + after[2] + after[3], before[1] + before[2] + before[3], 1e-12); // link 4
 }
 
-TEST(ArmActuators, RefuseATriangleThatDoesNotClose) {
+TEST(ArmActuatorsK6, RefuseATriangleThatDoesNotClose) {
     const ArmActuators drives = shipped();
     DrivePositions a = drives_of(drives, test::degrees({0, -90, 90, 20, 0}));
     a[2] = 1e6;
@@ -60,7 +60,7 @@ std::vector<double> rolls(double fourth, double fifth) {
     return found;
 }
 
-TEST(ArmActuators, ChooseTheTurnOfTheRoll) {
+TEST(ArmActuatorsK6, ChooseTheTurnOfTheRoll) {
     EXPECT_EQ(rolls(5000.0, 27'200.0), (std::vector{27'200.0, 52'800.0}));
     EXPECT_EQ(rolls(2600.0, 27'200.0), (std::vector{52'800.0}));
     const auto most = [](double fourth) { // of whole counts
@@ -75,7 +75,7 @@ TEST(ArmActuators, ChooseTheTurnOfTheRoll) {
     EXPECT_EQ(most(2602.0), 2U);
 }
 
-TEST(ArmActuators, BindTheThirdToTheSecond) {
+TEST(ArmActuatorsK6, BindTheThirdToTheSecond) {
     DrivePositions a;
     const auto allowed = [&](double second, double third) {
         a << 0.0, second, third, 5000.0, 30'000.0;

@@ -42,7 +42,7 @@ const std::vector<KnownPose> known_poses{
      rows({-0.798230, -0.346941, -0.492404, 0.441675, -0.892964, -0.086824, -0.409576, -0.286788, 0.866025}),
      {-1205.045981, -212.482120, -291.916995}}};
 
-TEST(ArmForward, BringsTheL3ToKnownPoses) {
+TEST(ArmForwardK1, BringsTheL3ToKnownPoses) {
     const ArmModel arm = test::arm("motoman-l3");
     for (const KnownPose& pose : known_poses) {
         const auto& q = pose.degrees;
@@ -68,7 +68,7 @@ protected:
     std::mt19937 random_{1996};
 };
 
-TEST_P(AnyArm, MultipliesTheMatricesOfItsLinks) {
+TEST_P(AnyArm, K1MultipliesTheMatricesOfItsLinks) {
     for (int n = 0; n < 1000; ++n) {
         const JointPositions q = test::random_joints(random_, arm_);
         Eigen::Matrix4d product = Eigen::Matrix4d::Identity();
@@ -83,7 +83,7 @@ TEST_P(AnyArm, MultipliesTheMatricesOfItsLinks) {
     }
 }
 
-TEST_P(AnyArm, HasAJacobianThatAgreesWithDifferences) {
+TEST_P(AnyArm, K7HasAJacobianThatAgreesWithDifferences) {
     constexpr double h = 1e-5;
     for (int n = 0; n < 200; ++n) {
         const JointPositions q = test::random_joints(random_, arm_, 0.99);
@@ -105,7 +105,7 @@ TEST_P(AnyArm, HasAJacobianThatAgreesWithDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, AnyArm, ::testing::Values("motoman-l3", "six-axis", "scara"));
 
-TEST(ArmJacobianOfTheL3, HasTheDeterminantOfItsClosedForm) {
+TEST(ArmJacobianOfTheL3K7, HasTheDeterminantOfItsClosedForm) {
     const ArmModel arm = test::arm("motoman-l3");
     std::mt19937 random(7);
     for (int n = 0; n < 200; ++n) {
@@ -126,7 +126,7 @@ TEST(Manipulability, FallsToNothingWhereTheArmIsStretched) {
     EXPECT_LT(stretched, 1e-12);
 }
 
-TEST(ArmForward, RefusesPositionsThatAreNone) {
+TEST(ArmForwardK1, RefusesPositionsThatAreNone) {
     const ArmModel arm = test::arm("motoman-l3");
     EXPECT_THROW((void)base_T_tool(arm, JointPositions::Zero(4)), Defect);
     JointPositions q = JointPositions::Zero(5);

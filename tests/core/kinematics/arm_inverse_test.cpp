@@ -30,7 +30,7 @@ protected:
     std::mt19937 random_{42};
 };
 
-TEST_F(ArmInverse, ReturnsToAMillionPosesByEveryBranch) {
+TEST_F(ArmInverse, K2ReturnsToAMillionPosesByEveryBranch) {
     for (const double length : {0.0, 130.0}) {
         const ArmModel arm = free_arm(length);
         double tip = 0.0, turned = 0.0;
@@ -53,7 +53,7 @@ TEST_F(ArmInverse, ReturnsToAMillionPosesByEveryBranch) {
     }
 }
 
-TEST_F(ArmInverse, TakesElbowUpToTheFrontFirst) {
+TEST_F(ArmInverse, K2TakesElbowUpToTheFrontFirst) {
     const Frame goal = base_T_tool(arm_, test::degrees({30, -60, 80, 20, 45}));
     const InverseSolution found = arm_inverse(arm_, goal, zero_);
     ASSERT_EQ(found.branches.size(), 4U);
@@ -75,7 +75,7 @@ TEST_F(ArmInverse, LeavesTheRollAsItIsWhereOnlyTheAxisIsAsked) {
     }
 }
 
-TEST_F(ArmInverse, SaysWhyAPoseCannotBeReached) {
+TEST_F(ArmInverse, K5SaysWhyAPoseCannotBeReached) {
     const auto why = [&](const ArmModel& arm, const Vec3& tip, const Vec3& axis) {
         const InverseSolution found = arm_inverse(arm, PointedGoal{tip, axis}, zero_);
         EXPECT_TRUE(found.branches.empty());
@@ -88,7 +88,7 @@ TEST_F(ArmInverse, SaysWhyAPoseCannotBeReached) {
     EXPECT_THAT(why(test::arm("motoman-l3"), {0.0, 0.0, -1440.0}, Vec3::UnitZ()), HasSubstr("joint 2"));
 }
 
-TEST_F(ArmInverse, HoldsAtItsSingularPoses) {
+TEST_F(ArmInverse, K5HoldsAtItsSingularPoses) {
     const JointPositions before = test::degrees({25, -90, 60, 0, 5});
     InverseSolution found = arm_inverse(arm_, PointedGoal{{0.0, 0.0, 900.0}, Vec3::UnitZ()}, before);
     EXPECT_EQ(found.reach, Reach::singular); // above the base: joint 1 stays
@@ -122,7 +122,7 @@ TEST_F(ArmInverse, BelongsToArmsOfItsKindOnly) {
     EXPECT_THROW((void)arm_inverse(arm_, no_motion, zero_), Defect);
 }
 
-TEST_F(ArmInverse, ReachesProjectedGoals) {
+TEST_F(ArmInverse, K4ReachesProjectedGoals) {
     for (int n = 0; n < 5000; ++n) {
         Frame goal = base_T_tool(arm_, test::random_joints(random_, arm_, 0.5));
         const Vec3 turn = Vec3::Random();
@@ -140,7 +140,7 @@ TEST_F(ArmInverse, ReachesProjectedGoals) {
     }
 }
 
-TEST_F(ArmInverse, ProjectsNoAxisAcrossThePlane) {
+TEST_F(ArmInverse, K4ProjectsNoAxisAcrossThePlane) {
     Frame goal = Frame::Identity();
     goal.translation() = Vec3(800.0, 0.0, 100.0);
     goal.linear() = frame_along(Vec3::UnitY());

@@ -58,9 +58,9 @@ std::vector<Vec2> positions(double step) {
     return found;
 }
 
-class PrintedResults : public ::testing::TestWithParam<std::tuple<const char*, double, std::size_t>> {};
+class PrintedResultsK3 : public ::testing::TestWithParam<std::tuple<const char*, double, std::size_t>> {};
 
-TEST_P(PrintedResults, ComeOutWithTheFaultOfThePrintedProgram) {
+TEST_P(PrintedResultsK3, ComeOutWithTheFaultOfThePrintedProgram) {
     const auto [name, step, count] = GetParam();
     const std::vector<Record> printed = records(name);
     const std::vector<Vec2> at = positions(step);
@@ -76,7 +76,7 @@ TEST_P(PrintedResults, ComeOutWithTheFaultOfThePrintedProgram) {
     }
 }
 
-TEST_P(PrintedResults, AreSetRightByTheInverse) {
+TEST_P(PrintedResultsK3, AreSetRightByTheInverse) {
     const ArmModel arm = test::arm("motoman-l3");
     for (const Record& r : records(std::get<0>(GetParam()))) {
         const InverseSolution found =
@@ -95,7 +95,7 @@ TEST_P(PrintedResults, AreSetRightByTheInverse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths,
-                         PrintedResults,
+                         PrintedResultsK3,
                          ::testing::Values(std::tuple("path-10.txt", 10.0, std::size_t{75}),
                                            std::tuple("path-50.txt", 50.0, std::size_t{18})));
 

@@ -27,7 +27,7 @@ std::vector<ArmRecord> simulated(std::string_view text, double step) {
     return simulate_arm(test::arm("motoman-l3"), parse_arm_motion(text, "a.mot"), arm_home(), step, "a.mot");
 }
 
-TEST(ArmMotionFile, ReadsWordsOfEitherCaseInAnyOrder) {
+TEST(ArmMotionFileS1, ReadsWordsOfEitherCaseInAnyOrder) {
     const auto blocks =
         parse_arm_motion("g1x10 y-2.5;Z+3 F20\n;; G3 X5 I2.5 A0 B0 C-2 S100 M3;\nG1 X1;", "a.mot");
     ASSERT_EQ(blocks.size(), 4U);
@@ -40,7 +40,7 @@ TEST(ArmMotionFile, ReadsWordsOfEitherCaseInAnyOrder) {
     EXPECT_EQ(blocks[2].line, 2);
 }
 
-TEST(ArmMotionFile, SaysWhereItIsWrong) {
+TEST(ArmMotionFileS1, SaysWhereItIsWrong) {
     const auto why = [](std::string_view text) {
         return reason([&] { (void)parse_arm_motion(text, "a.mot"); });
     };
@@ -55,7 +55,7 @@ TEST(ArmMotionFile, SaysWhereItIsWrong) {
     EXPECT_THAT(why(std::string("X1\x01;", 4)), HasSubstr("byte 1 is no text"));
 }
 
-TEST(ArmSimulation, HasThePointsOfThePrintedRuns) {
+TEST(ArmSimulation, S2HasThePointsOfThePrintedRuns) {
     EXPECT_EQ(simulated(printed_file, 10.0).size(), 75U);
     EXPECT_EQ(simulated(printed_file, 50.0).size(), 18U);
     EXPECT_EQ(simulated("G1 X300;G1 Z-100;G1 X-300 Z100;", 10.0).size(),
@@ -75,14 +75,14 @@ TEST(ArmSimulation, HasThePointsOfThePrintedRuns) {
     EXPECT_EQ(n, 75U);
 }
 
-TEST(ArmSimulation, EveryRecordIsWhereItSays) {
+TEST(ArmSimulation, S2EveryRecordIsWhereItSays) {
     const ArmModel arm = test::arm("motoman-l3");
     for (const ArmRecord& record : simulated("G1 X100 Y200 Z-50 ; G3 X-80 Y80 I-80 ; G1 Z30 A1 C1 ;", 5.0)) {
         EXPECT_LT((base_T_tool(arm, record.joints).translation() - record.tip).norm(), 1e-9);
     }
 }
 
-TEST(ArmSimulation, GoesAroundArcs) {
+TEST(ArmSimulation, S4GoesAroundArcs) {
     struct Arc {
         const char* text;
         Vec3 end;    ///< from the start
@@ -116,14 +116,14 @@ TEST(ArmSimulation, RefusesWhatTheArmCannotDo) {
     EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("across the plane"));
 }
 
-TEST(ArmResult, HasTheLayoutOfTheThesis) {
+TEST(ArmResultS3, HasTheLayoutOfTheThesis) {
     JointPositions printed = test::degrees({0.0, -84.09386, 90.0, -5.90614, 0.0});
     EXPECT_EQ(arm_result_text({{Vec3(800.0, 0.0, 650.0), printed, 0}}),
               "next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n 2 := -84.09386 \n"
               " 3 := 90.00000 \n 4 := -5.90614 \n 5 := 0.00000 \n");
 }
 
-TEST(ArmResult, ReadsBackWhatItWrote) {
+TEST(ArmResultS3, ReadsBackWhatItWrote) {
     const auto records = simulated(printed_file, 10.0);
     const std::string text = arm_result_text(records);
     const auto back = parse_arm_result(text, "a.res");

@@ -180,6 +180,9 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     bench.person.workshop().run("machine.home");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
+    constexpr double settled = 0.2; // s of the card: a motor comes to rest a little after it is told so
+    ASSERT_TRUE(
+        bench.person.live_until([&] { return bench.pmac.time() > bench.pmac.last_motion() + settled; }));
     const double before = bench.pmac.last_motion();
     bench.person.click("lower/tabs/program");
     bench.person.click("lower/text");

@@ -113,6 +113,21 @@ TEST(ArmWorkspace, EscapeLeavesAProgramAsItWasTyped) {
     EXPECT_THAT(person.workshop().arm().program().text(), testing::HasSubstr("LINEAR\nX5"));
 }
 
+TEST(ArmWorkspace, AWholeProgramIsSelectedAndReplaced) {
+    Person person;
+    person.workshop().run("view.arm");
+    person.frames(4);
+    person.click("lower/tabs/program");
+    person.frames(2);
+    person.click("lower/text");
+    person.type("LINEAR\nX5");
+    person.press_key(render::Key::a, true);
+    person.keep("arm-program-selected");
+    person.type("RAPID");
+    person.frames(3);
+    EXPECT_EQ(person.workshop().arm().program().text(), "RAPID");
+}
+
 TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
     Person person;
     person.workshop().run("view.arm");
@@ -233,6 +248,13 @@ TEST(ArmWorkspaceS5, FourViewsShowItFromAboveFromTheFrontAndFromTheRight) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
     bench.person.keep("arm-four");
+    bench.person.click("view/four"); // the button in the view means the same
+    bench.person.frames(4);
+    EXPECT_FALSE(bench.person.workshop().session().four_views);
+    EXPECT_FALSE(bench.person.sees("view/top/tip"));
+    bench.person.click("view/four");
+    bench.person.frames(4);
+    EXPECT_TRUE(bench.person.sees("view/top/tip"));
 }
 
 TEST(ArmWorkspace, EveryArmThatShipsCanBeLookedAt) {

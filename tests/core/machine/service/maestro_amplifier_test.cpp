@@ -11,7 +11,7 @@ namespace millwright::machine {
 namespace {
 
 // C4: the corrected formulas against the printed tables, resistors of the E24 series or nearly so.
-TEST(MaestroAmplifier, GivesTheTableOfNominalCurrents) {
+TEST(MaestroAmplifierC4, GivesTheTableOfNominalCurrents) {
     int fitted = 0;
     for (const FittedResistor& row : nominal_current_table()) {
         const ResistorValue value = nominal_current_resistor(row.current, row.peak);
@@ -27,7 +27,7 @@ TEST(MaestroAmplifier, GivesTheTableOfNominalCurrents) {
     EXPECT_NEAR(nominal_current_resistor(4.0, 28.0).corrected.value(), 1.04, 0.005);
 }
 
-TEST(MaestroAmplifier, GivesMostOfTheTableOfPeakCurrents) {
+TEST(MaestroAmplifierC4, GivesMostOfTheTableOfPeakCurrents) {
     int near = 0, far = 0;
     for (const FittedResistor& row : peak_current_table()) {
         const auto value = peak_current_resistor(row.peak / 2.0, row.current, row.peak).corrected;
@@ -41,7 +41,7 @@ TEST(MaestroAmplifier, GivesMostOfTheTableOfPeakCurrents) {
     EXPECT_NEAR(peak_current_resistor(4.0, 8.0, 16.0).printed.value(), 1100.0, 1e-9);
 }
 
-TEST(MaestroAmplifier, GivesResistorsForTheTachometer) {
+TEST(MaestroAmplifierC4, GivesResistorsForTheTachometer) {
     EXPECT_NEAR(speed_resistor(3000.0, 7.0).value(), 200.0 * 16.0, 1e-9);
     EXPECT_NEAR(speed_resistor(1000.0, 5.0).value(), 0.0, 1e-9); // a bridge
     EXPECT_FALSE(speed_resistor(500.0, 7.0).has_value());
@@ -49,7 +49,7 @@ TEST(MaestroAmplifier, GivesResistorsForTheTachometer) {
     EXPECT_FALSE(tacho_loss_resistor(1000.0, 7.0).has_value());
 }
 
-TEST(MaestroAmplifier, RefusesWhatIsNoCurrentOrSpeed) {
+TEST(MaestroAmplifierC4, RefusesWhatIsNoCurrentOrSpeed) {
     EXPECT_THROW((void)speed_resistor(0.0, 7.0), Error);
     EXPECT_THROW((void)tacho_loss_resistor(3000.0, std::nan("")), Error);
     EXPECT_THROW((void)nominal_current_resistor(-1.0, 16.0), Error);

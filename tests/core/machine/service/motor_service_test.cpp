@@ -19,7 +19,7 @@ using test::talk_to;
 using ::testing::HasSubstr;
 
 // C2.
-TEST(OffsetFinder, FindsTheOffsetThatHoldsTheMotorOfTheThesis) {
+TEST(OffsetFinderC2, FindsTheOffsetThatHoldsTheMotorOfTheThesis) {
     PmacPlant plant;
     plant.bias = 996.0;
     test::PmacCard pmac({.plants = {plant}});
@@ -36,7 +36,7 @@ TEST(OffsetFinder, FindsTheOffsetThatHoldsTheMotorOfTheThesis) {
     EXPECT_LE(std::abs(pmac.card.position(1)), found.farthest + 1000.0);
 }
 
-TEST(OffsetFinder, TakesTheMiddleOfWhatFrictionHolds) {
+TEST(OffsetFinderC2, TakesTheMiddleOfWhatFrictionHolds) {
     for (const double friction : {3.0, 40.0}) {
         PmacPlant plant;
         plant.bias = -60.0;
@@ -48,7 +48,7 @@ TEST(OffsetFinder, TakesTheMiddleOfWhatFrictionHolds) {
     }
 }
 
-TEST(OffsetFinder, GivesUpWithoutPowerLeftOn) {
+TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
     PmacPlant heavy;
     heavy.friction = 1e9;
     test::PmacCard stuck({.plants = {heavy}});
@@ -66,7 +66,7 @@ TEST(OffsetFinder, GivesUpWithoutPowerLeftOn) {
 }
 
 // C3: a closed form, the answer of a second order system.
-TEST(StepTest, MeasuresAKnownAnswer) {
+TEST(StepTestC3, MeasuresAKnownAnswer) {
     const double damping = 0.5, rate = 40.0; // rad/s
     const double damped = rate * std::sqrt(1.0 - damping * damping);
     std::vector<StepReading> readings;
@@ -86,7 +86,7 @@ TEST(StepTest, MeasuresAKnownAnswer) {
     EXPECT_THAT(response.advice, HasSubstr("overshoots a little"));
 }
 
-TEST(StepTest, SeesWhetherALoopIsSoftOrSharp) {
+TEST(StepTestC3, SeesWhetherALoopIsSoftOrSharp) {
     const auto tested = [](const std::string& settings) {
         test::PmacCard pmac({.plants = {PmacPlant{}}});
         EXPECT_EQ(pmac.send("I100=1\nI111=0\n" + settings + "\n#1J/"), "");
@@ -102,7 +102,7 @@ TEST(StepTest, SeesWhetherALoopIsSoftOrSharp) {
     EXPECT_EQ(usual.variables.at(30), 2000.0);
 }
 
-TEST(StepTest, KillsAMotorThatRunsAway) {
+TEST(StepTestC3, KillsAMotorThatRunsAway) {
     PmacPlant wrong;
     wrong.speed_per_bit = -200.0; // its encoder counts the other way
     test::PmacCard pmac({.plants = {wrong}});
@@ -112,7 +112,7 @@ TEST(StepTest, KillsAMotorThatRunsAway) {
     EXPECT_EQ(pmac.ask("I122"), "32");
 }
 
-TEST(StepTest, LeavesTheCardAsItWas) {
+TEST(StepTestC3, LeavesTheCardAsItWas) {
     test::PmacCard pmac({.plants = {PmacPlant{}}});
     ASSERT_EQ(pmac.send("I100=1\nI119=0.25\nI122=17\n#1J/"), "");
     pmac.card.advance(0.2);

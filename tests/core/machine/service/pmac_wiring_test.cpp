@@ -10,7 +10,7 @@ namespace millwright::machine {
 namespace {
 
 // C5.
-TEST(PmacWiring, NoSignalSharesAPinOfAMotorWithAnother) {
+TEST(PmacWiringC5, NoSignalSharesAPinOfAMotorWithAnother) {
     std::map<int, std::string> of_pin;
     for (const PmacPin& pin : pmac_pins()) {
         for (const int number : pin.of_motor) {
@@ -24,7 +24,7 @@ TEST(PmacWiring, NoSignalSharesAPinOfAMotorWithAnother) {
     }
 }
 
-TEST(PmacWiring, MarksWhatSourcesDisagreeAbout) {
+TEST(PmacWiringC5, MarksWhatSourcesDisagreeAbout) {
     for (const PmacPin& pin : pmac_pins()) {
         const bool supply = pin.signal == "+5 V" || pin.signal == "GND";
         EXPECT_EQ(pin.trust == PinTrust::conflict, supply) << pin.signal;
@@ -35,7 +35,7 @@ TEST(PmacWiring, MarksWhatSourcesDisagreeAbout) {
     }));
 }
 
-TEST(PmacWiring, LimitInputsStopTheOtherDirection) {
+TEST(PmacWiringC5, LimitInputsStopTheOtherDirection) {
     const auto plus = std::ranges::find(pmac_pins(), "+LIM", &PmacPin::signal);
     ASSERT_NE(plus, pmac_pins().end());
     EXPECT_EQ(plus->of_motor[0], 53);

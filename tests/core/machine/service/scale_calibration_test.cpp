@@ -18,7 +18,7 @@ using test::reason;
 using ::testing::HasSubstr;
 
 // C1.
-TEST(ScaleCalibration, FindsTheScaleOfTheThesisAgain) {
+TEST(ScaleCalibrationC1, FindsTheScaleOfTheThesisAgain) {
     const auto readings = parse_scale_readings(
         "# motor counts angle\n2, 0, -3\n2; 2220\t7\n2 4440 17.0 # on the wall\n1 1200 10\n\n1 0 0\n",
         "a.csv");
@@ -34,7 +34,7 @@ TEST(ScaleCalibration, FindsTheScaleOfTheThesisAgain) {
 }
 
 // No other line leaves smaller squares: the definition, tried around the answer.
-TEST(ScaleCalibration, LeavesTheSmallestSquares) {
+TEST(ScaleCalibrationC1, LeavesTheSmallestSquares) {
     std::mt19937 random(4);
     std::normal_distribution<double> noise(0.0, 0.5);
     std::vector<ScaleReading> readings;
@@ -59,19 +59,19 @@ TEST(ScaleCalibration, LeavesTheSmallestSquares) {
     EXPECT_LT(fit.counts_per_degree_error, 1.0);
 }
 
-TEST(ScaleCalibration, NamesTheReadingThatIsFarthestOff) {
+TEST(ScaleCalibrationC1, NamesTheReadingThatIsFarthestOff) {
     const ScaleFit fit =
         fit_scales(parse_scale_readings("1 0 0\n1 1200 10\n1 2400 24\n1 3600 30\n1 4800 40\n", "a")).front();
     EXPECT_EQ(fit.worst_line, 3);
     EXPECT_GT(fit.worst, 2.0);
 }
 
-TEST(ScaleCalibration, AMotorAgainstItsJointHasANegativeScale) {
+TEST(ScaleCalibrationC1, AMotorAgainstItsJointHasANegativeScale) {
     EXPECT_NEAR(
         fit_scales(parse_scale_readings("4 0 0\n4 1500 -10\n", "a")).front().counts_per_degree, -150.0, 1e-9);
 }
 
-TEST(ScaleCalibration, SaysWhatIsWrongAndWhere) {
+TEST(ScaleCalibrationC1, SaysWhatIsWrongAndWhere) {
     const auto why = [](std::string_view text) {
         return reason([&] { (void)fit_scales(parse_scale_readings(text, "a.csv")); });
     };

@@ -133,6 +133,7 @@ private:
     [[nodiscard]] std::vector<double> axes_deg() const;
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
+    [[nodiscard]] std::string unheard() const;
     [[nodiscard]] std::string commanded_limit() const;
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
@@ -188,7 +189,7 @@ private:
     std::vector<MotorState> motors_;
     double polled_at_ = 0.0;
     std::uint32_t system_1_ = 0, system_2_ = 0;
-    double mark_ = 0.0; ///< P1000, which programs set
+    double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
     int program_lines_ = 0, executed_ = 0;
     bool marks_tell_ = false; ///< lines are executed in their order

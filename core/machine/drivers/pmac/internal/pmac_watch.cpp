@@ -115,7 +115,7 @@ void PmacSession::watch_motors() {
             fail(name + ": its following error became too great");
         } else if ((stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging) &&
                    !motor.enabled()) {
-            fail(name + " was killed");
+            fail(name + " was killed" + (unheard().empty() ? "" : ": " + unheard()));
         }
     }
     const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
@@ -294,6 +294,15 @@ std::string PmacSession::commanded_limit() const {
     return {};
 }
 
+/// Why the card's own watch has stopped the motion; empty: it has not.
+std::string PmacSession::unheard() const {
+    return mark_ > 0.5 * heard_nothing
+               ? ""
+               : fmt::format(
+                     "it heard nothing from this computer for {:.0f} ms, which was busy, or the line is slow",
+                     1e3 * settings_.abort_after);
+}
+
 /// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
 void PmacSession::rest() {
     ask(disarm_watchdog, Kind::watch);
@@ -320,7 +329,9 @@ void PmacSession::watch_program(bool settled) {
         finish(Stage::ready);
     } else if (settled) {
         const std::string limit = limit_sentence();
-        fail(limit.empty() ? "the program was ended by somebody else" : limit);
+        fail(!unheard().empty() ? "the card ended the program: " + unheard()
+             : !limit.empty()   ? limit
+                                : "the program was ended by somebody else");
     }
 }
 

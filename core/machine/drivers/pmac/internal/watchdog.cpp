@@ -36,6 +36,7 @@ std::vector<std::string> watchdog_lines(const PmacSettings& settings) {
           std::string("ENDIF"),
           fmt::format("IF(P1005>{:.0f} AND P1006=0)", std::floor(settings.abort_after / cycle)),
           std::string("P1006=1"),
+          fmt::format("P1000={:.0f}", heard_nothing),
           // an abort closes the loops of killed motors: never then
           fmt::format("IF({})", enabled(settings)),
           fmt::format("CMD\"&{}A\"", settings.system),

@@ -230,6 +230,21 @@ TEST(PmacSafetyF2, SilenceEndsMotionToo) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("did not answer"));
 }
 
+/// As a busy computer does: nobody else has ended the program.
+TEST(PmacSafetyF2, AnEndByTheCardsOwnWatchIsToldAsThat) {
+    PmacWire wire;
+    wire.session.start(long_way, wire.now);
+    wire.pass(1.5);
+    ASSERT_FALSE(wire.standing());
+    const double late = test::wire_settings().abort_after + 0.01;
+    wire.step(late);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("heard nothing from this computer for 50 ms"));
+    wire.pass(1.0);
+    EXPECT_TRUE(wire.standing());
+}
+
 TEST(PmacSafetyF2, AnEmergencyStopKillsAndNothingGivesPowerBack) {
     PmacWire wire;
     wire.session.start(long_way, wire.now);
