@@ -78,6 +78,13 @@ std::string advice(const Workbench& now) {
                : "Look at the machine first. Then unlock it.";
 }
 
+std::string_view position_text(const machine::DriverStatus& status) {
+    return !status.position_known           ? "not known"
+           : !status.position_doubt.empty() ? "in doubt"
+           : status.link_lost               ? "as last told"
+                                            : "known";
+}
+
 std::string state_text(const machine::DriverStatus& status) {
     std::string text(machine::to_text(status.state));
     if (status.activity != machine::Activity::none && status.state != DriverState::idle) {
@@ -302,7 +309,7 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         return;
     }
     ui.value("state", as_sentence(kind_text(machine.choice.kind)), state_text(machine.status));
-    ui.value("position_known", "Position", machine.status.position_known ? "known" : "not known");
+    ui.value("position_known", "Position", position_text(machine.status));
     constexpr float address_label = 0.12F; // addresses are long
     const auto labels = ui.label_share(address_label);
     if (!machine.choice.address.empty()) {
