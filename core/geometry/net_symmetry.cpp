@@ -49,8 +49,7 @@ std::vector<NetPlace> images(const ControlNet& net, const NetSymmetry& symmetry,
         }
     }
     std::ranges::sort(places);
-    const auto repeated = std::ranges::unique(places);
-    places.erase(repeated.begin(), repeated.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
 }
 
