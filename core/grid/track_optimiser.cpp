@@ -21,7 +21,7 @@ constexpr double small_axis = 1e-4;   // the same, rad: a micrometre at 10 mm
 // What of the whole way is done, by where the time goes.
 constexpr double lattices_measured = 0.5;
 constexpr double paths_found = 0.6;
-constexpr double polished = 0.98;
+constexpr double polish_done = 0.98;
 
 constexpr double still = 1e-4; // mean steps: a sweep that moves no node further has settled
 
@@ -174,7 +174,7 @@ void TrackOptimiser::begin_polish() {
 
 void TrackOptimiser::sweep(const Progress& progress) {
     const auto done_after = [&](int sweeps) {
-        return paths_found + (polished - paths_found) * sweeps / settings_.polish_sweeps;
+        return paths_found + (polish_done - paths_found) * sweeps / settings_.polish_sweeps;
     };
     progress.report(done_after(state_.iteration), "Polishing");
     std::vector<TrackPolish> next = polishes_;
