@@ -303,8 +303,11 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     }
     if (render::key_pressed(Key::slash)) {
         ask.arm([](actions::ArmBench& bench) { bench.stop(); });
-        if (now.arm_connected()) {
+        const bool jogs = now.controller.status.activity == machine::Activity::jog;
+        if (now.arm_connected() && jogs) {
             ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
+        } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
+            ask.run("machine.stop"); // a program, homing, or what was typed
         }
     }
     if (render::key_pressed(Key::x)) {

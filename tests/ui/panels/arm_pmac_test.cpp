@@ -91,6 +91,16 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     EXPECT_TRUE(bench.is(DriverState::idle)) << status().message;
     EXPECT_NEAR(bench.pmac.degrees(2), -4.0, 0.1);
 
+    bench.person.click("lower/command");
+    bench.person.type("#1J=7200"); // 60 degrees
+    bench.person.press_key(Key::enter);
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.pmac.degrees(1) > 7.0; }));
+    bench.person.click("hand/jog/step/hold");
+    bench.person.press_key(Key::slash); // stops whatever moves
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+    EXPECT_LT(bench.pmac.degrees(1), 50.0);
+    EXPECT_TRUE(bench.pmac.powered());
+
     bench.person.press_key(Key::i); // a wrong gain would move them
     EXPECT_FALSE(bench.person.sees("dialogs/files/open"));
     bench.person.press_key(Key::k);
