@@ -48,8 +48,8 @@ Permission sound_program(const Workbench& now) {
     if (now.project.arm.program.find_first_not_of(" \t\r\n") == std::string::npos) {
         return Permission::refused("There is no program yet: write one under Program.");
     }
-    return now.arm.program().faults().empty() ? Permission{}
-                                              : Permission::refused("The program has faults: see its lines.");
+    return now.arm.program().can_be_read() ? Permission{}
+                                           : Permission::refused("The program has faults: see its lines.");
 }
 
 Permission can_simulate(const Workbench& now) {

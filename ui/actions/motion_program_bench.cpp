@@ -24,7 +24,8 @@ void MotionProgramBench::follow(const std::string& text) {
         return;
     }
     text_ = text;
-    faults_ = machine::motion_program_faults(text_, named);
+    text_faults_ = machine::motion_program_faults(text_, named);
+    faults_ = text_faults_;
 }
 
 void MotionProgramBench::simulate(machine::PmacSettings card, std::vector<double> start_deg) {
@@ -45,8 +46,8 @@ std::shared_ptr<const machine::MotionSimulation> MotionProgramBench::take() {
 }
 
 std::vector<std::string> MotionProgramBench::lines() const {
-    if (!faults_.empty()) {
-        throw Error(faults_.front());
+    if (!text_faults_.empty()) {
+        throw Error(text_faults_.front());
     }
     std::vector<std::string> lines;
     for (const machine::MotionLine& line : machine::motion_lines(text_, named)) {

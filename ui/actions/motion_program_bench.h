@@ -21,6 +21,8 @@ public:
     [[nodiscard]] const std::string& text() const { return text_; }
     /// Of the text, by line; then how the last simulation of this very text broke off.
     [[nodiscard]] const std::vector<Diagnostic>& faults() const { return faults_; }
+    /// Its text is without faults. What a simulation found may be over when the arm stands elsewhere.
+    [[nodiscard]] bool can_be_read() const { return text_faults_.empty(); }
 
     /// Runs the text in the background on `card`, from `start_deg` of each of its axes.
     void simulate(machine::PmacSettings card, std::vector<double> start_deg);
@@ -45,7 +47,8 @@ private:
     static Answer run(const Wish& wish, const Progress& progress);
 
     std::string text_;
-    std::vector<Diagnostic> faults_;
+    std::vector<Diagnostic> text_faults_;
+    std::vector<Diagnostic> faults_; ///< these, or those of the last simulation
     std::shared_ptr<const Answer> taken_;
     LatestWork<Wish, Answer> work_;
 };

@@ -208,6 +208,11 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
         const auto& faults = bench.person.workshop().arm().program().faults();
         return !faults.empty() && faults.front().message.find("X leaves its limits") != std::string::npos;
     }));
+    bench.person.frames(3); // from elsewhere it may be sound: it can be asked again, and is refused again
+    EXPECT_EQ(bench.person.refusal("lower/arm_simulate"), "");
+    bench.person.click("lower/arm_run_program");
+    bench.person.live_until([] { return false; }, 0.5);
+    EXPECT_EQ(bench.pmac.last_motion(), before);
 }
 
 TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
