@@ -1,6 +1,7 @@
 #include "core/base/error.h"
 #include "core/machine/driver.h"
 #include "core/machine/job_queue.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/workshop.h"
@@ -34,18 +35,7 @@ Permission machine_ready(const Workbench& now) {
     if (now.arm_connected()) {
         return Permission::refused("A PMAC runs motion programs in its own language, and no G-code.");
     }
-    if (now.controller.status.link_lost) {
-        return Permission::refused("The link is lost: reconnect first.");
-    }
-    const DriverState state = now.controller.status.state;
-    if (state == DriverState::alarm) {
-        return Permission::refused(now.controller.can.home
-                                       ? "There is an alarm: home or unlock first."
-                                       : "There is an alarm: look at the machine, then unlock it first.");
-    }
-    return state == DriverState::idle || state == DriverState::stopped
-               ? Permission{}
-               : Permission::refused("The machine is moving.");
+    return at_rest(now.controller);
 }
 
 /// A line in the middle is gone to by what the controller takes for its position; a machine that is told

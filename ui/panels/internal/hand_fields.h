@@ -1,6 +1,7 @@
 // What the panels that move a machine by hand have in common: when that is allowed, and how it is told.
 #pragma once
 
+#include "ui/actions/at_rest.h"
 #include "ui/panels/panel.h"
 #include "ui/widgets/field_info.h"
 
@@ -10,8 +11,8 @@
 
 namespace millwright::panels {
 
-/// Yes while the machine takes orders; else why not.
-[[nodiscard]] widgets::Permission at_rest(const actions::ControllerView& machine);
+using actions::at_rest;
+
 /// The same for single lines.
 [[nodiscard]] widgets::Permission can_command(const actions::ControllerView& machine);
 

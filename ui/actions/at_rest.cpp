@@ -1,0 +1,25 @@
+#include "ui/actions/at_rest.h"
+
+namespace millwright::actions {
+
+using machine::DriverState;
+using widgets::Permission;
+
+Permission at_rest(const ControllerView& machine) {
+    if (machine.status.link_lost) {
+        return Permission::refused("The link is lost: reconnect first.");
+    }
+    const DriverState state = machine.status.state;
+    if (state == DriverState::alarm) {
+        return Permission::refused(machine.choice.kind == machine::DriverKind::pmac
+                                       ? "There is an alarm: look at the arm, then unlock it first."
+                                   : machine.can.home
+                                       ? "There is an alarm: home or unlock first."
+                                       : "There is an alarm: look at the machine, then unlock it first.");
+    }
+    return state == DriverState::idle || state == DriverState::stopped
+               ? Permission{}
+               : Permission::refused("The machine is moving.");
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,12 @@
+// Whether a connected machine takes orders now.
+#pragma once
+
+#include "ui/actions/controller.h"
+#include "ui/widgets/permission.h"
+
+namespace millwright::actions {
+
+/// Yes while it stands and waits; else why not, and what there is to press.
+[[nodiscard]] widgets::Permission at_rest(const ControllerView& machine);
+
+} // namespace millwright::actions
