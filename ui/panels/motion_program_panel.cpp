@@ -15,6 +15,8 @@ namespace {
 
 using widgets::Rank;
 
+constexpr const char* writing = "Write a motion program";
+
 std::string fault_of(const std::vector<Diagnostic>& faults, int line) {
     const auto found = std::ranges::find(faults, line, [](const Diagnostic& one) { return one.place.line; });
     if (found == faults.end()) {
@@ -50,14 +52,23 @@ void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.text = now.project.arm.program;
     view.fault = [&](int line) { return fault_of(faults, line); };
     const widgets::TextAreaAnswer answer = widgets::text_area(ui, "text", view);
+    if (answer.begins_step) {
+        ask.end_step();
+    }
     if (answer.text) {
         ask.edit(
-            "Write a motion program",
+            writing,
             [text = *answer.text](project::Project& draft) { draft.arm.program = text; },
             "motion program");
     }
     if (answer.left) {
         ask.end_step();
+    }
+    // What else was changed in the project is not taken back from within the text, where nobody sees it.
+    if (answer.history < 0 && now.undo_title == writing) {
+        ask.run("edit.undo");
+    } else if (answer.history > 0 && now.redo_title == writing) {
+        ask.run("edit.redo");
     }
 }
 

@@ -1,6 +1,8 @@
 #include "ui/widgets/text_area.h"
 
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/state.h"
+#include "ui/widgets/internal/text_steps.h"
 
 #include <imgui_stdlib.h>
 
@@ -11,15 +13,40 @@ namespace millwright::widgets {
 
 namespace {
 
-/// Where the caret is, while the text is being written.
-struct Caret {
-    int line = -1; ///< from 0
+/// What ImGui's own copy of the text is told, and tells, while it is being written.
+struct Writing {
+    std::optional<std::string_view> given; ///< takes the place of what ImGui has
+    int caret = -1;                        ///< byte offset
+    int line = -1;                         ///< of the caret, from 0
 };
 
-int on_caret(ImGuiInputTextCallbackData* data) {
-    auto& caret = *static_cast<Caret*>(data->UserData);
-    caret.line = static_cast<int>(std::count(data->Buf, data->Buf + data->CursorPos, '\n'));
+int on_writing(ImGuiInputTextCallbackData* data) {
+    auto& writing = *static_cast<Writing*>(data->UserData);
+    if (writing.given) {
+        const std::string_view text = *writing.given;
+        const TextDifference what = difference({data->Buf, static_cast<std::size_t>(data->BufTextLen)}, text);
+        data->DeleteChars(static_cast<int>(what.at), static_cast<int>(what.removed));
+        data->InsertChars(
+            static_cast<int>(what.at), text.data() + what.at, text.data() + what.at + what.inserted);
+        data->CursorPos = static_cast<int>(what.at + what.inserted);
+        data->SelectionStart = data->SelectionEnd = data->CursorPos;
+    }
+    writing.caret = data->CursorPos;
+    writing.line = static_cast<int>(std::count(data->Buf, data->Buf + data->CursorPos, '\n'));
     return 0;
+}
+
+/// -1: undo, 1: redo.
+int history_asked() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!io.KeyCtrl || io.KeyAlt) {
+        return 0;
+    }
+    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+    if (pressed(ImGuiKey_Z)) {
+        return io.KeyShift ? 1 : -1;
+    }
+    return pressed(ImGuiKey_Y) ? 1 : 0;
 }
 
 int line_count(std::string_view text) {
@@ -56,13 +83,40 @@ void draw_gutter(Ui& ui, const Rect& whole, float gutter, float top, float step,
     }
 }
 
-void bring_caret_into_sight(const Caret& caret, float step, float height) {
-    const float top = static_cast<float>(caret.line) * step;
+void bring_into_sight(int line, float step, float height) {
+    const float top = static_cast<float>(line) * step;
     if (top < ImGui::GetScrollY()) {
         ImGui::SetScrollY(top);
     } else if (top + 2.0F * step > ImGui::GetScrollY() + height) {
         ImGui::SetScrollY(top + 2.0F * step - height);
     }
+}
+
+/// Notes what was written in this frame: whether it is a step of its own, and for how long the caret is
+/// followed.
+void follow_writing(Ui& ui,
+                    const std::string& path,
+                    std::string_view before,
+                    const Writing& writing,
+                    TextAreaAnswer& answer) {
+    Ui::State::Written& written = ui.state().written;
+    if (written.path != path) {
+        written = {.path = path, .text = {}, .caret = -1, .steps = {}, .frames_to_follow = 0};
+    }
+    if (answer.text) {
+        answer.begins_step = written.steps.begins(before, *answer.text, written.caret, writing.caret);
+    }
+    if (writing.given || answer.history != 0) {
+        written.steps.end();
+    }
+    // What a changed text needs of height counts for the scroll bar a frame later.
+    const bool moved = writing.caret != written.caret || answer.text || writing.given;
+    written.frames_to_follow = moved ? 3 : std::max(0, written.frames_to_follow - 1);
+    if (written.frames_to_follow > 0) {
+        ui.change_in(0.0);
+    }
+    written.caret = writing.caret;
+    written.text = answer.text ? *answer.text : std::string(before);
 }
 
 } // namespace
@@ -87,15 +141,20 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         const float top = ImGui::GetCursorScreenPos().y;
         draw_gutter(ui, whole, gutter, top, step, view);
         ImGui::SetCursorScreenPos({whole.x + gutter, top});
+        Ui::State::Written& written = ui.state().written;
+        const bool known = written.path == path; // it was being written in the last frame
         std::string text(view.text);
-        Caret caret;
+        Writing writing;
+        if (known && written.text != view.text) {
+            writing.given = view.text;
+        }
         const bool changed =
             ImGui::InputTextMultiline(("##" + path).c_str(),
                                       &text,
                                       {whole.w - gutter - ui.px(14.0F), std::max(needed, whole.h - 2.0F)},
                                       ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo,
-                                      on_caret,
-                                      &caret);
+                                      on_writing,
+                                      &writing);
         answer.left = ImGui::IsItemDeactivated();
         const bool typing = ImGui::IsItemActive();
         // ImGui takes all back that was typed since the field was entered; here it stays.
@@ -103,8 +162,14 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         if (changed && !taken_back && text != view.text) {
             answer.text = std::move(text);
         }
-        if (typing && caret.line >= 0 && answer.text) {
-            bring_caret_into_sight(caret, step, whole.h);
+        if (typing) {
+            answer.history = history_asked();
+            follow_writing(ui, path, view.text, writing, answer);
+            if (written.frames_to_follow > 0) {
+                bring_into_sight(writing.line, step, whole.h);
+            }
+        } else if (known) {
+            written = {};
         }
         outline(whole,
                 typing ? ui.colours().accent : ui.colours().line,

@@ -19,10 +19,13 @@ struct TextAreaView {
 
 struct TextAreaAnswer {
     std::optional<std::string> text; ///< as it is now, where a key changed it
-    bool left = false;               ///< the keyboard went elsewhere
+    bool begins_step = false; ///< the change is a step of its own for undo: a word, a line, a pasted piece
+    int history = 0;          ///< -1: Ctrl+Z, 1: Ctrl+Y or Ctrl+Shift+Z; the owner gives the text of then
+    bool left = false;        ///< the keyboard went elsewhere
 };
 
-/// Committed with every key. Tab indents; what the caret is on is brought into sight.
+/// Committed with every key; a text that its owner gives in its place is shown at once. What the caret is on
+/// is brought into sight.
 TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view);
 
 } // namespace millwright::widgets

@@ -1,6 +1,7 @@
 // What the widgets keep from frame to frame: half-typed text, refusals, folded sections, the tip on its way.
 #pragma once
 
+#include "ui/widgets/internal/text_steps.h"
 #include "ui/widgets/ui.h"
 
 #include <map>
@@ -40,8 +41,18 @@ struct Ui::State {
         Rect line;
     };
 
+    /// The one text of several lines that is being written.
+    struct Written {
+        std::string path; ///< empty: none
+        std::string text; ///< as its owner has it behind this frame
+        int caret = -1;   ///< byte offset
+        TextSteps steps;
+        int frames_to_follow = 0; ///< the caret is brought into sight
+    };
+
     Places places;
     Edit edit;
+    Written written;
     std::map<std::string, Refusal, std::less<>> refusals;
     std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
     std::map<std::string, double, std::less<>> memory;      ///< by path: scroll positions, open sections

@@ -1,5 +1,6 @@
 #include "core/machine/drivers/pmac/internal/command_kind.h"
 
+#include <cstdlib>
 #include <regex>
 #include <string>
 
@@ -53,6 +54,23 @@ std::optional<MotorStep> step_of(std::string_view line) {
         return std::nullopt;
     }
     return MotorStep{std::stoi(found[1]), std::stod(found[2])};
+}
+
+std::vector<MotorGoal> goals_of(std::string_view line, int& motor) {
+    static const std::regex piece("# *([1-8])|J *([:=^]) *([-+]?[0-9]+[.]?[0-9]*|[-+]?[.][0-9]+)",
+                                  std::regex::icase);
+    std::vector<MotorGoal> goals;
+    if (line.find('"') != std::string_view::npos) {
+        return goals;
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), piece), end; at != end; ++at) {
+        if ((*at)[1].matched) {
+            motor = std::stoi((*at)[1]);
+        } else {
+            goals.push_back({motor, std::strtod((*at)[3].str().c_str(), nullptr), *(*at)[2].first != '='});
+        }
+    }
+    return goals;
 }
 
 bool opens_loop(std::string_view line) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace millwright::machine::pmac {
 
@@ -31,6 +32,17 @@ struct MotorStep {
 
 /// `#1J:200`, with nothing but a question behind it.
 [[nodiscard]] std::optional<MotorStep> step_of(std::string_view line);
+
+/// Where a jog is to end: `J=9000`, or from where the motor is: `J:500`, `J^500`.
+struct MotorGoal {
+    int motor = 0;
+    double counts = 0.0;
+    bool from_here = false;
+};
+
+/// The goals that `line` gives to motors by number, in their order. `motor`: which one is addressed before
+/// it, and behind it.
+[[nodiscard]] std::vector<MotorGoal> goals_of(std::string_view line, int& motor);
 
 /// Sets the output of a motor to anything but 0, its loop open.
 [[nodiscard]] bool opens_loop(std::string_view line);

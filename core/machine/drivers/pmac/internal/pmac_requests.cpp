@@ -409,6 +409,28 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
     }
 }
 
+/// Goals are known before anything moves; what a program does is watched.
+void PmacSession::check_goals(const std::vector<std::string>& lines) const {
+    int motor = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<double> from;
+    for (const MotorState& state : motors_) {
+        from.push_back(state.counts);
+    }
+    std::vector<double> targets = from;
+    for (const std::string& line : lines) {
+        for (const MotorGoal& goal : goals_of(line, motor)) {
+            const auto axis = std::ranges::find(settings_.axes, goal.motor, &PmacAxis::motor);
+            const auto n = static_cast<std::size_t>(axis - settings_.axes.begin());
+            if (n < targets.size()) {
+                targets[n] = goal.counts + (goal.from_here ? targets[n] : 0.0);
+            }
+        }
+        if (const std::string why = leaves_limits(from, targets); !why.empty()) {
+            throw Error(fmt::format("'{}' is not sent: {}", line, why));
+        }
+    }
+}
+
 /// Whether that is all there is to do about `lines`.
 bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
     if (!active() || stage_ == Stage::loading) {
@@ -436,6 +458,7 @@ int PmacSession::load(const std::vector<std::string>& lines) {
 
 int PmacSession::command(const std::vector<std::string>& lines, bool all) {
     check_command(lines);
+    check_goals(lines);
     if (stopped_by_command(lines)) {
         return answer_.number;
     }

@@ -144,6 +144,7 @@ private:
     [[nodiscard]] bool standing() const;
     [[nodiscard]] bool rests() const; ///< nothing of ours is under way
     void check_command(const std::vector<std::string>& lines) const;
+    void check_goals(const std::vector<std::string>& lines) const;
     void begin_command(const std::vector<std::string>& lines, bool all);
     bool stopped_by_command(const std::vector<std::string>& lines);
     void halt();

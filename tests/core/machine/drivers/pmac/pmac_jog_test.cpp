@@ -13,6 +13,7 @@ namespace {
 
 using test::jog_of;
 using test::PmacWire;
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::string refusal(const auto& request) {
@@ -90,9 +91,31 @@ TEST(PmacJogF3, ThatIsTypedAndShortIsAsFastAsTheCard) {
     EXPECT_LT(fastest_of_motor_3(wire), 6.0);
 }
 
-TEST(PmacJogF3, ToAPlaceBeyondTheLimitsIsStoppedThere) {
+TEST(PmacJogF3, ThatIsTypedAndWouldEndBeyondALimitIsNotSent) {
     PmacWire wire;
-    (void)wire.session.command({"#1J=24000"}, false); // 200 degrees
+    for (const std::string line :
+         {"#1J=24000", "#1J:24000", "J=-24000", "#2P #1 J ^ 24000.5", "#2J=0#1J=24000"}) {
+        EXPECT_THAT(
+            refusal([&] { (void)wire.session.command({line}, false); }),
+            AllOf(HasSubstr("'" + line + "' is not sent: X would leave its limits"), HasSubstr("200")))
+            << line;
+    }
+    EXPECT_THAT(refusal([&] {
+                    (void)wire.session.command({"#1J:6000", "J:6000"}, false);
+                }),
+                HasSubstr("100.00"));
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.position(1), 0.0);
+    PmacWire lost({}, false); // the position is not known, so nobody knows better than the one who types
+    (void)lost.session.command({"#1J=1200"}, false);
+    ASSERT_TRUE(lost.run_to_end(20.0));
+    EXPECT_NEAR(lost.card.position(1), 1200.0, 2.0);
+}
+
+TEST(PmacJogF3, AProgramThatIsTypedIsStoppedAtTheLimits) {
+    PmacWire wire;
+    (void)wire.session.command({"OPEN PROG 5", "CLEAR", "LINEAR ABS TA200 TS50 F10 X200", "CLOSE", "&1B5R"},
+                               true);
     ASSERT_TRUE(wire.run_to_end(60.0));
     EXPECT_EQ(wire.state(), DriverState::stopped);
     EXPECT_THAT(wire.session.status().message, HasSubstr("X is beyond its limit"));

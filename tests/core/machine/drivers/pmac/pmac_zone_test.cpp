@@ -43,9 +43,20 @@ TEST(PmacZone, AProgramIsStoppedAtItsBorder) {
     EXPECT_GT(tip_z(wire), -400.0);
 }
 
-TEST(PmacZone, ATypedLineIsStoppedAtItsBorder) {
+TEST(PmacZone, ATypedGoalOutsideIsNotSent) {
     PmacWire wire({}, true, "XYZA", {}, {}, above(-400.0));
-    (void)wire.session.command({"#3J=9000"}, false); // 60 degrees: the forearm alone
+    try {
+        (void)wire.session.command({"#3J=9000"}, false); // 60 degrees: the forearm alone
+        FAIL() << "nothing was refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("below -400"));
+    }
+}
+
+TEST(PmacZone, ATypedProgramIsStoppedAtItsBorder) {
+    PmacWire wire({}, true, "XYZA", {}, {}, above(-400.0));
+    (void)wire.session.command({"OPEN PROG 5", "CLEAR", "LINEAR ABS TA200 TS50 F5 Z60", "CLOSE", "&1B5R"},
+                               true);
     ASSERT_TRUE(wire.run_to_end(60.0));
     EXPECT_EQ(wire.state(), DriverState::stopped);
     EXPECT_THAT(wire.session.status().message, HasSubstr("arm's workspace"));
