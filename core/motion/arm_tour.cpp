@@ -16,15 +16,6 @@ using kinematics::JointPositions;
 
 namespace {
 
-/// As long as the slowest joint takes at that share of its speed, s.
-double joint_time(const ArmModel& arm, const JointPositions& way, double share) {
-    double longest = 0.0;
-    for (int n = 0; n < arm.joint_count(); ++n) {
-        longest = std::max(longest, std::abs(way[n]) / (share * arm.joint(n).max_velocity));
-    }
-    return longest;
-}
-
 void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
     constexpr double quarter_turn = 0.5 * pi;
     const std::vector<kinematics::ArmWay> ways{straight_way(kinematics::base_T_tool(arm, motion.joints()),
@@ -41,6 +32,15 @@ void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
 }
 
 } // namespace
+
+double joint_time(const ArmModel& arm, const JointPositions& way, double share) {
+    expects(share > 0.0 && share <= 1.0, "a share of the speed is more than 0 and at most 1");
+    double longest = 0.0;
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        longest = std::max(longest, std::abs(way[n]) / (share * arm.joint(n).max_velocity));
+    }
+    return longest;
+}
 
 kinematics::ArmAim aim_of(const ArmModel& arm, double most_tilt) {
     constexpr int free_roll = 5;
@@ -65,7 +65,7 @@ kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed
 gcode::Program tour(const ArmModel& arm, const JointPositions& start, const std::vector<ArmStop>& stops) {
     ArmMotion motion(arm, start);
     for (const ArmStop& stop : stops) {
-        expects(stop.share > 0.0 && stop.share <= 1.0, "a share of the speed is more than 0 and at most 1");
+        expects(stop.share > 0.0 && stop.share <= 1.0, "a stop has a share of the speed");
         try {
             if (stop.joints.size() != arm.joint_count()) {
                 throw Error(fmt::format("it was taught to an arm with {} joints", stop.joints.size()));

@@ -26,6 +26,10 @@ struct ArmStop {
 gcode::Program
 tour(kinematics::ArmModel&&, const kinematics::JointPositions&, const std::vector<ArmStop>&) = delete;
 
+/// As long as the slowest joint takes for `way` at that share of its speed, s; 0 < share <= 1.
+[[nodiscard]] double
+joint_time(const kinematics::ArmModel& arm, const kinematics::JointPositions& way, double share);
+
 /// The tip's straight way between two frames of the tool, which turns evenly. `speed`: mm/s; 0: as fast as
 /// the joints can.
 [[nodiscard]] kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed);

@@ -13,6 +13,9 @@ namespace {
 // Coarser than for the motion itself: what a person sees while the part is dragged.
 constexpr double shown_tolerance = 0.2, shown_axis_tolerance = 0.01, shown_step = 20.0;
 
+// The way to the beginning is not in the picture: as slow as a taught point is at first.
+constexpr double share_to_beginning = 0.25;
+
 kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
     kinematics::ArmPathSettings settings;
     settings.aim = motion::aim_of(wish.arm->arm(), wish.most_lean);
@@ -47,6 +50,13 @@ void find(ArmPathAnswer& answer, const Progress& progress) {
     answer.reach = kinematics::reach_of(path, ways);
     if (wish.planned) {
         motion::ArmMotion motion(arm, wish.joints);
+        if (path.whole()) {
+            const kinematics::JointPositions& first = path.points.front().joints;
+            const double seconds = motion::joint_time(arm, first - wish.joints, share_to_beginning);
+            if (seconds > 0.0) {
+                motion.go_to(first, seconds);
+            }
+        }
         motion.follow(ways, path, {});
         answer.motion =
             std::make_shared<const motion::Trajectory>(motion::plan(motion.program(), arm, {}, progress));

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace millwright::panels {
@@ -33,11 +34,24 @@ protected:
         arm().wait_idle();
         person_.frames(2);
     }
+    /// The way to the path's beginning, which nobody saw in the picture.
+    void expect_careful_approach() {
+        const auto motion = arm().path()->motion;
+        ASSERT_TRUE(motion);
+        EXPECT_GT(motion->end_of(0), 1.0);
+        for (double time = 0.0; time < motion->end_of(0); time += 0.01) {
+            const auto velocity = motion->at(time).velocity;
+            for (int n = 0; n < arm().arm().joint_count(); ++n) {
+                ASSERT_LE(std::abs(velocity[n]), 0.25 * arm().arm().joint(n).max_velocity * (1.0 + 1e-6));
+            }
+        }
+    }
     /// From one end of the path to the other.
     void go() {
         person_.click("inspector/path/arm_send_path");
         ASSERT_TRUE(person_.live_until([&] { return arm().moving(); }, 60.0))
             << person_.refusal("inspector/path/arm_send_path");
+        expect_careful_approach();
         const Vec3 begin = arm().tool().translation(), end = arm().path()->track->tips.back();
         person_.frames(5);
         EXPECT_GT((arm().tool().translation() - begin).norm(), 0.1);
