@@ -243,7 +243,8 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.send_path",
          menu,
          "Go the path",
-         "The project's program where its part stands: the drawn arm, or the connected one. It goes to the beginning joint by "
+         "The project's program where its part stands: the drawn arm, or the connected one. It goes to the "
+         "beginning joint by "
          "joint, at a quarter of its speed.",
          "",
          icons::toolpath},

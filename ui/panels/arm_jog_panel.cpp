@@ -9,6 +9,8 @@
 #include "ui/render/imgui_compat.h"
 #include "ui/widgets/slider.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,6 +56,13 @@ Permission can_jog(const Workbench& now, int joint) {
         return Permission::refused("The motors have no power.");
     }
     return now.controller.status.activity == machine::Activity::jog ? Permission{} : at_rest(now.controller);
+}
+
+/// A key has no tip that tells why it does nothing.
+void tell_refusal(ActionQueue& ask, std::string_view what, const widgets::Permission& why) {
+    ask.show([text = fmt::format("{}: {}", what, why.reason)](actions::Session& session) {
+        actions::tell(session, widgets::Severity::warning, text);
+    });
 }
 
 } // namespace
@@ -281,7 +290,10 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     }
     const bool held = render::key_down(Key::equal) || render::key_down(Key::minus);
     key_joint_ = held ? key_joint_ : joint; // another joint begins with another press
-    if (can_jog(now, joint).allowed && key_joint_ == joint) {
+    const widgets::Permission jogs = can_jog(now, joint);
+    if (!jogs.allowed && (render::key_pressed(Key::equal) || render::key_pressed(Key::minus))) {
+        tell_refusal(ask, "+ and \u2212", jogs);
+    } else if (jogs.allowed && key_joint_ == joint) {
         for (const auto& [key, sign] : {std::pair(Key::equal, 1.0), std::pair(Key::minus, -1.0)}) {
             wish.joint(joint, sign, render::key_down(key), render::key_pressed(key));
         }
@@ -297,14 +309,20 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
                                            {Key::s, "arm.send_program"},
                                            {Key::i, "arm.card_settings"}}};
     for (const Order& order : orders) {
-        if (render::key_pressed(order.key) && catalogue_.find(order.action).permission(now).allowed) {
+        if (!render::key_pressed(order.key)) {
+            continue;
+        }
+        const actions::Action& action = catalogue_.find(order.action);
+        if (const widgets::Permission may = action.permission(now); may.allowed) {
             ask.run(std::string(order.action));
+        } else {
+            tell_refusal(ask, action.info().title, may);
         }
     }
     if (render::key_pressed(Key::slash)) {
         ask.arm([](actions::ArmBench& bench) { bench.stop(); });
-        const bool jogs = now.controller.status.activity == machine::Activity::jog;
-        if (now.arm_connected() && jogs) {
+        const bool is_jog = now.controller.status.activity == machine::Activity::jog;
+        if (now.arm_connected() && is_jog) {
             ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
         } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
             ask.run("machine.stop"); // a program, homing, or what was typed

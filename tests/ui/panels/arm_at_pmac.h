@@ -33,6 +33,15 @@ struct ArmAtPmac {
                           is(machine::DriverState::alarm);
         return told && !pmac.moving();
     }
+    /// The number of the notice that came last of those on show; 0 without any.
+    [[nodiscard]] int newest_notice() {
+        constexpr int most = 200;
+        int newest = 0;
+        for (int n = 1; n <= most; ++n) {
+            newest = person.sees("notices/" + std::to_string(n)) ? n : newest;
+        }
+        return newest;
+    }
     void give_power() {
         if (is(machine::DriverState::alarm)) {
             person.workshop().run("machine.reset");

@@ -101,14 +101,19 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     EXPECT_LT(bench.pmac.degrees(1), 50.0);
     EXPECT_TRUE(bench.pmac.powered());
 
+    int told = bench.newest_notice();
     bench.person.press_key(Key::i); // a wrong gain would move them
     EXPECT_FALSE(bench.person.sees("dialogs/files/open"));
+    EXPECT_GT(bench.newest_notice(), told); // a key has no tip that tells why it does nothing
     bench.person.press_key(Key::k);
     EXPECT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
     EXPECT_TRUE(bench.person.sees("alarm/message"));
     EXPECT_EQ(bench.person.refusal("hand/power/machine_home"),
               "There is an alarm: look at the arm, then unlock it first.");
+    told = bench.newest_notice();
+    bench.person.press_key(Key::equal);
+    EXPECT_GT(bench.newest_notice(), told);
     bench.person.click("hand/connection/machine_reset");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     bench.person.press_key(Key::i);

@@ -394,6 +394,11 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
         if (!plain || line.empty() || line.size() > longest) {
             throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
         }
+        if (line.front() == '^') {
+            throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
+                        {},
+                        "Stop, emergency stop and unlock do what ^A, ^K and others would");
+        }
         if (jogs_without_end(line)) {
             throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
                         {},

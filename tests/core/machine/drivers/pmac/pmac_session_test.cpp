@@ -400,6 +400,18 @@ TEST(PmacSession, SetsVariablesAloneInAnAlarm) {
     EXPECT_FALSE(wire.powered());
 }
 
+TEST(PmacSession, TakesNoControlCharacterByItsName) {
+    PmacWire wire;
+    for (const bool moving : {false, true}) {
+        if (moving) {
+            (void)wire.session.command({"#1J:9000"}, false);
+            ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+        }
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({"^A"}, false); }),
+                    HasSubstr("control character"));
+    }
+}
+
 TEST(PmacSession, OpensNoLoop) {
     PmacWire wire;
     for (const std::string line : {"#1O5", "O-0.5", "#2 o 50", "#1O(P1)", "#1O0.01"}) {
