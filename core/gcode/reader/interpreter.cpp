@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 namespace millwright::gcode {
 
@@ -85,6 +87,7 @@ struct Interpreter::Parts {
     ControlFlow flow;
     ParsedLine line;
     std::vector<Diagnostic> errors;
+    std::set<std::tuple<int, int, int>> told; ///< file, line and column of each error
     std::int64_t further_errors = 0;
     bool started = false;
     bool stopped = false;
@@ -262,8 +265,12 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
         // What is wrong in here makes all the rest of the program uncertain.
         try {
             flow.execute(cursor);
-        } catch (const Refusal&) {
+        } catch (Refusal& refusal) {
             stopped = true;
+            if (settings.read_on) { // where the first error is not the last
+                refusal.hint += refusal.hint.empty() ? "" : "; ";
+                refusal.hint += "what follows was not looked at";
+            }
             throw;
         }
         return true;
@@ -304,7 +311,11 @@ void Interpreter::Parts::repeat_from_the_top() {
     run.ended = true;
 }
 
+/// A line of a loop or a subroutine is wrong once, however often it is come to.
 void Interpreter::Parts::report(SourcePlace place, const Refusal& refusal) {
+    if (!told.emplace(place.file, place.line, refusal.column).second) {
+        return;
+    }
     if (std::ssize(errors) >= settings.most_errors) {
         ++further_errors;
         return;

@@ -276,6 +276,9 @@ double read_any(Cursor& cursor, const Variables& variables) {
     case '#':
         return read_parameter(cursor, variables);
     case '\0':
+        if (!cursor.at_end()) {
+            refuse_zero_byte(cursor);
+        }
         refuse(cursor.column(), "a value is missing at the end of the line");
     default:
         return read_function(cursor, variables);

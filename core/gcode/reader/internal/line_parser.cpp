@@ -29,7 +29,7 @@ constexpr double code_within = 0.001;
         refuse(1, "the text is UTF-16", "save it as plain text");
     }
     if (c == '\0' && !cursor.at_end()) {
-        refuse(cursor.column(), "byte 0x00 is in no text: this is a binary file", "choose a program");
+        refuse_zero_byte(cursor);
     }
     if (c < ' ' || c > '~') {
         refuse(cursor.column(),
