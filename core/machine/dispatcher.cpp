@@ -306,7 +306,7 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     const DriverStatus before = driver_.status();
     if (before.state != DriverState::idle && before.state != DriverState::stopped) {
         throw Error(
-            fmt::format("the machine is {} and takes no job", to_text(before.state)), {}, before.message);
+            fmt::format("the machine is {} and takes no job", in_words(before.state)), {}, before.message);
     }
     check_position(job, before);
     constexpr double planning = 0.02; // of the progress

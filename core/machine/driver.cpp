@@ -107,4 +107,8 @@ std::string_view to_text(DriverState state) {
     return "unknown";
 }
 
+std::string_view in_words(DriverState state) {
+    return state == DriverState::alarm ? "in alarm" : to_text(state);
+}
+
 } // namespace millwright::machine

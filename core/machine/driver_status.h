@@ -22,6 +22,8 @@ enum class DriverState {
 };
 
 [[nodiscard]] std::string_view to_text(DriverState state);
+/// Behind "is": "idle", "in alarm".
+[[nodiscard]] std::string_view in_words(DriverState state);
 
 /// What a machine is at while it is running, holding or stopping.
 enum class Activity { none, program, command, jog, homing };

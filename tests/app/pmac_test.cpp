@@ -81,7 +81,7 @@ TEST_F(Pmac, IsToldFromSomethingElse) {
     Emulator emulator(port, {});
     const Ended ended = run({"pmac", "#1P", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("nobody answers as a PMAC"));
+    EXPECT_THAT(ended.err, HasSubstr("what answers is not what a PMAC would"));
     EXPECT_EQ(run({"pmac", "--port", port}).exit_code, 1);
 }
 

@@ -12,10 +12,13 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr int jog_speed = 22; // of Ixnn
+constexpr int active = 0, jog_speed = 22; // of Ixnn
 constexpr double per_ms = 1000.0;
 
 void require_power(const CardTalk& card, int motor) {
+    if (!(std::abs(motor_variable(card, motor, active)) > 0.0)) {
+        throw Error(fmt::format("motor {} is not there (I{}00=0)", motor, motor));
+    }
     if (!motor_state(card, motor).powered) { // a jog would give it power
         throw Error(fmt::format("motor {} has no power", motor),
                     {},

@@ -211,8 +211,10 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     bench.person.click("lower/arm_simulate");
     ASSERT_TRUE(bench.person.live_until([&] {
         const auto& faults = bench.person.workshop().arm().program().faults();
-        return !faults.empty() && faults.front().message.find("X leaves its limits") != std::string::npos;
+        return !faults.empty() &&
+               faults.front().message.find("X (joint 1) leaves its limits") != std::string::npos;
     }));
+    EXPECT_EQ(bench.person.workshop().arm().program().faults().front().place.line, 3);
     bench.person.frames(3); // from elsewhere it may be sound: it can be asked again, and is refused again
     EXPECT_EQ(bench.person.refusal("lower/arm_simulate"), "");
     bench.person.click("lower/arm_run_program");

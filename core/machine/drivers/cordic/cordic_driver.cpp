@@ -160,7 +160,7 @@ void CordicDriver::start(Work work) {
     expects(work.listing != nullptr, "a program has a listing");
     const DriverStatus before = machine_.status();
     if (before.state != DriverState::idle && before.state != DriverState::stopped) {
-        throw Error(fmt::format("the machine is {} and takes no program", to_text(before.state)));
+        throw Error(fmt::format("the machine is {} and takes no program", in_words(before.state)));
     }
     const AxisValues start = values_of(before.position, *model_);
     gcode::CordicProgram made = compiled(*work.listing, start);

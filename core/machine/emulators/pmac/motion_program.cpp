@@ -162,10 +162,13 @@ std::optional<Diagnostic> beyond_limits(const MotionRecord& record,
         const bool above = axes[n].max_deg && at > *axes[n].max_deg + slack_deg && at > before.degrees[n];
         const bool below = axes[n].min_deg && at < *axes[n].min_deg - slack_deg && at < before.degrees[n];
         if (above || below) {
+            const std::string joint =
+                card.arm ? " (joint " + card.arm->joint(static_cast<int>(n)).name + ")" : std::string();
             return at_line(named,
                            0,
-                           fmt::format("{} leaves its limits after {:.1f} s: it ends at {:.4g} degrees",
+                           fmt::format("{}{} leaves its limits after {:.1f} s: it ends at {:.4g} degrees",
                                        axes[n].letter,
+                                       joint,
                                        record.time,
                                        above ? *axes[n].max_deg : *axes[n].min_deg));
         }
@@ -175,6 +178,76 @@ std::optional<Diagnostic> beyond_limits(const MotionRecord& record,
         return at_line(named, 0, fmt::format("after {:.1f} s {}", record.time, why));
     }
     return std::nullopt;
+}
+
+/// To its end, or to where an axis leaves its limits. "", or the card's error where it does not begin.
+std::string run(Bench& bench,
+                const std::filesystem::path& named,
+                const MotionSimulationSettings& settings,
+                const Progress& progress,
+                MotionSimulation& result) {
+    result.records.push_back(bench.record(0.0));
+    if (std::string error = bench.say(fmt::format("&{}B1R", settings.card.system)); !error.empty()) {
+        return error;
+    }
+    double& time = result.duration;
+    do {
+        progress.check();
+        bench.advance(settings.step);
+        time += settings.step;
+        result.records.push_back(bench.record(time));
+        result.beyond_limits = beyond_limits(
+            result.records.back(), result.records[result.records.size() - 2], settings.card, named);
+    } while (!result.beyond_limits && (bench.runs() || bench.moves()) && time < settings.longest);
+    return {};
+}
+
+/// Where a program may be cut off: behind these many lines no loop and no condition is open.
+std::vector<std::size_t> whole_beginnings(const std::vector<MotionLine>& lines) {
+    std::vector<std::size_t> ends;
+    int depth = 0;
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+        const auto words = pmac_card::words_of(lines[n].text);
+        for (const Statement& one : words
+                                        ? pmac_card::compile(*words, false).value_or(std::vector<Statement>{})
+                                        : std::vector<Statement>{}) {
+            const bool begins = one.verb == Verb::if_true || one.verb == Verb::while_true;
+            const bool ends_one = one.verb == Verb::end_if || one.verb == Verb::end_while;
+            depth += begins ? 1 : ends_one ? -1 : 0;
+        }
+        if (depth == 0) {
+            ends.push_back(n + 1);
+        }
+    }
+    return ends;
+}
+
+/// The card looks ahead, so its program counter does not tell whose move it was: the last line, or loop, of
+/// the shortest beginning of the program that leaves the limits. 0 where that would take too long.
+int line_beyond_limits(const std::vector<MotionLine>& lines,
+                       const std::filesystem::path& named,
+                       MotionSimulationSettings settings,
+                       double found_after,
+                       const Progress& progress) {
+    constexpr double longest_search = 300.0; // s of the card's time
+    constexpr double behind = 5.0;           // s: without the next move it may come there later, as it brakes
+    const std::vector<std::size_t> ends = whole_beginnings(lines);
+    settings.longest = found_after + behind;
+    std::size_t first = 0, last = ends.size(); // ends[last - 1] lines leave them
+    for (double spent = 0.0; last - first > 1; spent += settings.longest) {
+        if (spent > longest_search) {
+            return 0;
+        }
+        const std::size_t middle = first + (last - first) / 2;
+        const auto count = static_cast<std::ptrdiff_t>(ends[middle - 1]);
+        Bench bench(settings);
+        MotionSimulation result;
+        (void)load(bench, {lines.begin(), lines.begin() + count}, named, result.faults);
+        (void)run(bench, named, settings, progress, result);
+        (result.beyond_limits ? last : first) = middle;
+    }
+    const std::size_t begin = last > 1 ? ends[last - 2] : 0;
+    return lines[begin].number;
 }
 
 } // namespace
@@ -245,23 +318,14 @@ MotionSimulation simulate_motion_program(std::string_view text,
     if (!load(bench, lines, named, result.faults)) {
         return result;
     }
-    result.records.push_back(bench.record(0.0));
-    if (const std::string error = bench.say(fmt::format("&{}B1R", settings.card.system)); !error.empty()) {
+    if (const std::string error = run(bench, named, settings, progress, result); !error.empty()) {
         result.faults.push_back(
             at_line(named, lines.front().number, "the card does not begin it: ERR" + error));
         return result;
     }
-    double time = 0.0;
-    do {
-        progress.check();
-        bench.advance(settings.step);
-        time += settings.step;
-        result.records.push_back(bench.record(time));
-        result.beyond_limits = beyond_limits(
-            result.records.back(), result.records[result.records.size() - 2], settings.card, named);
-    } while (!result.beyond_limits && (bench.runs() || bench.moves()) && time < settings.longest);
-    result.duration = time;
     if (result.beyond_limits) {
+        result.beyond_limits->place.line =
+            line_beyond_limits(lines, named, settings, result.duration, progress);
         result.faults.push_back(*result.beyond_limits);
     } else if (bench.broke_off()) {
         result.faults.push_back(at_line(named, 0, "the card ends the program with a run-time error"));

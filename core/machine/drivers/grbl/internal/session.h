@@ -36,6 +36,7 @@ struct Readout {
     std::map<int, double> settings;
     Axes machine_position{}, offset{};
     std::string pins;
+    double spindle_rpm = 0.0; ///< as last told
     std::optional<ProbeResult> probe;
     int probings = 0;                    ///< of programs and commands
     Modes modes;                         ///< at rest; of a running program only spindle and coolant

@@ -338,11 +338,11 @@ void Session::take_feedback(const Feedback& feedback) {
         read_options(feedback.text);
     } else if (feedback.tag == "GC") {
         readout_.modes = read_modes(feedback.text);
-    } else if (feedback.tag == "PRB") {
-        const auto result = read_probe_result(feedback.text);
-        readout_.probe =
-            result ? std::optional(ProbeResult{scaled(result->position), result->touched}) : std::nullopt;
-        readout_.probings += result && stage_ == Stage::running ? 1 : 0; // else it was asked for
+    } else if (feedback.tag == "PRB" && stage_ == Stage::running) { // else it was asked for
+        if (const auto result = read_probe_result(feedback.text)) {
+            readout_.probe = ProbeResult{scaled(result->position), result->touched};
+            ++readout_.probings;
+        }
     } else if (std::ranges::find(offsets, feedback.tag) != offsets.end()) {
         if (const auto offset = read_offset(feedback.text)) {
             readout_.offsets[feedback.tag] = scaled(*offset);

@@ -40,6 +40,7 @@ void Session::take_readout(const StatusMessage& report, double now) {
         }
     }
     readout_.pins = report.pins;
+    readout_.spindle_rpm = report.spindle_rpm.value_or(readout_.spindle_rpm);
     if (report.overrides) {
         const auto& [feed, rapid, spindle] = *report.overrides;
         overrides_.reported({feed, rapid, spindle}, now);

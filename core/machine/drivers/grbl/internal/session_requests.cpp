@@ -17,7 +17,7 @@ void Session::require_rest(std::string_view what) const {
                     {},
                     "wait until it stands; the window can hold and stop it meanwhile");
     }
-    throw Error(fmt::format("Grbl is {} and takes no {}", to_text(status().state), what),
+    throw Error(fmt::format("Grbl is {} and takes no {}", in_words(status().state), what),
                 {},
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }
@@ -166,7 +166,7 @@ void Session::home(double now) {
 
 void Session::set_overrides(const Overrides& wanted) {
     if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
-        throw Error(fmt::format("Grbl is {} and takes no overrides", to_text(status().state)));
+        throw Error(fmt::format("Grbl is {} and takes no overrides", in_words(status().state)));
     }
     overrides_.want(wanted);
 }

@@ -82,7 +82,7 @@ void Session::show_machine(DriverStatus& status) const {
     status.velocity = kinematics::AxisPositions::Zero(3);
     status.work_offset = vector(readout_.offset);
     status.feed = feed();
-    status.spindle_rpm = report_ ? report_->spindle_rpm.value_or(0.0) : 0.0;
+    status.spindle_rpm = readout_.spindle_rpm;
     status.overrides = overrides_.now();
     const Modes& modes = readout_.modes;
     status.modes = modes.text;

@@ -46,7 +46,7 @@ void ShellSession::require_rest(std::string_view what) const {
     if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         return;
     }
-    throw Error(fmt::format("LinuxCNC is {} and takes no {}", to_text(status().state), what),
+    throw Error(fmt::format("LinuxCNC is {} and takes no {}", in_words(status().state), what),
                 {},
                 stage_ == Stage::alarm     ? message_ + "; look at the machine, then reset it"
                 : stage_ == Stage::foreign ? message_

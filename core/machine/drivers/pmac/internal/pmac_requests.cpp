@@ -44,7 +44,7 @@ void PmacSession::require_rest(std::string_view what) const {
     if (rests()) {
         throw Error(fmt::format("the motors are moving, and take no {}", what));
     }
-    throw Error(fmt::format("the PMAC is {} and takes no {}", to_text(status().state), what),
+    throw Error(fmt::format("the PMAC is {} and takes no {}", in_words(status().state), what),
                 {},
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }

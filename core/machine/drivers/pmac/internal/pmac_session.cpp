@@ -30,7 +30,7 @@ bool starts_with_word(const std::string& line, std::string_view word) {
 
 void PmacSession::opened(double now) {
     stage_ = Stage::greeting;
-    link_lost_ = false;
+    link_lost_ = heard_ = false;
     message_.clear();
     queue_.clear();
     sent_.reset();
@@ -82,6 +82,7 @@ bool PmacSession::is_ours(Kind kind) {
 }
 
 void PmacSession::receive(std::string_view bytes, double now) {
+    heard_ = heard_ || !bytes.empty();
     talk_.receive(bytes, now);
 }
 
@@ -96,6 +97,8 @@ std::string PmacSession::asked(const Request& request) {
         return "the question for its motors' values";
     case Kind::address:
         return "the question which motor it addresses";
+    case Kind::step:
+        return request.line.starts_with('I') ? "a jog's speed" : "'" + request.line + "'";
     default:
         return "'" + request.line + "'";
     }
@@ -205,7 +208,8 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
     default:
         if (stage_ == Stage::greeting) {
             queue_.clear();
-            finish(Stage::alarm, "nobody answers as a PMAC");
+            finish(Stage::alarm,
+                   heard_ ? "what answers is not what a PMAC would" : "nobody answers as a PMAC");
         } else if (request.kind == Kind::command && request.line.starts_with("$$$")) {
             fail(
                 "the card was reset: the settings that it had saved are in force, and it does not know where "

@@ -175,6 +175,7 @@ private:
     std::vector<ConsoleLine> told_;
     std::string message_;
     bool link_lost_ = false;
+    bool heard_ = false;  ///< something since the link was opened
     bool unseen_ = false; ///< silent since the last report: what it told is old
 
     std::deque<Request> queue_;

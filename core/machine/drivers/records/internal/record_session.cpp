@@ -121,8 +121,9 @@ void RecordSession::alarm(std::string why) {
 
 void RecordSession::start(const Work& work, double now) {
     if (status_.state != DriverState::idle && status_.state != DriverState::stopped) {
-        throw Error(
-            fmt::format("the table is {} and takes no program", to_text(status_.state)), {}, status_.message);
+        throw Error(fmt::format("the table is {} and takes no program", in_words(status_.state)),
+                    {},
+                    status_.message);
     }
     if (!status_.position_doubt.empty()) {
         throw Error(doubt_sentence(status_.position_doubt) +

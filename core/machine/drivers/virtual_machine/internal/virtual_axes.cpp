@@ -187,7 +187,7 @@ void VirtualAxes::require_model(std::string_view what) const {
 
 void VirtualAxes::require_rest(std::string_view what) const {
     if (state_ != DriverState::idle && state_ != DriverState::stopped) {
-        throw Error(fmt::format("the virtual machine is {} and takes no {}", to_text(state_), what),
+        throw Error(fmt::format("the virtual machine is {} and takes no {}", in_words(state_), what),
                     {},
                     state_ == DriverState::alarm ? message_ + "; look at the machine, then reset it" : "");
     }

@@ -38,6 +38,24 @@ TEST(PmacSession, GreetsTheCardInWhateverModeItIs) {
     }
 }
 
+TEST(PmacSession, TellsSilenceFromHalfAnAnswer) {
+    for (const std::string heard : {"", "PMA"}) {
+        PmacSession session(arm_settings());
+        session.opened(0.0);
+        double now = 0.0;
+        for (; session.status().state != DriverState::alarm && now < 60.0; now += 0.01) {
+            session.tick(now);
+            if (session.take_output().find("TYPE") != std::string::npos) {
+                session.receive(heard, now);
+            }
+        }
+        EXPECT_LT(now, 30.0);
+        EXPECT_THAT(
+            session.status().message,
+            HasSubstr(heard.empty() ? "nobody answers as a PMAC" : "what answers is not what a PMAC would"));
+    }
+}
+
 TEST(PmacSession, KnowsNoPositionBeforeHoming) {
     PmacWire wire({}, false);
     EXPECT_EQ(wire.state(), DriverState::idle);

@@ -76,7 +76,15 @@ TEST(MotionProgramS7, TellsWhenAJointLeavesItsLimits) {
     settings.card = within_limits(arm_settings(), kinematics::read_arm("assets/arms/motoman-l3.json").arm);
     const auto found = simulate_motion_program("LINEAR\nF20\nX20Y-6\nX400\n", "m.pmc", settings, {});
     ASSERT_TRUE(found.beyond_limits.has_value());
-    EXPECT_THAT(found.beyond_limits->message, HasSubstr("X leaves its limits after"));
+    EXPECT_THAT(found.beyond_limits->message, HasSubstr("X (joint 1) leaves its limits after"));
+    EXPECT_EQ(found.beyond_limits->place.line, 4);
+    const auto loop = simulate_motion_program(
+        "LINEAR INC\nF90\n; twice\nX80\nP1=0\nWHILE(P1<2)\nX60\nP1=P1+1\nENDWHILE\nX-50\nX-60\n",
+        "m.pmc",
+        settings,
+        {});
+    ASSERT_TRUE(loop.beyond_limits.has_value());
+    EXPECT_EQ(loop.beyond_limits->place.line, 6);
     EXPECT_THAT(found.beyond_limits->message, HasSubstr("175"));
     EXPECT_EQ(found.faults.size(), 1U);
     EXPECT_LT(found.records.back().degrees[0], 176.0);
