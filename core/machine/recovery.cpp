@@ -15,16 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string sentence_of(const JobStory& story) {
+/// What went wrong, as the log has it; "" without a fault.
+std::string fault_in(const ReadLog& log) {
+    const auto fault = std::ranges::find(log.records, LogEvent::fault, &LogRecord::event);
+    return fault == log.records.end() ? std::string() : fault->text;
+}
+
+std::string sentence_of(const JobStory& story, const std::string& fault) {
     const int blocks = story.start.blocks;
     if (story.running) {
         return fmt::format(
             "running: {} of {} blocks were executed for certain.", story.executed_blocks, blocks);
     }
     if (!story.broken_off()) {
-        return fmt::format("{} after {}: {} of {} blocks were executed for certain.",
+        return fmt::format("{} after {}: {}{} of {} blocks were executed for certain.",
                            to_text(*story.end),
                            short_time(story.time),
+                           fault.empty() ? "" : fault + "; ",
                            story.executed_blocks,
                            blocks);
     }
@@ -77,7 +84,7 @@ JobStory job_story(const fs::path& log_file) {
         story.position = log.records.back().position;
         story.position_doubt = log.records.back().position_doubt;
     }
-    story.sentence = sentence_of(story);
+    story.sentence = sentence_of(story, fault_in(log));
     if (!story.position_doubt.empty() && story.executed_blocks < story.start.blocks) {
         story.sentence += " " + doubt_sentence(story.position_doubt);
     }

@@ -6,6 +6,7 @@
 #include "core/gcode/posts/release.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/job_log.h"
+#include "core/machine/recovery.h"
 #include "core/machine/run_from_line.h"
 #include "tests/core/machine/drivers/grbl/wire_driver.h"
 #include "tests/support/jobs.h"
@@ -223,6 +224,7 @@ TEST(Dispatcher, ReportsAFaultAndWhatWasExecutedForCertain) {
     const ReadLog log = read_job_log(outcome.log_file);
     EXPECT_EQ(events(log), (std::vector{LogEvent::fault, LogEvent::end}));
     EXPECT_EQ(log.end(), JobEnd::fault);
+    EXPECT_THAT(job_story(outcome.log_file).sentence, HasSubstr("emergency stop; "));
     EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}), Error); // nothing before the reset
 }
 
