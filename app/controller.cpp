@@ -191,17 +191,31 @@ void Controller::remember() {
     }
 }
 
-void Controller::show_warnings(const machine::Job& job) const {
+/// From where the machine stands, with its offsets; nothing where it reads no G-code.
+std::optional<machine::Survey> Controller::survey_of(const machine::Job& job) const {
     const machine::Capabilities able = driver_->capabilities();
     if (!able.dialect) {
-        return;
+        return std::nullopt;
     }
-    const machine::Survey found =
-        machine::survey(job.listing->text,
-                        job.project,
-                        {*able.dialect, able.axes, driver_->status().position, driver_->stored_offsets()});
-    for (const Diagnostic& warning : machine::warnings_of(found, driver_->limits(), job.project)) {
-        fmt::print(stderr, "millwright: {}\n", to_text(warning));
+    return machine::survey(job.listing->text,
+                           job.project,
+                           {*able.dialect, able.axes, driver_->status().position, driver_->stored_offsets()});
+}
+
+void Controller::look_at(const machine::Job& job) const {
+    const auto found = survey_of(job);
+    const auto faults =
+        found ? machine::faults_of(*found, driver_->limits(), job.project) : std::vector<Diagnostic>{};
+    if (!faults.empty()) {
+        throw Error(faults.front());
+    }
+}
+
+void Controller::show_warnings(const machine::Job& job) const {
+    if (const auto found = survey_of(job)) {
+        for (const Diagnostic& warning : machine::warnings_of(*found, driver_->limits(), job.project)) {
+            fmt::print(stderr, "millwright: {}\n", to_text(warning));
+        }
     }
 }
 

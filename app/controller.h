@@ -7,9 +7,11 @@
 #include "core/machine/driver.h"
 #include "core/machine/job.h"
 #include "core/machine/position_memory.h"
+#include "core/machine/survey.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -55,6 +57,8 @@ public:
     /// unlocked, or that it shall be homed first, which moves it; `at_a_line`: also if the position that a
     /// job needs that begins there is in doubt. Nothing was unlocked then.
     void connect(bool at_a_line, const std::stop_token& stop);
+    /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
+    void look_at(const machine::Job& job) const;
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
     [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop);
@@ -67,6 +71,7 @@ private:
     void settle_position(bool at_a_line);
     void say_who_is_there() const;
     void remember();
+    [[nodiscard]] std::optional<machine::Survey> survey_of(const machine::Job& job) const;
     void show_warnings(const machine::Job& job) const;
     void check_joints(const machine::Job& job, const std::stop_token& stop) const;
 

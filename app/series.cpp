@@ -55,9 +55,12 @@ public:
             for (const std::string& file : choice_.files) {
                 jobs.push_back(made(file, jobs.empty() ? choice_.from_line : 1));
             }
-            for (machine::Job& job : jobs) {
-                (void)queue_->add(std::move(job));
+            for (const machine::Job& job : jobs) {
+                (void)queue_->add(job);
             }
+            steps_.ready();
+            look_at(jobs);
+            return;
         }
         steps_.ready();
     }
@@ -99,6 +102,20 @@ private:
     bool on_disk_ = false;
     std::unique_ptr<JobQueue> queue_;
 
+    /// None begins where one of them could not be run; then nothing is left of them.
+    void look_at(const std::vector<machine::Job>& jobs) {
+        if (jobs.size() < 2 || !steps_.look) {
+            return;
+        }
+        try {
+            std::ranges::for_each(jobs, steps_.look);
+        } catch (const Error&) {
+            for (const QueuedJob& job : left()) {
+                queue_->remove(job.id);
+            }
+            throw;
+        }
+    }
     [[nodiscard]] machine::Job made(const std::string& file, int from_line) const {
         machine::Job job = steps_.make(file, from_line);
         job.options = choice_.options;

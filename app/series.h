@@ -39,6 +39,8 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance);
 struct SeriesSteps {
     std::function<machine::Job(const std::string& file, int from_line)> make;
     std::function<void()> ready; ///< once: all jobs are made, none has begun
+    /// Throws Error for what the machine that is there now cannot do of one of several; may be none.
+    std::function<void(const machine::Job&)> look = {};
     std::function<machine::JobOutcome(const machine::Job&)> run;
 };
 

@@ -139,6 +139,7 @@ int send_text(const Options& options) {
         return job;
     };
     steps.ready = [&] { controller.connect(options.series.from_line > 1, interrupt.token()); };
+    steps.look = [&](const machine::Job& job) { controller.look_at(job); };
     steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt.token()); };
     return run_series(options.series, steps, interrupt.token());
 }

@@ -120,6 +120,12 @@ TEST_F(Series, AnythingWrongInAnyProgramIsSaidBeforeTheFirstBegins) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("b.ngc:1:7"));
     EXPECT_FALSE(fs::exists(logs + "/a-0001.jsonl"));
+    write_content(b, "G21 G90 G0 X1\nX2000\nM2\n"); // beyond the travel of the machine that is there
+    ended = send({a, b, "--yes"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("b.ngc:2"));
+    EXPECT_FALSE(fs::exists(logs + "/a-0001.jsonl"));
+    EXPECT_EQ(queue(), "") << "nothing has begun, so nothing is left";
     EXPECT_EQ(send({}).exit_code, 2);
     EXPECT_EQ(send({a, "--continue"}).exit_code, 2);
 }
