@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace millwright::actions {
@@ -17,6 +18,10 @@ bool same(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b
     return a.size() == b.size() && a == b;
 }
 
+bool same(double a, double b) {
+    return !(std::abs(a - b) > 0.0);
+}
+
 /// Whether both look the same to a person.
 bool looks_same(const DriverStatus& a, const DriverStatus& b) {
     return a.state == b.state && a.activity == b.activity && same(a.position, b.position) &&
@@ -25,7 +30,9 @@ bool looks_same(const DriverStatus& a, const DriverStatus& b) {
            a.position_doubt == b.position_doubt && a.block == b.block &&
            a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
            a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
-           a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
+           a.work_system == b.work_system && a.tool == b.tool && a.sent_blocks == b.sent_blocks &&
+           same(a.feed, b.feed) && same(a.spindle_rpm, b.spindle_rpm) && a.message == b.message &&
+           a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
            (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
 }
 

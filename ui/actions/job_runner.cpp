@@ -26,6 +26,7 @@ public:
           driver_(driver ? std::move(driver) : own_), dispatcher_(*driver_, clock_, log_folder) {
         view_.running = true;
         view_.name = job_.name;
+        view_.project = job_.project;
         view_.listing = job_.listing;
         view_.from_line = job_.from_line;
         thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });

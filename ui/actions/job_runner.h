@@ -18,6 +18,7 @@ namespace millwright::actions {
 struct JobView {
     bool running = false;                          ///< the dispatcher has it
     std::string name;                              ///< empty before the first job
+    std::string project;                           ///< file or title it comes from
     std::optional<machine::JobReport> report;      ///< the last
     std::shared_ptr<const gcode::Listing> listing; ///< what is sent
     int from_line = 1;                             ///< of the file, as machine::Job has it

@@ -83,7 +83,7 @@ std::optional<FilePlace> Workbench::file_place() const {
         return std::nullopt;
     }
     const auto& chosen = session.file.step;
-    if (chosen && !job.running && opened->execution && *chosen < opened->execution->count()) {
+    if (chosen && !follows_job() && opened->execution && *chosen < opened->execution->count()) {
         return place_in(*opened, *chosen, time());
     }
     return place_at(*opened, time());
@@ -168,11 +168,17 @@ double Workbench::job_time() const {
     return (line ? time_at_line(*line) : std::nullopt).value_or(whole ? status.planned_time : 0.0);
 }
 
+bool Workbench::job_is_shown() const {
+    const std::filesystem::path& file = in_file() ? opened->file : document.file;
+    return !job.name.empty() && job.project == (file.empty() ? project.name : file.string());
+}
+
+bool Workbench::follows_job() const {
+    return job.running && job.report && job_is_shown();
+}
+
 double Workbench::time() const {
-    if (job.running && job.report) {
-        return job_time();
-    }
-    return session.playback.time;
+    return follows_job() ? job_time() : session.playback.time;
 }
 
 int Workbench::block() const {
@@ -208,7 +214,7 @@ bool Workbench::at_machine() const {
     if (connected_axes().size() > 0) {
         return true;
     }
-    if (!job.report) {
+    if (!job.report || !job_is_shown()) {
         return false;
     }
     constexpr double same_moment = 1e-9; // s
@@ -230,10 +236,10 @@ std::optional<viewport::Moment> Workbench::moment_of_program() const {
 std::optional<viewport::Moment> Workbench::moment() const {
     auto moment = moment_of_program();
     if (const auto connected = connected_axes(); connected.size() > 0) {
-        const bool follows = moment && job.running;
+        const bool follows = moment && follows_job();
         return viewport::Moment{connected, follows ? moment->move : -1, follows ? moment->fraction : 0.0};
     }
-    const bool reported = moment && job.running && job.report;
+    const bool reported = moment && follows_job();
     if (reported && job.report->driver.position.size() == moment->axes.size()) {
         moment->axes = job.report->driver.position;
     }

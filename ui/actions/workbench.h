@@ -112,6 +112,10 @@ struct Workbench {
     [[nodiscard]] int block() const;       ///< -1 without a program
     [[nodiscard]] double time() const;     ///< s of the trajectory
     [[nodiscard]] double job_time() const; ///< the same, of the job that was last reported
+    /// The last job came from what is shown; another one may have come from the queue.
+    [[nodiscard]] bool job_is_shown() const;
+    /// It runs, and timeline, listing and drawing go with it.
+    [[nodiscard]] bool follows_job() const;
     /// What moment() says is where the machine stands, not what the timeline would have it do.
     [[nodiscard]] bool at_machine() const;
 

@@ -274,10 +274,12 @@ void Workshop::follow_begin() {
 /// So that the timeline stays where the machine came to rest.
 void Workshop::follow_job() {
     const Workbench now = look();
-    if ((now.job.running || follows_job_) && now.job.report) {
+    const bool follows = now.follows_job();
+    const bool ended = follows_job_ && now.job.report && now.job_is_shown();
+    if (follows || ended) {
         session_.playback.time = now.job_time();
     }
-    follows_job_ = now.job.running;
+    follows_job_ = follows;
 }
 
 void Workshop::edit(const std::string& title,

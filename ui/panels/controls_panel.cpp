@@ -116,7 +116,9 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
     const auto z = axis_named(machine, 'Z');
     Permission can =
         machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
-    if (machine.status.inputs.probe) {
+    if (can.allowed && machine.status.spindle != gcode::SpindleTurning::stopped) {
+        can = Permission::refused("The spindle turns: stop it first.");
+    } else if (machine.status.inputs.probe) {
         can = Permission::refused("The probe touches already.");
     }
     if (ui.button("probe",
@@ -160,11 +162,12 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     const machine::DriverStatus& status = now.controller.status;
     const Permission can = can_command(now.controller);
     const bool turning = status.spindle != gcode::SpindleTurning::stopped;
+    const bool clockwise = status.spindle == gcode::SpindleTurning::clockwise;
     ui.value("state",
              "Spindle",
              !now.controller.can.tells_spindle ? std::string("not told")
-             : turning                         ? fmt::format("{:.0f} rpm", status.spindle_rpm)
-                                               : std::string("stopped"));
+             : turning ? fmt::format("{}, {:.0f} rpm", clockwise ? "M3" : "M4", status.spindle_rpm)
+                       : std::string("stopped"));
     const double rpm = now.session.hand.spindle_rpm;
     hand_number(ui,
                 ask,

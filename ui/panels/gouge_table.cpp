@@ -59,7 +59,7 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
     };
     view.when_empty = "No block brings the cutter deeper than the gouge limit, or the holder into the part.";
     const auto trajectory = now.trajectory();
-    if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.job.running) {
+    if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.follows_job()) {
         const int block = cut->bites[static_cast<std::size_t>(*row)].block;
         ask.show([time = trajectory->start_of(block)](actions::Session& session) {
             session.playback.playing = false;

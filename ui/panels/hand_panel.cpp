@@ -133,6 +133,8 @@ void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
     if (!now.session.hand.keys_armed || ui.was_typing() || now.asks()) {
         return;
     }
+    ui.keep_keys_from_widgets(); // an arrow that jogs would also go to another button, for the space bar to
+                                 // press
     struct KeyAxis {
         render::Key key;
         char letter;

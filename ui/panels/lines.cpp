@@ -21,7 +21,7 @@ void go_to_time(ActionQueue& ask, double time) {
 }
 
 void go_to_line(const Workbench& now, ActionQueue& ask, std::ptrdiff_t line) {
-    if (now.job.running) {
+    if (now.follows_job()) {
         return;
     }
     if (!now.in_file()) {

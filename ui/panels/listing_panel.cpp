@@ -77,8 +77,8 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const auto width = ui.width(whole - ui.px(buttons));
         const auto labels = ui.label_share(label / (whole - ui.px(buttons)));
         if (const auto text =
-                ui.text_field("find", "Find", wanted_, "Words of the program; Enter finds the next")) {
-            look_for(*text, now, ask);
+                ui.search_field("find", "Find", wanted_, "Words of the program; Enter finds the next")) {
+            *text == wanted_ && !wanted_.empty() ? go_on(1, now, ask) : look_for(*text, now, ask);
         }
     }
     const Permission can = wanted_.empty() ? Permission::refused("Type what to find first.") : Permission{};

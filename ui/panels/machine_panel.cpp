@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -53,7 +54,7 @@ std::string checked_sentence(const Workbench& now, const std::string& name) {
 /// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
 /// that is not executed for certain.
 std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
-    if (!now.in_file() || !now.opened->motion || !now.job.listing) {
+    if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
         return std::nullopt;
     }
     const std::vector<int>& lines = now.job.listing->line_of_block;
@@ -74,8 +75,10 @@ std::optional<double> time_left(const Workbench& now, const machine::JobReport& 
     if (now.controller.connected() && now.controller.can.plans) {
         return left_by_lines(now, report);
     }
-    const double total = report.planned_time > 0.0 ? report.planned_time : now.duration();
-    return total > 0.0 ? std::optional(total - now.time()) : std::nullopt;
+    const bool shown = now.job_is_shown();
+    const double total = report.planned_time > 0.0 || !shown ? report.planned_time : now.duration();
+    const double done = shown ? now.time() : report.driver.planned_time;
+    return total > 0.0 ? std::optional(total - done) : std::nullopt;
 }
 
 } // namespace
@@ -99,7 +102,7 @@ void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     const auto section =
-        ui.section("position", now.job.running ? "Position of the machine" : "Position on the timeline");
+        ui.section("position", now.follows_job() ? "Position of the machine" : "Position on the timeline");
     if (section) {
         axis_positions(ui, now);
     }
@@ -107,7 +110,7 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
 
 /// What is known before anything is sent.
 void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
-    if (!now.in_file() || !now.opened->finished || now.job.running) {
+    if (!now.in_file() || !now.opened->finished || now.follows_job()) {
         return;
     }
     const auto& opened = *now.opened;
@@ -176,6 +179,11 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
 }
 
 void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    if (!now.job.name.empty() && !now.job_is_shown()) { // begun from the queue
+        ui.value("of",
+                 now.job.running ? "Running" : "Last job of",
+                 std::filesystem::path(now.job.project).filename().string());
+    }
     if (now.job.running && now.job.report) {
         const machine::JobReport& report = *now.job.report;
         const double fraction =
@@ -202,7 +210,9 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         ui.note("Log: " + now.job.outcome->log_file.string());
     }
     if (now.job.failure) {
-        ui.note(to_text(*now.job.failure));
+        const std::string whose = now.job_is_shown() ? std::string() : now.job.name + ": ";
+        (void)widgets::banner(
+            ui, "failure", {widgets::Severity::danger, whose + to_text(*now.job.failure), {}});
     }
 }
 

@@ -68,7 +68,7 @@ void MotionPlots::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (shown_ == Shown::axes) {
         view.limit_y = 100.0;
     }
-    if (const auto time = widgets::line_plot(ui, "motion", view); time && !now.job.running) {
+    if (const auto time = widgets::line_plot(ui, "motion", view); time && !now.follows_job()) {
         go_to_time(ask, *time);
     }
 }

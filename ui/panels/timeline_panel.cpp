@@ -91,7 +91,7 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.block = place->line;
     view.blocks = now.opened->text->lines.count();
     view.what = "Line";
-    if (now.job.running) {
+    if (now.follows_job()) {
         view.permission = widgets::Permission::refused("The view follows the running job.");
     }
     if (const auto asked = widgets::timeline(ui, "timeline", view)) {
@@ -140,7 +140,7 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.blocks = trajectory_->block_count();
     view.time_s = now.time();
     view.total_s = trajectory_->duration();
-    if (now.job.running) {
+    if (now.follows_job()) {
         view.permission = widgets::Permission::refused("The view follows the running job.");
     }
     if (const auto asked = widgets::timeline(ui, "timeline", view)) {

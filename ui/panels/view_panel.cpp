@@ -39,7 +39,7 @@ void move_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
 }
 
 void go_to_path_place(const gcode::PathPlace& place, const Workbench& now, ActionQueue& ask) {
-    if (!now.in_file() || !now.opened->execution || now.job.running) {
+    if (!now.in_file() || !now.opened->execution || now.follows_job()) {
         return;
     }
     const gcode::Step step = now.opened->path.point(place.point).step();
@@ -53,7 +53,7 @@ void go_to_path_place(const gcode::PathPlace& place, const Workbench& now, Actio
 void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQueue& ask) {
     const auto program = now.program();
     const auto trajectory = now.trajectory();
-    if (!program || !trajectory || now.job.running) {
+    if (!program || !trajectory || now.follows_job()) {
         return;
     }
     const auto ends_there = [&](const gcode::Block& block) { return block.path_point == wanted.move + 1; };

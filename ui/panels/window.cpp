@@ -83,9 +83,14 @@ bool jog_may_be_held(const std::optional<render::Gamepad>& pad) {
 }
 
 /// A text field keeps the keys that mean something to it; Ctrl+A is the text's, too.
+/// With Ctrl, in a text: select all, copy, paste, cut, redo, undo.
+constexpr std::array keys_of_texts{
+    render::Key::a, render::Key::c, render::Key::v, render::Key::x, render::Key::y, render::Key::z};
+
 bool pressed(const actions::Shortcut& keys, bool typing) {
     const ImGuiIO& io = ImGui::GetIO();
-    const bool is_texts = typing && keys.key < render::Key::f1;
+    const bool edits_text = std::ranges::find(keys_of_texts, keys.key) != keys_of_texts.end();
+    const bool is_texts = typing && keys.key < render::Key::f1 && (!keys.ctrl || edits_text);
     return !is_texts && io.KeyCtrl == keys.ctrl && io.KeyShift == keys.shift && io.KeyAlt == keys.alt &&
            render::key_pressed(keys.key);
 }

@@ -15,7 +15,7 @@ std::optional<std::string> text_row(Ui& ui, std::string_view label, EditBox box)
     const bool enabled = effective(ui, box.permission).allowed;
     box.rect = labelled(ui, box.path, slot.rect(), label, box.tip, enabled);
     const auto committed = edit_box(ui, box);
-    return committed && *committed != box.shown ? committed : std::nullopt;
+    return committed && (box.asks_again || *committed != box.shown) ? committed : std::nullopt;
 }
 
 /// The line before `text` in time, or after it; behind the newest an empty one.
@@ -41,6 +41,18 @@ std::optional<std::string> Ui::text_field(std::string_view id,
     box.font = look_.fonts.text;
     box.permission = permission;
     box.refusal = [](std::string_view) { return std::string(); };
+    return text_row(*this, label, box);
+}
+
+std::optional<std::string>
+Ui::search_field(std::string_view id, std::string_view label, std::string_view value, std::string_view tip) {
+    EditBox box;
+    box.path = path(id);
+    box.shown = value;
+    box.tip = tip;
+    box.font = look_.fonts.text;
+    box.refusal = [](std::string_view) { return std::string(); };
+    box.asks_again = true;
     return text_row(*this, label, box);
 }
 

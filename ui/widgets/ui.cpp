@@ -103,6 +103,10 @@ Ui::Ui(Look look) : look_(look), state_(std::make_unique<State>()) {
 
 Ui::~Ui() = default;
 
+void Ui::keep_keys_from_widgets() {
+    ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard; // begin_frame() gives them back
+}
+
 void Ui::begin_frame() {
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;

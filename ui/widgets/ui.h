@@ -119,6 +119,9 @@ public:
     [[nodiscard]] bool was_typing() const;
     [[nodiscard]] bool escape_pressed() const;
     [[nodiscard]] bool enter_pressed() const;
+    /// In the next frame arrows and page keys walk through no widgets, and the space bar presses none:
+    /// somebody else listens to the keyboard. For as long as each frame says so.
+    void keep_keys_from_widgets();
     /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
     void focus_pane(std::string_view path);
     /// Gives the keyboard to the field of that path when it is drawn next, soon; until then letters are meant
@@ -231,6 +234,11 @@ public:
                                           std::string_view value,
                                           std::string_view tip = {},
                                           const Permission& permission = {});
+    /// What is looked for: each Enter answers it, changed or not, and leaves the field the keyboard.
+    std::optional<std::string> search_field(std::string_view id,
+                                            std::string_view label,
+                                            std::string_view value,
+                                            std::string_view tip = {});
     /// A line to be sent: Enter answers it, empties the field and leaves it the keyboard; while `permission`
     /// is refused, Enter shows why. Leaving the field sends nothing. The arrows bring back the lines of
     /// `history`, oldest first; Tab completes from it and from `words` (completion.h).

@@ -118,8 +118,7 @@ protected:
 TEST_F(MachineByHand, ShowsTheConnectedMachineWithItsPositionsOffsetsAndSettings) {
     connect();
     EXPECT_EQ(machine().axes.size(), 3U);
-    EXPECT_FALSE(machine().settings.empty());
-    EXPECT_FALSE(machine().offsets.empty());
+    EXPECT_TRUE(live_until([this] { return !machine().settings.empty() && !machine().offsets.empty(); }));
     for (const char* path : {"hand/position/axes/X",
                              "hand/position/zero_all",
                              "hand/jog/plus_Z",
@@ -283,6 +282,37 @@ TEST_F(MachineByHand, JogsByArmedKeysOnly) {
     expect_prompt(time_to_stop([this] { person.hold_keys({}); }));
     EXPECT_GT(grbl.position()[1], 0.5);
     EXPECT_DOUBLE_EQ(grbl.position()[0], 0.0);
+}
+
+/// An arrow would go from button to button, too, and the space bar press the one it came to.
+TEST_F(MachineByHand, ArmedKeysWalkThroughNoButtons) {
+    connect();
+    person.workshop().session().hand.step = 1.0;
+    person.frames(2);
+    person.click("hand/jog/plus_X");
+    ASSERT_TRUE(live_until([this] { return is(DriverState::idle) && grbl.position()[0] > 0.99; }));
+    person.workshop().run("machine.arm_keys");
+    person.frames(2);
+    person.press_key(render::Key::up);
+    ASSERT_TRUE(live_until([this] { return is(DriverState::idle) && grbl.position()[1] > 0.99; }));
+    person.press_key(render::Key::space);
+    live(0.5);
+    EXPECT_NEAR(grbl.position()[0], 1.0, 0.01);
+    EXPECT_NEAR(grbl.position()[1], 1.0, 0.01);
+    EXPECT_NEAR(grbl.position()[2], 0.0, 0.01);
+}
+
+TEST_F(MachineByHand, TheSpindlesSpeedIsShownAsItIsTold) {
+    connect();
+    person.click("lower/tabs/console");
+    person.click("lower/command");
+    person.type("M3 S900");
+    person.press_key(render::Key::enter);
+    EXPECT_TRUE(live_until([this] { return machine().status.spindle_rpm > 899.0; }));
+    person.type("G4 P0.1");
+    person.press_key(render::Key::enter);
+    live(1.0);
+    EXPECT_NEAR(machine().status.spindle_rpm, 900.0, 1.0);
 }
 
 TEST_F(MachineByHand, StepsGoAsFarAsTheySay) {

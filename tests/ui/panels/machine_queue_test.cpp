@@ -243,6 +243,26 @@ TEST_F(MachineQueue, SaysThatTheEndOfAJobCannotBeWritten) {
     std::filesystem::remove_all(file);
 }
 
+TEST_F(MachineQueue, AJobOfAnotherFileLeavesWhatIsShownAlone) {
+    GrblBench grbl;
+    Person person({1280, 800}, {}, jobs);
+    connect(person, grbl);
+    add(person, program("queued", 4));
+    person.open(program("shown", 9));
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.workshop().session().playback.time = 0.05;
+    person.frames(2);
+    run_next(person, 0, QueueState::done);
+    person.frames(3);
+    const auto now = person.workshop().look();
+    EXPECT_NEAR(grbl.position()[0], 4.0, 0.01);
+    EXPECT_FALSE(now.job_is_shown());
+    EXPECT_NEAR(now.time(), 0.05, 1e-12);
+    person.open(folder / "queued.ngc");
+    EXPECT_TRUE(person.workshop().look().job_is_shown());
+}
+
 TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
     GrblBench grbl;
     Person person({1280, 800}, {}, jobs);

@@ -133,6 +133,11 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
         ui.state().drafts.erase(box.path);
     }
     edit = {};
+    if (box.asks_again && typed.entered && reason.empty()) {
+        edit = {.path = box.path, .text = text, .initial = text};
+        take_keyboard_again(edit);
+        return text;
+    }
     if (box.enter_only && typed.entered) {
         edit.path = box.path;
         take_keyboard_again(edit);

@@ -26,6 +26,8 @@ struct EditBox {
     std::function<std::string(std::string_view)> refusal;
     /// Refused text stays in the box also when the keyboard goes elsewhere.
     bool keeps_refused = false;
+    /// Enter commits what stands there, changed or not, and leaves it the keyboard.
+    bool asks_again = false;
     /// Only Enter commits; a text that is left otherwise is dropped.
     bool enter_only = false;
     /// At the left inside the box, such as X.
