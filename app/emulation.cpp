@@ -1,6 +1,7 @@
 #include "app/emulation.h"
 
 #include "app/interrupt.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/machine/clock.h"
 #include "core/machine/emulators/emulator_server.h"
@@ -37,7 +38,7 @@ Links open_links(const EmulationChoice& choice,
             std::make_unique<machine::TcpServer>(static_cast<std::uint16_t>(choice.tcp), choice.bind));
     }
     if (inner.empty()) {
-        throw Error("nobody could reach the emulated controller", {}, "name --pty LINK or --tcp PORT");
+        throw UsageError("nobody could reach the emulated controller", {}, "name --pty LINK or --tcp PORT");
     }
     Links links;
     for (auto& link : inner) {
@@ -48,6 +49,14 @@ Links open_links(const EmulationChoice& choice,
     }
     std::fflush(stdout);
     return links;
+}
+
+machine::FaultSpec faults_of(const EmulationChoice& choice) {
+    try {
+        return machine::read_fault_spec(choice.faults);
+    } catch (const Error& error) {
+        throw UsageError(error.diagnostic());
+    }
 }
 
 } // namespace
@@ -82,7 +91,7 @@ int serve(const EmulationChoice& choice,
           const std::function<std::unique_ptr<machine::Emulator>()>& make,
           const std::function<void(const machine::Emulator&)>& last_words) {
     const Interrupt interrupt; // before the emulator, which may have a thread
-    const machine::FaultSpec faults = machine::read_fault_spec(choice.faults);
+    const machine::FaultSpec faults = faults_of(choice);
     machine::SteadyClock clock;
     machine::EmulatorServer server(
         open_links(choice, name, faults, clock), clock, make(), choice.speed, faults);

@@ -25,6 +25,7 @@
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
 #include "app/output_files.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
 
@@ -55,6 +56,9 @@ int run(const Command& command) {
         const int exit_code = command();
         expect_output_written();
         return exit_code;
+    } catch (const UsageError& error) {
+        fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
+        return wrong_usage;
     } catch (const Error& error) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
     } catch (const Cancelled&) {

@@ -4,6 +4,7 @@
 #include "app/finite_number.h"
 #include "app/job_keys.h"
 #include "app/job_printer.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/machine/dispatcher.h"
@@ -61,11 +62,11 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
 void check(const PlannedMachineChoice& choice) {
     const bool takes_records = choice.driver == "stream" || choice.driver == "records";
     if (!choice.record.pattern.empty() && !takes_records) {
-        throw Error("records are for the stream and records drivers");
+        throw UsageError("records are for the stream and records drivers");
     }
     const bool inside = choice.driver == "virtual" || choice.driver == "cordic";
     if (!inside && choice.controller.port.empty()) {
-        throw Error("the " + choice.driver + " driver needs a port", {}, "give --port");
+        throw UsageError("the " + choice.driver + " driver needs a port", {}, "give --port");
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/emulation.h"
 #include "app/record_choice.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/table/table_emulator.h"
@@ -46,7 +47,7 @@ int emulate_table(const TableChoice& choice) {
         project::machine_path(choice.machine, std::filesystem::current_path(), project::assets_folder()));
     const machine::RecordFormat format = record_of(choice.record).value();
     if (machine::read_fault_spec(choice.wire.faults).lost_ok > 0.0 && format.answer != "ok") {
-        throw Error(
+        throw UsageError(
             "the fault lost-ok loses an answer 'ok', which this table does not give", {}, "give --answer ok");
     }
     return serve(

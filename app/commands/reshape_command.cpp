@@ -1,5 +1,6 @@
 #include "app/commands/reshape_command.h"
 
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/project/project_file.h"
 #include "core/project/reshaped_surface.h"
@@ -28,7 +29,7 @@ struct Options {
 
 int reshape(const Options& options) {
     if (options.degree.empty() && !options.split_u && !options.split_v) {
-        throw Error("nothing is asked for", {}, "give --degree, --split-u or --split-v");
+        throw UsageError("nothing is asked for", {}, "give --degree, --split-u or --split-v");
     }
     project::Project project = open_project(options.project).project;
     project::SurfaceInput& surface = project.surface;

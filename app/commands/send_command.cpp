@@ -6,6 +6,7 @@
 #include "app/origin_choice.h"
 #include "app/planned_machine.h"
 #include "app/series.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
@@ -48,15 +49,16 @@ bool is_moved_from_here(const Options& options) {
 void check_model(const Options& options) {
     const bool moved = is_moved_from_here(options);
     if (moved && options.model.empty()) {
-        throw Error("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
+        throw UsageError("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
     }
     if (!moved && (!options.model.empty() || !options.at.empty())) {
-        throw Error("a machine and where it stands are for the drivers virtual, cordic, stream and records");
+        throw UsageError(
+            "a machine and where it stands are for the drivers virtual, cordic, stream and records");
     }
     if (!options.origin.empty() && (!moved || options.machine.driver == "cordic")) {
-        throw Error("an origin is for the drivers virtual, stream and records",
-                    {},
-                    "other controllers have work offsets of their own, as G54");
+        throw UsageError("an origin is for the drivers virtual, stream and records",
+                         {},
+                         "other controllers have work offsets of their own, as G54");
     }
 }
 

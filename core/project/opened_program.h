@@ -69,8 +69,9 @@ struct OpenedProgram {
     [[nodiscard]] std::map<int, const Diagnostic*> errors_by_line() const;
 };
 
-/// Longer programs are shown with the times that they ask for, not with planned ones.
-inline constexpr std::int64_t most_planned_points = 250'000;
+/// Longer programs are shown with the times that they ask for, not with planned ones: a planned move takes
+/// about half a kilobyte of memory.
+inline constexpr std::int64_t most_planned_points = 1'048'576;
 
 /// One file at a time, on a thread of its own. Called from the owner's thread; every member returns at once.
 class ProgramReader {

@@ -195,7 +195,7 @@ TEST_F(Posts, RunRefusesAFiveAxisProgramForGrbl) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));
     ended = run({"run", project, "--driver", "grbl"});
-    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.exit_code, 2);
     EXPECT_THAT(ended.err, HasSubstr("the grbl driver needs a port (give --port)"));
 }
 

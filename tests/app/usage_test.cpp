@@ -41,6 +41,9 @@ TEST(Usage, WhatIsMissingIsNamed) {
     expect_wrong_usage({"plan", dome}, "--out is required");
     expect_wrong_usage({"render", dome, "--out", "x.png"}, "--view is required");
     expect_wrong_usage({"run", dome}, "--driver is required");
+    expect_wrong_usage({"run", dome, "--driver", "stream"}, "needs a port (give --port)");
+    expect_wrong_usage({"emulate", "grbl"}, "name --pty LINK or --tcp PORT");
+    expect_wrong_usage({"emulate", "grbl", "--tcp", "0", "--faults", "bend=1"}, "bend");
 }
 
 TEST(Usage, WhatIsUnknownIsNamed) {

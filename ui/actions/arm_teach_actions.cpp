@@ -195,7 +195,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.simulate",
          menu,
          "Simulate the program",
-         "The text as it stands, on an emulated card; the drawn arm does it.",
+         "The text as it stands, on an emulated card; the drawn arm does it, unless one is connected.",
          "",
          icons::play},
         can_simulate,

@@ -102,7 +102,11 @@ Permission can_stop(const Workbench& now) {
     const DriverState state = now.controller.status.state;
     const bool by_hand =
         now.controller.connected() && (state == DriverState::running || state == DriverState::holding);
-    return now.job.running || by_hand ? Permission{} : Permission::refused("Nothing moves.");
+    if (now.job.running || by_hand) {
+        return {};
+    }
+    const bool stops = now.controller.connected() && state == DriverState::stopping;
+    return Permission::refused(stops ? "It is stopping already." : "Nothing moves.");
 }
 
 void stop(Hands& hands) {

@@ -214,7 +214,7 @@ void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!dialog) {
         return;
     }
-    draw_source(ui, now);
+    draw_source(ui, now, ask);
     draw_entries(ui, now, ask);
     if (opening) {
         draw_open(ui, now, ask);
@@ -223,7 +223,24 @@ void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void FilePanel::draw_source(Ui& ui, const Workbench& now) {
+/// What was typed: a folder to look into, or a file.
+void FilePanel::go_to(const fs::path& typed, ActionQueue& ask) {
+    const fs::path place = (typed.is_absolute() ? typed : folder_ / typed).lexically_normal();
+    std::error_code missing;
+    if (fs::is_directory(place, missing)) {
+        enter(place);
+    } else if (about(asked_).opens && fs::is_regular_file(place, missing)) {
+        chosen_.clear();
+        open(ask, place);
+    } else {
+        entries_.clear();
+        folders_ = 0;
+        chosen_.clear();
+        fault_ = "There is no " + place.string() + ".";
+    }
+}
+
+void FilePanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::array<widgets::Option, 2> sources{
         {{"folder", "Folder", icons::folder}, {"recent", "Recent", icons::timer}}};
     if (asked_ == FileQuestion::open) {
@@ -245,7 +262,9 @@ void FilePanel::draw_source(Ui& ui, const Workbench& now) {
         enter(home());
     }
     ui.beside();
-    ui.words(shortened(folder_), widgets::Tone::muted);
+    if (const auto typed = ui.text_field("path", "", folder_.string(), "A folder to look into, or a file")) {
+        go_to(*typed, ask);
+    }
 }
 
 void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
@@ -293,9 +312,11 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (asked_ != FileQuestion::open) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
     } else if (project::is_importable(chosen_)) {
-        ui.note("A surface of another program: it is shown first, in the Design workspace.");
+        ProjectPreview::draw_words(
+            ui, "A surface of another program: it is shown first, in the Design workspace.");
     } else if (is_gcode(chosen_)) {
-        ui.note("A G-code program: it opens beside the project, in the Program workspace.");
+        ProjectPreview::draw_words(
+            ui, "A G-code program: it opens beside the project, in the Program workspace.");
     } else {
         preview_.draw(ui, chosen_);
     }

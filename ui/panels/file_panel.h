@@ -24,7 +24,8 @@ private:
     void begin(const Workbench& now);
     void enter(const std::filesystem::path& folder);
     void show_recent(const Workbench& now);
-    void draw_source(Ui& ui, const Workbench& now);
+    void go_to(const std::filesystem::path& typed, ActionQueue& ask);
+    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_entries(Ui& ui, const Workbench& now, ActionQueue& ask);
     void open(ActionQueue& ask, const std::filesystem::path& file) const;
     void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);

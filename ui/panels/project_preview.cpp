@@ -108,12 +108,22 @@ void ProjectPreview::draw(Ui& ui, const fs::path& file) {
         read(file);
     }
     draw_picture(ui);
+    show(ui,
+         surface_ ? target_.texture() : 0,
+         file_.empty() ? "Choose a project to see what is in it." : words_);
+}
+
+void ProjectPreview::show(Ui& ui, std::uintptr_t texture, std::string_view words) {
     const widgets::Rect left = ui.rest();
     const widgets::Rect place{left.x, left.y, ui.px(picture_size.width), ui.px(picture_size.height)};
-    (void)widgets::canvas(ui, "picture", place, surface_ ? target_.texture() : 0);
+    (void)widgets::canvas(ui, "picture", place, texture);
     ui.beside();
     ui.move_by(ui.px(8.0F), 0.0F);
-    ui.text(file_.empty() ? "Choose a project to see what is in it." : words_);
+    ui.text(words);
+}
+
+void ProjectPreview::draw_words(Ui& ui, std::string_view words) {
+    show(ui, 0, words);
 }
 
 } // namespace millwright::panels

@@ -6,10 +6,12 @@
 #include "ui/render/view_target.h"
 #include "ui/viewport/scene_view.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace millwright::panels {
 
@@ -17,6 +19,8 @@ class ProjectPreview {
 public:
     /// Reads `file` when it is another than before. What is wrong with it stands in place of the facts.
     void draw(Ui& ui, const std::filesystem::path& file);
+    /// Words in place of the facts, in as much room.
+    static void draw_words(Ui& ui, std::string_view words);
 
 private:
     struct Drawn {
@@ -27,6 +31,7 @@ private:
 
     void read(const std::filesystem::path& file);
     void draw_picture(const Ui& ui);
+    static void show(Ui& ui, std::uintptr_t texture, std::string_view words);
 
     std::filesystem::path file_;
     std::string words_;

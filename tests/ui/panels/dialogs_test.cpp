@@ -179,6 +179,44 @@ TEST(FileDialog, OpensWhatIsClickedTwiceAndShowsItBefore) {
     EXPECT_FALSE(person.sees("dialogs/files/entries"));
 }
 
+TEST(FileDialog, KeepsItsRowsInPlaceWhateverIsClicked) {
+    Person person;
+    (void)opened_copy(person);
+    write_file(person.folder() / "square.ngc", "G21 G90\nG1 F600 X10\nM2\n");
+    person.press_key(render::Key::o, true);
+    person.frames(2);
+    const std::string row = "dialogs/files/entries/square.ngc";
+    const float before = person.place(row).y;
+    person.click(row);
+    person.frames(2);
+    EXPECT_EQ(person.place(row).y, before) << "the second click of two would miss it";
+    person.keep("file-dialog-gcode");
+    person.click(row);
+    person.frames(2);
+    EXPECT_FALSE(person.sees("dialogs/files/entries"));
+    ASSERT_TRUE(person.workshop().look().opened);
+    EXPECT_EQ(person.workshop().look().opened->file.filename(), "square.ngc");
+}
+
+TEST(FileDialog, TakesAPlaceThatIsTyped) {
+    Person person;
+    (void)opened_copy(person);
+    fs::create_directory(person.folder() / "deep");
+    fs::copy_file("assets/projects/two-bell.json", person.folder() / "deep" / "bells.json");
+    person.press_key(render::Key::o, true);
+    person.frames(2);
+    person.fill_in("dialogs/files/path", (person.folder() / "deep").string());
+    person.frames(2);
+    EXPECT_TRUE(person.sees("dialogs/files/entries/bells.json"));
+    person.fill_in("dialogs/files/path", (person.folder() / "nowhere").string());
+    person.frames(2);
+    EXPECT_FALSE(person.sees("dialogs/files/entries/bells.json"));
+    person.fill_in("dialogs/files/path", (person.folder() / "deep" / "bells.json").string());
+    person.frames(2);
+    EXPECT_FALSE(person.sees("dialogs/files/entries"));
+    EXPECT_EQ(person.workshop().look().document.file.filename(), "bells.json");
+}
+
 TEST(FileDialog, DoesNotReplaceAFileWithoutSayingSo) {
     Person person;
     (void)opened_copy(person);

@@ -58,6 +58,7 @@ private:
     static void give(png_structp png, png_bytep to, std::size_t count) {
         auto& self = *static_cast<PngReader*>(png_get_io_ptr(png));
         if (count > self.bytes_.size() - self.at_) {
+            self.cut_ = true;
             png_error(png, "the file ends there");
         }
         std::memcpy(to, self.bytes_.data() + self.at_, count);
@@ -118,6 +119,10 @@ private:
     }
 
     [[noreturn]] void fail(const std::string& where) const {
+        if (cut_) {
+            sink_.fail(
+                fmt::format("the PNG ends too early, after {} bytes: {} is not whole", bytes_.size(), where));
+        }
         sink_.fail(fmt::format("the PNG is damaged in {}: {} (byte {})", where, text_, at_));
     }
 
@@ -129,6 +134,7 @@ private:
     std::jmp_buf back_ = {};
     char text_[160] = {};
     int passes_ = 1;
+    bool cut_ = false;     ///< more was asked for than there is
     double density_ = 0.0; ///< pixels a mm; 0: not said
 };
 

@@ -295,8 +295,9 @@ TEST(PictureReader, SaysWhatIsWrong) {
     EXPECT_THAT(error_of(""), HasSubstr("bad.png: the file is empty"));
     EXPECT_THAT(error_of("GIF89a"),
                 HasSubstr("this is no picture that can be read (PNG, JPEG, BMP, PGM and PPM"));
-    EXPECT_THAT(error_of(png.substr(0, 12)), HasSubstr("damaged in its head: the file ends there"));
-    EXPECT_THAT(error_of(png.substr(0, png.size() / 2)), HasSubstr("the PNG is damaged in row"));
+    EXPECT_THAT(error_of(png.substr(0, 12)),
+                HasSubstr("the PNG ends too early, after 12 bytes: its head is not whole"));
+    EXPECT_THAT(error_of(png.substr(0, png.size() / 2)), HasSubstr("the PNG ends too early, after"));
     EXPECT_THAT(error_of(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read in its head"));
     EXPECT_THAT(error_of(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read in row"));
     EXPECT_THAT(error_of(bmp.substr(0, 20)), HasSubstr("the BMP is cut off at byte 20"));

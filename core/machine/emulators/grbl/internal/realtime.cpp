@@ -317,7 +317,13 @@ void Controller::report_status() {
     now.feed = stepper_.speed() * seconds_per_minute;
     const bool turning = modes_.spindle != 50 && !spindle_stopped_ && state_ != State::door;
     constexpr double percent = 0.01;
-    now.spindle_rpm = turning ? modes_.spindle_rpm * overrides_.spindle * percent : 0.0;
+    constexpr int most_rpm = 30, least_rpm = 31; // settings
+    const double asked = modes_.spindle_rpm * overrides_.spindle * percent;
+    now.spindle_rpm = turning && asked > 0.0
+                          ? std::clamp(asked,
+                                       std::min(eeprom_.setting(least_rpm), eeprom_.setting(most_rpm)),
+                                       eeprom_.setting(most_rpm))
+                          : 0.0;
     now.pins.append(door_open_ ? 1 : 0, 'D');
     now.overrides = overrides_;
     now.accessories.append(turning ? 1 : 0, modes_.spindle == 30 ? 'S' : 'C');

@@ -223,6 +223,16 @@ TEST_F(Grbl, ScalesFeedsRapidsAndTheSpindle) {
     EXPECT_THAT(report + status(grbl), HasSubstr("|Ov:119,25,90|A:S>"));
 }
 
+TEST_F(Grbl, TurnsTheSpindleWithinItsSettings) {
+    (void)answer(grbl, "$31=100");
+    (void)answer(grbl, "M3 S6000");
+    EXPECT_THAT(status(grbl), HasSubstr(",1000|")); // $30
+    (void)answer(grbl, "S20");
+    EXPECT_THAT(status(grbl), HasSubstr(",100|"));
+    (void)answer(grbl, "S0");
+    EXPECT_THAT(status(grbl), HasSubstr(",0|"));
+}
+
 /// As the real one, which keeps them as flags and looks at these once in each pass of its main loop.
 TEST_F(Grbl, TakesEqualOverrideBytesThatComeTogetherForOne) {
     (void)status(grbl);
