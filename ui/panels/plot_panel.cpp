@@ -153,6 +153,13 @@ std::string axis_words(const Workbench& now) {
     return words;
 }
 
+/// Whether the material's values are those that are set, and were not changed since they were taken.
+bool in_force(const project::PlotSettings& settings, const plot::CuttingValues& values) {
+    project::PlotSettings taken = settings;
+    project::use_material(taken, settings.levels, values);
+    return taken == settings;
+}
+
 } // namespace
 
 void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -343,7 +350,9 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
         return cells[static_cast<std::size_t>(column)];
     };
     view.row_id = [](std::ptrdiff_t row) { return fmt::format("material{}", row); };
-    view.chosen = now.plot.material() ? static_cast<std::ptrdiff_t>(*now.plot.material()) : -1;
+    const auto chosen = now.plot.material();
+    const bool holds = chosen && in_force(now.plot.settings(), values[*chosen]);
+    view.chosen = holds ? static_cast<std::ptrdiff_t>(*chosen) : -1;
     view.when_empty = "Open a plot or a picture first.";
     if (const auto row = widgets::table(ui, "materials", view)) {
         const auto n = static_cast<std::size_t>(*row);
@@ -353,9 +362,8 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
                      project::use_material(draft.plot.settings, levels, taken);
                  });
     }
-    if (now.plot.material()) {
-        ui.note(
-            fmt::format("For a tool of {:.2f} mm. {}", diameter, sources_of(values[*now.plot.material()])));
+    if (holds) {
+        ui.note(fmt::format("For a tool of {:.2f} mm. {}", diameter, sources_of(values[*chosen])));
     } else {
         ui.note(fmt::format(
             "For a tool of {:.2f} mm. A click takes the values; their sources stand here then.", diameter));

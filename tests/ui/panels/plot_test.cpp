@@ -257,6 +257,17 @@ TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
     EXPECT_NEAR(bench.plot().settings().level.cutting, 24.0, 1e-9);
     EXPECT_NEAR(bench.made().levels.front().plunging, 8.0, 1e-9);
     EXPECT_NEAR(bench.plot().settings().spindle_rpm, 10'000.0, 1e-9);
+    const auto shade = [&bench] { // of its row, beside the words
+        bench.person.hover({1.0F, 1.0F});
+        bench.person.frames(2);
+        const widgets::Rect row = bench.person.place("lower/materials/material0");
+        return bench.person.picture().at(static_cast<int>(row.x) + 3, static_cast<int>(row.centre().y));
+    };
+    const auto chosen = shade();
+    bench.person.workshop().edit(
+        "Slower", [](project::Project& draft) { draft.plot.settings.levels.front().cutting = 5.0; }, {});
+    bench.settle();
+    EXPECT_NE(shade(), chosen) << "these are not its values any more";
 }
 
 TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
