@@ -417,10 +417,10 @@ TEST_F(Send, SaysBeforeItMovesWhatAPersonShouldKnow) {
 }
 
 TEST_F(Send, EmulatesNothingThatNobodyCouldReach) {
-    EXPECT_EQ(run({"emulate", "grbl"}).exit_code, 1);
+    EXPECT_EQ(run({"emulate", "grbl"}).exit_code, 2);
     EXPECT_EQ(run({"emulate", "grbl", "--tcp", "70000"}).exit_code, 2);
     const Ended ended = run({"emulate", "grbl", "--pty", port, "--faults", "rust=1"});
-    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.exit_code, 2);
     EXPECT_THAT(ended.err, HasSubstr("there is no fault 'rust'"));
 }
 

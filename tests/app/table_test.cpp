@@ -166,7 +166,7 @@ TEST(TableCommand, FilesLieWhereTheirOriginIs) {
                             port,
                             "--origin",
                             "10,20"});
-    EXPECT_EQ(grbl.exit_code, 1);
+    EXPECT_EQ(grbl.exit_code, 2);
     EXPECT_THAT(grbl.err, HasSubstr("other controllers have work offsets of their own"));
 }
 

@@ -54,10 +54,10 @@ TEST_F(ProgramReaderTest, GivesBlocksOfLoopsTheStepThatMadeThem) {
 }
 
 TEST_F(ProgramReaderTest, ShowsALongProgramWithoutAPlanAndSaysSo) {
-    const auto opened = read("F600 G21\no1 repeat [200000]\nG1 X1\nG1 X0\no1 endrepeat\nM2\n");
+    const auto opened = read("F600 G21\no1 repeat [600000]\nG1 X1\nG1 X0\no1 endrepeat\nM2\n");
     EXPECT_FALSE(opened->motion);
     EXPECT_FALSE(opened->no_motion.empty());
-    EXPECT_EQ(opened->path.point_count(), 400'001);
+    EXPECT_EQ(opened->path.point_count(), 1'200'001);
 }
 
 TEST_F(ProgramReaderTest, TellsWhatIsWrongWithItsPlace) {
