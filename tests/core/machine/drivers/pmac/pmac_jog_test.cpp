@@ -13,17 +13,9 @@ namespace {
 
 using test::jog_of;
 using test::PmacWire;
+using test::refusal;
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::string refusal(const auto& request) {
-    try {
-        request();
-    } catch (const Error& refused) {
-        return refused.what();
-    }
-    return "";
-}
 
 TEST(PmacJogF3, IsNoFasterThanItsLimitWhateverIx22Says) {
     PmacWire wire;

@@ -1,6 +1,7 @@
 // A session with a PMAC and an emulated card with its arm, with a wire between them.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
@@ -36,6 +37,16 @@ inline machine::PmacSettings wire_settings(std::string_view letters = "XYZA",
 inline const std::string arm_setup = "I100=1\nI200=1\nI300=1\nI400=1\nI902=10\nI907=10\nI912=10\nI917=10\n"
                                      "I123=10\nI223=10\nI323=10\nI423=10\n"
                                      "#1->120X\n#2->222Y\n#3->150Z\n#4->150A\n";
+
+/// What a refused request says; empty if it was taken.
+inline std::string refusal(const auto& request) {
+    try {
+        request();
+    } catch (const Error& refused) {
+        return refused.what();
+    }
+    return "";
+}
 
 class PmacWire : public PmacHolder, public SessionWire<machine::pmac::PmacSession, machine::PmacEmulator> {
 public:
