@@ -1,8 +1,11 @@
-// BMP: uncompressed pixels of 1, 4, 8, 16, 24 or 32 bits. Source: Microsoft, Windows GDI, bitmap structures.
+// BMP: pixels of 1, 4, 8, 16, 24 or 32 bits, and run-length codes. Source: Microsoft, Windows GDI, bitmap
+// structures.
+#include "core/plot/picture/internal/bmp_runs.h"
 #include "core/plot/picture/internal/row_sink.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -14,6 +17,8 @@ constexpr std::uint32_t core_head = 12; // OS/2
 constexpr std::uint32_t info_head = 40;
 constexpr std::uint32_t largest_head = 124; // version 5
 constexpr std::uint32_t uncompressed = 0;
+constexpr std::uint32_t runs_of_8 = 1;
+constexpr std::uint32_t runs_of_4 = 2;
 constexpr std::uint32_t bit_fields = 3;
 constexpr std::uint32_t alpha_bit_fields = 6;
 
@@ -51,6 +56,34 @@ public:
         if (pixels_per_metre_ > 0) {
             sink_.set_pixels_per_mm(pixels_per_metre_ / 1000.0);
         }
+        if (in_runs_) {
+            read_runs();
+        } else {
+            read_pixels();
+        }
+    }
+
+private:
+    void read_runs() {
+        // A code of two bytes holds up to 255 pixels; what is far beyond that would only take time.
+        constexpr std::int64_t empty_pixels = 4'000'000;
+        if (width_ * height_ > 128 * std::ssize(bytes_) + empty_pixels) {
+            sink_.fail(fmt::format("the BMP of {} bytes cannot hold the {} x {} pixels of its head",
+                                   bytes_.size(),
+                                   width_,
+                                   height_));
+        }
+        BmpRuns runs(bytes_, pixels_, bits_, sink_);
+        std::vector<unsigned char> indices(static_cast<std::size_t>(width_));
+        std::vector<Rgb> row(indices.size());
+        for (auto y = static_cast<int>(height_) - 1; y >= 0; --y) {
+            runs.next_row(indices);
+            std::ranges::transform(indices, row.begin(), [&](unsigned char index) { return color(index); });
+            sink_.row(y, &row.front().r);
+        }
+    }
+
+    void read_pixels() {
         const std::int64_t stride = (width_ * bits_ + 31) / 32 * 4;
         const std::int64_t needed = pixels_ + stride * height_;
         if (needed > std::ssize(bytes_)) {
@@ -65,7 +98,6 @@ public:
         }
     }
 
-private:
     [[nodiscard]] std::uint32_t number(std::int64_t at, int count) const {
         if (at < 0 || at + count > std::ssize(bytes_)) {
             sink_.fail(fmt::format("the BMP is cut off at byte {}", bytes_.size()));
@@ -109,16 +141,24 @@ private:
         }
     }
 
-    void check_kind(std::uint32_t compression) const {
+    void check_kind(std::uint32_t compression) {
         const bool known =
             bits_ == 1 || bits_ == 4 || bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32;
         if (!known) {
             sink_.fail(fmt::format("the BMP has pixels of {} bits, which none have", bits_));
         }
-        const bool fields = compression == bit_fields || compression == alpha_bit_fields;
-        if (compression != uncompressed && !(fields && (bits_ == 16 || bits_ == 32))) {
-            sink_.fail(fmt::format("the BMP is compressed (kind {})", compression),
-                       "save it uncompressed, or as PNG");
+        in_runs_ = (compression == runs_of_8 && bits_ == 8) || (compression == runs_of_4 && bits_ == 4);
+        if (in_runs_ && top_down_) {
+            sink_.fail("the BMP has run-length codes and is stored from the top down, which no kind allows");
+        }
+        const bool fields =
+            (compression == bit_fields || compression == alpha_bit_fields) && (bits_ == 16 || bits_ == 32);
+        if (compression != uncompressed && !in_runs_ && !fields) {
+            sink_.fail(
+                fmt::format("the BMP's pixels of {} bits are compressed in a way that is not read (kind {})",
+                            bits_,
+                            compression),
+                "save it uncompressed, or as PNG");
         }
     }
 
@@ -157,6 +197,10 @@ private:
         const auto bits = static_cast<std::size_t>(bits_);
         const std::size_t bit = x * bits;
         const std::uint32_t index = (bytes[bit / 8] >> (8 - bits - bit % 8)) & ((1U << bits) - 1);
+        return color(index);
+    }
+
+    [[nodiscard]] Rgb color(std::uint32_t index) const {
         if (index >= colors_) {
             sink_.fail(fmt::format("a pixel of the BMP has colour {} of {}", index + 1, colors_));
         }
@@ -178,6 +222,7 @@ private:
     std::int64_t width_ = 0;
     std::int64_t height_ = 0;
     bool top_down_ = false;
+    bool in_runs_ = false; ///< its pixels are run-length codes
     int bits_ = 24;
     std::int32_t pixels_per_metre_ = 0;
     std::array<Rgb, 256> palette_ = {};

@@ -308,8 +308,10 @@ TEST(PictureReader, SaysWhatIsWrong) {
     EXPECT_THAT(error_of(flipped), HasSubstr("the PNG is damaged in row"));
     std::string compressed = bmp;
     compressed[30] = 1;
-    EXPECT_THAT(error_of(compressed),
-                HasSubstr("the BMP is compressed (kind 1) (save it uncompressed, or as PNG)"));
+    EXPECT_THAT(
+        error_of(compressed),
+        HasSubstr("the BMP's pixels of 24 bits are compressed in a way that is not read (kind 1) (save it "
+                  "uncompressed, or as PNG)"));
     std::string flat = bmp;
     flat[18] = 0;
     EXPECT_THAT(error_of(flat), HasSubstr("a picture of 0 x 20 pixels"));
