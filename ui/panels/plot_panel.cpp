@@ -8,6 +8,7 @@
 #include "ui/panels/plot_fields.h"
 #include "ui/viewport/pen_colors.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/notices.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
@@ -249,7 +250,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         return;
     }
     if (made->failure) {
-        ui.text(to_text(*made->failure));
+        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, to_text(*made->failure), {}});
         return;
     }
     const double planned = now.in_file() ? now.duration() : 0.0;
