@@ -165,16 +165,16 @@ nlohmann::ordered_json shown(const ArmModel& arm, const std::vector<JointPositio
     return list;
 }
 
-/// Which of the solutions are at a place where the arm cannot move its tip in every direction.
-void say_what_is_singular(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
+/// For each of the solutions whether the arm cannot move its tip in every direction there.
+std::vector<bool> singular_ones(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
     constexpr double singular = 1e-6;
-    for (std::size_t n = 0; n < solutions.size(); ++n) {
-        const double measure = kinematics::manipulability(kinematics::arm_jacobian(arm, solutions[n]),
-                                                          kinematics::stretched_length(arm));
-        if (measure < singular) {
-            fmt::print(stderr, "millwright: the arm is singular at solution {}\n", n + 1);
-        }
+    std::vector<bool> found;
+    for (const JointPositions& q : solutions) {
+        const double measure =
+            kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
+        found.push_back(measure < singular);
     }
+    return found;
 }
 
 int inverse(const ArmOptions& options) {
@@ -193,10 +193,16 @@ int inverse(const ArmOptions& options) {
     }
     const Solutions found = solved(arm, {tip, axis.stableNormalized()}, options.project);
     const auto list = shown(arm, found.joints);
-    say_what_is_singular(arm, found.joints);
+    const auto singular = singular_ones(arm, found.joints);
+    for (std::size_t n = 0; n < singular.size(); ++n) {
+        if (singular[n]) {
+            fmt::print(stderr, "millwright: the arm is singular at solution {}\n", n + 1);
+        }
+    }
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["solutions"] = list;
+        answer["singular"] = singular;
         answer["projected_degrees"] = rounded(found.projected_deg);
         if (list.empty()) {
             answer["reason"] = found.reason;

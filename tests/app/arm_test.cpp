@@ -34,6 +34,9 @@ TEST(Arm, FindsTheJointsThatReachAPoint) {
         EXPECT_NEAR(answer.at("solutions").at(0).at(n).get<double>(), home[n], 1e-6);
     }
     EXPECT_FALSE(answer.contains("reason"));
+    EXPECT_EQ(answer.at("singular"), nlohmann::json({false, false}));
+    const auto above = answer_to({"arm", "ik", "0", "0", "1000", "0", "0", "1", "--json"}); // on joint 1's axis
+    EXPECT_EQ(above.at("singular"), nlohmann::json({true, true}));
     EXPECT_EQ(answer_to({"arm", "ik", "800", "0", "650", "0", "0", "1e300", "--json"}), answer);
 }
 
