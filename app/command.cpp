@@ -5,6 +5,10 @@
 #include "core/project/assets.h"
 #include "core/project/project_file.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
 #include <utility>
 
 namespace millwright::app {
@@ -16,6 +20,9 @@ OpenedProject open_project(const fs::path& file) {
 }
 
 project::Plan planned(const OpenedProject& opened, project::Scope scope, const std::stop_token& stop) {
+    for (const std::string& sentence : project::memory_sentences(opened.project, scope)) {
+        fmt::print(stderr, "{}\n", sentence);
+    }
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
     try {

@@ -246,14 +246,18 @@ memory_fault(GridMethod method, const GridInput& input, const std::optional<std:
         "\"Take the memory\" in the Grid workspace"};
 }
 
+void expect_memory(GridMethod method, const GridInput& input) {
+    if (auto fault = memory_fault(method, input, free_memory()); fault && !input.elliptic.any_memory) {
+        throw Error(*std::move(fault));
+    }
+}
+
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const GridInput& input,
                                                   const toolpath::KinematicError& error,
                                                   Effort effort) {
     expects(method != GridMethod::uniform, "the uniform grid is not improved");
-    if (auto fault = memory_fault(method, input, free_memory()); fault && !input.elliptic.any_memory) {
-        throw Error(*std::move(fault));
-    }
+    expect_memory(method, input);
     if (method == GridMethod::elliptic || method == GridMethod::harmonic) {
         return make_adaptation(method, input, error);
     }

@@ -54,8 +54,11 @@ void let_paint_count(EllipticInput& input);
 [[nodiscard]] std::optional<Diagnostic>
 memory_fault(GridMethod method, const GridInput& input, const std::optional<std::size_t>& free);
 
+/// Throws Error for a memory_fault() that the settings do not allow.
+void expect_memory(GridMethod method, const GridInput& input);
+
 /// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
-/// an expression of the settings has no sense, and for a memory_fault() that the settings do not allow.
+/// an expression of the settings has no sense, and as expect_memory().
 [[nodiscard]] std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                                 const GridInput& input,
                                                                 const toolpath::KinematicError& error,

@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 namespace millwright::project {
@@ -190,8 +192,27 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
     }
 }
 
+std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
+    constexpr std::int64_t many_nodes = 10'000;
+    std::vector<std::string> sentences;
+    if (std::int64_t{project.grid.nu} * project.grid.nv < many_nodes) {
+        return sentences;
+    }
+    std::set<GridMethod> methods{program_grid(project)};
+    if (scope == Scope::everything) {
+        methods.insert(compared_methods.begin(), compared_methods.end());
+    }
+    for (const GridMethod method : methods) {
+        if (const std::string sentence = memory_sentence(method, project.grid); !sentence.empty()) {
+            sentences.push_back(sentence + ".");
+        }
+    }
+    return sentences;
+}
+
 Plan make_plan(const Project& project, const Folders& folders, const Progress& progress, Scope scope) {
     refuse_faults(project);
+    expect_memory(program_grid(project), project.grid);
     Plan plan;
     plan.surface = std::make_shared<const geometry::Surface>(surface_of(project.surface));
     plan.trims = std::make_shared<const std::vector<geometry::Trim>>(project.surface.trims);

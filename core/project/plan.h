@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace millwright::project {
@@ -113,7 +114,11 @@ enum class Scope {
     program     ///< the program and what it needs: of the improved grids only the one it uses, if any
 };
 
-/// Throws Error, first with faults_of(project) if there are any, or Cancelled.
+/// What making the grids takes that have 10,000 nodes or more, a sentence each, to be told before it begins.
+[[nodiscard]] std::vector<std::string> memory_sentences(const Project& project, Scope scope);
+
+/// Throws Error, first with faults_of(project) if there are any, then as expect_memory() for the program's
+/// grid, or Cancelled.
 [[nodiscard]] Plan make_plan(const Project& project,
                              const Folders& folders,
                              const Progress& progress,

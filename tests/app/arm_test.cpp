@@ -35,7 +35,8 @@ TEST(Arm, FindsTheJointsThatReachAPoint) {
     }
     EXPECT_FALSE(answer.contains("reason"));
     EXPECT_EQ(answer.at("singular"), nlohmann::json({false, false}));
-    const auto above = answer_to({"arm", "ik", "0", "0", "1000", "0", "0", "1", "--json"}); // on joint 1's axis
+    const auto above =
+        answer_to({"arm", "ik", "0", "0", "1000", "0", "0", "1", "--json"}); // on joint 1's axis
     EXPECT_EQ(above.at("singular"), nlohmann::json({true, true}));
     EXPECT_EQ(answer_to({"arm", "ik", "800", "0", "650", "0", "0", "1e300", "--json"}), answer);
 }

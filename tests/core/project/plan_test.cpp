@@ -145,6 +145,19 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
     EXPECT_GT(*free, 1'000'000U);
 }
 
+TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
+    Project project = sample("dome", 1000);
+    project.grid.method = GridMethod::harmonic;
+    EXPECT_THAT(
+        memory_sentences(project, Scope::program),
+        testing::ElementsAre(testing::MatchesRegex("The harmonic map of 1000 x 1000 nodes takes at most "
+                                                   "[0-9]+ MB\\.")));
+    EXPECT_EQ(memory_sentences(project, Scope::everything).size(), 2U);
+    project.grid.method = GridMethod::tracks;
+    EXPECT_TRUE(memory_sentences(project, Scope::program).empty());
+    EXPECT_TRUE(memory_sentences(sample("dome", 99), Scope::everything).empty());
+}
+
 TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {
     const Project project = sample("dome", 6);
     const Plan whole = make_plan(project, folders, Progress());
