@@ -144,7 +144,8 @@ TEST_F(Pmac, SaysThatACardHasNoMotorForAFifthAxis) {
     Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
     const Ended ended = roll(arm_ini, {});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("are all these motors there and active (Ix00 = 1)?"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("where a motor is not active (Ix00 = 0): load the settings of the card"));
 }
 
 // F4.

@@ -90,7 +90,8 @@ void ImGuiSession::tell_typing() {
     }
 }
 
-/// ImGui 1.86 looks at the keys once a frame. One that went down and up since the last is shown down in this.
+/// ImGui 1.86 looks at the keys once a frame. One that went down and up since the last is shown down in this,
+/// and with any that went down the modifiers that were down with it: they may be up again by now.
 void ImGuiSession::show_quick_keys() {
     ImGuiIO& io = ImGui::GetIO();
     const auto down = [&io](int key) { return io.KeysDown[key]; };
@@ -100,10 +101,13 @@ void ImGuiSession::show_quick_keys() {
     for (const KeyPress& press : keyboard_->take_key_presses()) {
         if (!io.KeysDown[press.key]) {
             io.KeysDown[press.key] = true;
+            quick_keys_.push_back(press.key);
+        }
+        const bool is_modifier = press.key >= GLFW_KEY_LEFT_SHIFT && press.key <= GLFW_KEY_RIGHT_SUPER;
+        if (!is_modifier) {
             io.KeyCtrl = press.ctrl;
             io.KeyShift = press.shift;
             io.KeyAlt = press.alt;
-            quick_keys_.push_back(press.key);
         }
     }
 }

@@ -6,6 +6,9 @@
 #include "ui/render/painter.h"
 
 #include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -135,6 +138,47 @@ TEST(ImGuiSession, DrawsTheSameInAWindow) {
     const Picture picture = window.read_back();
     EXPECT_EQ(picture.at(20, 15), (Pixel{255, 0, 0, 255}));
     EXPECT_EQ(picture.at(35, 15), (Pixel{0, 0, 0, 255}));
+}
+
+/// The keyboard of a window, by the function that GLFW would call.
+class Keyboard {
+public:
+    explicit Keyboard(GLFWwindow* window) : window_(window), changed_(glfwSetKeyCallback(window, nullptr)) {
+        glfwSetKeyCallback(window, changed_);
+    }
+    void change(int key, int action, int mods = 0) const { changed_(window_, key, 0, action, mods); }
+
+private:
+    GLFWwindow* window_;
+    GLFWkeyfun changed_;
+};
+
+// A quick Ctrl+K: Ctrl is up again in the frame that sees K go down, which is up a frame later.
+TEST(ImGuiSession, TakesAKeyWithTheModifiersOfItsPressInAWindow) {
+    if (std::getenv("DISPLAY") == nullptr) {
+        GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
+    }
+    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    ImGuiSession session(window);
+    const Keyboard keyboard(window.handle());
+    const auto frame_has_ctrl_k = [&session] {
+        session.begin_frame();
+        const bool has = ImGui::GetIO().KeyCtrl && key_pressed(static_cast<Key>(GLFW_KEY_K), false);
+        session.end_frame();
+        return has;
+    };
+    EXPECT_FALSE(frame_has_ctrl_k());
+    keyboard.change(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
+    EXPECT_FALSE(frame_has_ctrl_k());
+    keyboard.change(GLFW_KEY_K, GLFW_PRESS, GLFW_MOD_CONTROL);
+    keyboard.change(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE, GLFW_MOD_CONTROL);
+    EXPECT_TRUE(frame_has_ctrl_k());
+    keyboard.change(GLFW_KEY_K, GLFW_RELEASE);
+    EXPECT_FALSE(frame_has_ctrl_k());
+    // The other way round: a letter first, Ctrl with nothing behind it.
+    keyboard.change(GLFW_KEY_K, GLFW_PRESS);
+    keyboard.change(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
+    EXPECT_FALSE(frame_has_ctrl_k());
 }
 
 } // namespace

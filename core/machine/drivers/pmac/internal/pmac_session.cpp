@@ -275,12 +275,13 @@ void PmacSession::refused(const Request& request, int error) {
     constexpr int no_command = 3; // what the card also says of a motor that is switched off
     const bool of_motors = error == no_command && request.line.ends_with("J/");
     tell(false, ConsoleKind::fault, fmt::format("ERR{:03}, {}", error, pmac_error(error)));
-    const std::string why =
-        fmt::format("{} is refused: ERR{:03}, {}{}",
-                    asked(request),
-                    error,
-                    pmac_error(error),
-                    of_motors ? "; are all these motors there and active (Ix00 = 1)?" : "");
+    const std::string why = fmt::format(
+        "{} is refused: ERR{:03}, {}{}",
+        asked(request),
+        error,
+        pmac_error(error),
+        of_motors ? "; so it answers where a motor is not active (Ix00 = 0): load the settings of the card"
+                  : "");
     if (request.kind == Kind::rating || request.kind == Kind::reading) {
         readings_.give_up();
         return;
