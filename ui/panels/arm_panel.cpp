@@ -81,6 +81,7 @@ void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto permitted = ui.permitted(by_hand(now));
     if (const auto chosen = ui.choice("arm", "Arm", at, options, "An arm that ships with the program")) {
         ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
+        ask.show([](actions::Session& session) { session.fit_wanted = true; }); // arms differ in size
     }
 }
 

@@ -45,7 +45,8 @@ void PmacSession::opened(double now) {
 }
 
 void PmacSession::lost(const std::string& why) {
-    finish(Stage::alarm, loss_sentence(why) + "; the card stops its motors by itself");
+    const bool spoke = stage_ != Stage::greeting; // else nothing was sent that moves a motor
+    finish(Stage::alarm, loss_sentence(why) + (spoke ? "; the card stops its motors by itself" : ""));
     link_lost_ = unseen_ = true;
     talk_.forget();
     queue_.clear();

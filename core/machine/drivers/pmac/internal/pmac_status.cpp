@@ -52,7 +52,8 @@ std::optional<Diagnostic> PmacSession::stranger() const {
     if (stage_ != Stage::alarm || polled_) {
         return std::nullopt;
     }
-    return Diagnostic{{}, message_, "is the card on, and the baud rate of a serial port the card's?"};
+    return Diagnostic{
+        {}, message_, link_lost_ ? "" : "is the card on, and the baud rate of a serial port the card's?"};
 }
 
 DriverStatus PmacSession::status() const {

@@ -47,6 +47,15 @@ TEST(PmacSession, TellsSilenceFromHalfAnAnswer) {
     }
 }
 
+TEST(PmacSession, ALinkThatIsLostBeforeTheCardAnsweredIsToldAsThatAlone) {
+    PmacSession session(arm_settings());
+    session.opened(0.0);
+    session.lost("the port is held by another client, 127.0.0.1:5");
+    const auto why = session.stranger();
+    ASSERT_TRUE(why);
+    EXPECT_EQ(to_text(*why), "the port is held by another client, 127.0.0.1:5");
+}
+
 TEST(PmacSession, KnowsNoPositionBeforeHoming) {
     PmacWire wire({}, false);
     EXPECT_EQ(wire.state(), DriverState::idle);
