@@ -126,7 +126,8 @@ void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
                    const plot::ToolTip& tip,
                    const std::vector<std::string>& header,
-                   const Progress& progress) {
+                   const Progress& progress,
+                   std::optional<double> seconds) {
     if (path.empty()) {
         throw Error("there is nothing to cut");
     }
@@ -149,7 +150,9 @@ void write_program(const plot::CutPath& path,
     if (const auto slower = gcode::speeds_not_reached(path, machine)) {
         fmt::print(stderr, "millwright: {}\n", to_text(*slower));
     }
-    const double seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
+    if (!seconds) {
+        seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
+    }
     const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
     constexpr double m = 1e-3;
     fmt::print("{} points: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
@@ -158,7 +161,7 @@ void write_program(const plot::CutPath& path,
                m * lengths.travel);
     fmt::print("{} lines, {} on {}\n",
                text.text.listing.line_count(),
-               plot::time_for_people(seconds),
+               plot::time_for_people(*seconds),
                machine.name());
 }
 

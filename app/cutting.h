@@ -55,12 +55,13 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options);
                                      const Progress& progress = Progress());
 
 /// Writes the program to `options.out`, after it was read back, and the preview of what `tip` leaves; says
-/// how many lines it has and how long the machine takes by the planner. `header` stands on its top. Throws
-/// Error, or Cancelled.
+/// how many lines it has and how long the machine takes by the planner, `seconds` if that is known already.
+/// `header` stands on its top. Throws Error, or Cancelled.
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
                    const plot::ToolTip& tip,
                    const std::vector<std::string>& header,
-                   const Progress& progress = Progress());
+                   const Progress& progress = Progress(),
+                   std::optional<double> seconds = std::nullopt);
 
 } // namespace millwright::app

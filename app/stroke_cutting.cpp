@@ -62,15 +62,33 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     return cut;
 }
 
-void say(const char* what, const Strokes& strokes, const Vec2& end, const StrokeCutting& options) {
-    const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), end);
-    fmt::print("{}: {}, {} by the thesis, {} by the planner\n",
-               what,
-               way_for_people(time),
-               plot::time_for_people(time.seconds),
-               plot::time_for_people(planned_seconds(plot::cut_path(strokes, cut_settings(strokes, options)),
-                                                     options.cutting)));
-}
+/// What becomes of the strokes, step by step. A step that changes nothing is not planned once more.
+class Steps {
+public:
+    Steps(const Vec2& end, const StrokeCutting& options) : end_(end), options_(options) {}
+
+    void say(const char* what, const Strokes& strokes) {
+        plot::CutPath path = plot::cut_path(strokes, cut_settings(strokes, options_));
+        if (path != path_) {
+            seconds_ = planned_seconds(path, options_.cutting);
+            path_ = std::move(path);
+        }
+        const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), end_);
+        fmt::print("{}: {}, {} by the thesis, {} by the planner\n",
+                   what,
+                   way_for_people(time),
+                   plot::time_for_people(time.seconds),
+                   plot::time_for_people(seconds_));
+    }
+    [[nodiscard]] const plot::CutPath& path() const { return path_; }
+    [[nodiscard]] double seconds() const { return seconds_; }
+
+private:
+    Vec2 end_;
+    const StrokeCutting& options_;
+    plot::CutPath path_; ///< of the last step
+    double seconds_ = 0.0;
+};
 
 } // namespace
 
@@ -143,20 +161,22 @@ void cut_strokes(const Strokes& drawn,
         fmt::print(stderr, "millwright: {}\n", left_alone);
     }
     Strokes strokes = std::move(shaped.strokes);
-    say("as drawn", strokes, end, options);
+    Steps steps(end, options);
+    steps.say("as drawn", strokes);
     if (plan.order) {
         strokes = plot::ordered(strokes, Vec2::Zero(), end, progress.part(0.0, 0.3));
-        say("ordered", strokes, end, options);
+        steps.say("ordered", strokes);
     }
     if (plan.link > 0.0) {
         strokes = plot::linked(strokes, drawn, plan);
-        say("linked", strokes, end, options);
+        steps.say("linked", strokes);
     }
-    write_program(plot::cut_path(strokes, cut_settings(strokes, options)),
+    write_program(steps.path(),
                   options.cutting,
                   {.kind = plot::TipKind::flat, .diameter = plan.tool_diameter},
                   header,
-                  progress.part(0.3, 1.0));
+                  progress.part(0.3, 1.0),
+                  steps.seconds());
 }
 
 } // namespace millwright::app
