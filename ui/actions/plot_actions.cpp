@@ -78,6 +78,16 @@ void add_plot_actions(Actions& actions) {
         has_path,
         [](Hands& hands) { hands.workshop.write_plot(false); });
     add(actions,
+        {"plot.write_path",
+         menu,
+         "Write the path",
+         "A path file of X, Y, Z and speed beside the plot, or in your own folder; no other file is "
+         "replaced.",
+         "",
+         icons::save},
+        has_path,
+        [](Hands& hands) { hands.workshop.write_plot_path(); });
+    add(actions,
         {"plot.to_machine",
          menu,
          "To the machine",

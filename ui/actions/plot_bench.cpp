@@ -2,10 +2,12 @@
 
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
+#include "core/plot/path_file.h"
 #include "core/project/assets.h"
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -72,14 +74,31 @@ void PlotBench::play_table() {
     table_->play(table_choice_, *now->strokes, model);
 }
 
+namespace {
+
+/// The name with the ending in the folder, with a number behind it where that is taken.
+fs::path free_place(const fs::path& folder, const std::string& name, std::string_view ending) {
+    fs::path target = folder / fmt::format("{}.{}", name, ending);
+    for (int n = 2; fs::exists(target); ++n) {
+        target = folder / fmt::format("{}-{}.{}", name, n, ending);
+    }
+    return target;
+}
+
+} // namespace
+
+fs::path PlotBench::write_path(const fs::path& folder) const {
+    const auto now = latest();
+    expects(now != nullptr && now->path != nullptr, "there is a path to be written");
+    const fs::path target = free_place(folder, file().stem().string(), "path");
+    write_file(target, plot::path_file_text(*now->path));
+    return target;
+}
+
 fs::path PlotBench::write_program(const fs::path& folder) const {
     const auto now = latest();
     expects(now != nullptr && !now->program.empty(), "there is a program to be written");
-    const std::string name = file().stem().string();
-    fs::path target = folder / (name + ".ngc");
-    for (int n = 2; fs::exists(target); ++n) {
-        target = folder / fmt::format("{}-{}.ngc", name, n);
-    }
+    const fs::path target = free_place(folder, file().stem().string(), "ngc");
     std::error_code failure;
     if (!fs::copy_file(now->program, target, failure)) {
         throw Error("cannot be written: " + failure.message(), target);

@@ -49,6 +49,8 @@ public:
     void make_program() { worker_.request_program(); }
     /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.
     [[nodiscard]] std::filesystem::path write_program(const std::filesystem::path& folder) const;
+    /// The path as a file that can be opened again, in the same way.
+    [[nodiscard]] std::filesystem::path write_path(const std::filesystem::path& folder) const;
 
     void cancel() { worker_.cancel(); }
     void wait_idle() const { worker_.wait_idle(); }

@@ -141,6 +141,8 @@ public:
     void export_surface(const std::filesystem::path& file);
     /// Writes the program of the plot beside it as soon as there is one; `to_machine`: and opens it there.
     void write_plot(bool to_machine);
+    /// Where its program would be written.
+    void write_plot_path();
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);

@@ -188,6 +188,11 @@ void Workshop::write_plot(bool to_machine) {
     finish_writing_plot();
 }
 
+void Workshop::write_plot_path() {
+    const fs::path path = plot_->write_path(place_of_program(plot_->file(), options_));
+    tell(session_, widgets::Severity::good, "Path written.", path.string());
+}
+
 void Workshop::finish_writing_plot() {
     const auto made = plot_->latest();
     if (!writes_plot_ || !made || !made->finished || (made->program.empty() && !made->failure)) {

@@ -296,10 +296,11 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("Nothing is open yet. Choose a sample at the left to see how it goes.");
         return;
     }
+    action_button(ui, now, ask, catalogue_, "plot.to_machine", widgets::Rank::primary);
     {
         const auto line = ui.row(2);
-        action_button(ui, now, ask, catalogue_, "plot.to_machine", widgets::Rank::primary);
         action_button(ui, now, ask, catalogue_, "plot.write_program");
+        action_button(ui, now, ask, catalogue_, "plot.write_path");
     }
     {
         const auto line = ui.row(2);

@@ -1,4 +1,5 @@
 // The Plot & Picture workspace with real mouse and keys in real OpenGL.
+#include "core/base/files.h"
 #include "core/machine/emulators/stream/stream_emulator.h"
 #include "core/machine/recovery.h"
 #include "core/plot/path_file.h"
@@ -280,6 +281,20 @@ TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
     EXPECT_EQ(fs::file_size(bench.folder / "everyday.ngc"), 5U);
     EXPECT_EQ(bench.person.workshop().look().opened->file.filename(), "everyday-2.ngc");
     EXPECT_TRUE(bench.person.workshop().look().opened->findings.empty());
+}
+
+TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    std::ofstream(bench.folder / "everyday.path") << "mine\n";
+    bench.person.click("inspector/plot_write_path");
+    bench.settle();
+    const fs::path written = bench.folder / "everyday-2.path";
+    ASSERT_TRUE(fs::exists(written));
+    EXPECT_EQ(fs::file_size(bench.folder / "everyday.path"), 5U);
+    const plot::CutPath drawn = *bench.made().path;
+    EXPECT_EQ(plot::read_path(read_file(written), written), drawn);
+    bench.drop(written); // and it is cut as it stands
+    EXPECT_EQ(*bench.made().path, drawn);
 }
 
 /// Where samples ship nobody looks for programs, and perhaps nobody may write.
