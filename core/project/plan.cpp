@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/posts/release.h"
+#include "core/geometry/self_crossing.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
@@ -98,14 +99,38 @@ geometry::Surface surface_of(const SurfaceInput& input) {
     return geometry::Surface(std::move(patches));
 }
 
+namespace {
+
+/// What was trimmed away may cross what it likes.
+void refuse_crossing(const geometry::BezierPatch& patch, const geometry::Trim& trim) {
+    if (!trim.everything()) {
+        return;
+    }
+    if (const auto crossing = geometry::self_crossing(patch)) {
+        throw Error(
+            fmt::format("the surface touches itself or passes through itself: near u {:.2f}, v {:.2f} it "
+                        "comes to where it is near u {:.2f}, v {:.2f}",
+                        crossing->first.x(),
+                        crossing->first.y(),
+                        crossing->second.x(),
+                        crossing->second.y()),
+            {},
+            "a tool cuts from one side: move the control points apart, or split the surface");
+    }
+}
+
+} // namespace
+
 Workpiece workpiece_of(const Project& project, const Folders& folders) {
-    const auto patch = static_cast<std::size_t>(project.surface.machined_patch);
+    const auto number = static_cast<std::size_t>(project.surface.machined_patch);
+    geometry::BezierPatch patch(project.surface.patches.at(number));
+    refuse_crossing(patch, project.surface.trim(project.surface.machined_patch));
     kinematics::MachineModel machine =
         kinematics::read_machine(machine_path(project, folders.project, folders.assets));
     if (project.machine.workpiece_offset) {
         machine = machine.with_workpiece_offset(*project.machine.workpiece_offset);
     }
-    return {geometry::BezierPatch(project.surface.patches.at(patch)),
+    return {std::move(patch),
             std::move(machine),
             project.grid.direction,
             project.surface.flipped,

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <stop_token>
 
 namespace millwright::project {
@@ -189,6 +190,14 @@ TEST(Plan, BadInputIsNamed) {
         point = Vec3(1, 2, 3);
     }
     EXPECT_THAT(failure_of(project), HasSubstr("the surface has no normal at u = 0, v = 0"));
+    constexpr std::array<double, 4> loop{0.0, 120.0, -20.0, 100.0};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const double z = i == 1 || i == 2 ? 100.0 : 0.0;
+            project.surface.patches[0].point(i, j) = {loop[static_cast<std::size_t>(i)], 40.0 * j, z};
+        }
+    }
+    EXPECT_THAT(failure_of(project), HasSubstr("the surface touches itself or passes through itself"));
     project = sample("dome", 6);
     project.machine.workpiece_offset = Vec3(0, 0, 4000);
     EXPECT_THAT(failure_of(project), HasSubstr("cannot be reached"));
