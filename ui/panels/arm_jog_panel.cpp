@@ -275,11 +275,32 @@ void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) con
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", Rank::danger, "Kill");
 }
 
+void ArmJogPanel::stop_all(const Workbench& now, ActionQueue& ask) const {
+    ask.arm([](actions::ArmBench& bench) { bench.stop(); });
+    const bool is_jog = now.controller.status.activity == machine::Activity::jog;
+    if (now.arm_connected() && is_jog) {
+        ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
+    } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
+        ask.run("machine.stop"); // a program, homing, or what was typed
+    }
+}
+
 void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) {
     if (!now.session.hand.arm_keys || ui.was_typing() || now.asks()) {
         return;
     }
     using render::Key;
+    if (render::key_pressed(Key::slash)) {
+        stop_all(now, ask);
+    }
+    if (render::key_pressed(Key::semicolon)) { // what comes with it is typed there
+        ask.show([](actions::Session& session) {
+            session.panes.lower_shown = true;
+            session.lower_tab_now() = actions::LowerTab::console;
+        });
+        ui.focus_field("lower/command");
+        return;
+    }
     const int joints = now.arm.arm().joint_count();
     const int joint = std::min(now.session.hand.arm_joint, joints - 1);
     for (int n = 0; n < std::min(joints, 5); ++n) {
@@ -319,24 +340,8 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
             tell_refusal(ask, action.info().title, may);
         }
     }
-    if (render::key_pressed(Key::slash)) {
-        ask.arm([](actions::ArmBench& bench) { bench.stop(); });
-        const bool is_jog = now.controller.status.activity == machine::Activity::jog;
-        if (now.arm_connected() && is_jog) {
-            ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
-        } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
-            ask.run("machine.stop"); // a program, homing, or what was typed
-        }
-    }
     if (render::key_pressed(Key::x)) {
         ask.show([](actions::Session& session) { session.hand.arm_keys = false; });
-    }
-    if (render::key_pressed(Key::semicolon)) {
-        ask.show([](actions::Session& session) {
-            session.panes.lower_shown = true;
-            session.lower_tab_now() = actions::LowerTab::console;
-        });
-        ui.focus_field("lower/command");
     }
 }
 

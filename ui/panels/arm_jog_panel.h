@@ -24,6 +24,7 @@ private:
     void draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const;
     void draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void stop_all(const Workbench& now, ActionQueue& ask) const;
     void obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish);
 
     const actions::Catalogue& catalogue_;

@@ -23,6 +23,23 @@ struct Note {
     Colour colour = 0;
 };
 
+/// What is typed while a called field is on its way waits until that has the keyboard: the first that it
+/// gets.
+void keep_early_text(Ui::State::EarlyText& early) {
+    if (early.until < 0) {
+        return;
+    }
+    auto& typed = ImGui::GetIO().InputQueueCharacters;
+    early.characters.insert(early.characters.end(), typed.begin(), typed.end());
+    typed.resize(0);
+    if (text_field_active()) {
+        std::ranges::for_each(early.characters, [&typed](ImWchar character) { typed.push_back(character); });
+        early = {};
+    } else if (ImGui::GetFrameCount() > early.until) {
+        early = {};
+    }
+}
+
 float shared_area(const Rect& a, const Rect& b) {
     const float w = std::min(a.right(), b.right()) - std::max(a.x, b.x);
     const float h = std::min(a.bottom(), b.bottom()) - std::max(a.y, b.y);
@@ -118,6 +135,7 @@ void Ui::begin_frame() {
     state_->hints.clear();
     state_->kept_clear.clear();
     state_->typing_at_begin = text_field_active();
+    keep_early_text(state_->early);
     state_->cut_texts.clear();
     state_->cells.clear();
     state_->widths.clear();
@@ -180,7 +198,9 @@ void Ui::focus_pane(std::string_view path) {
 }
 
 void Ui::focus_field(std::string_view path) {
-    constexpr int soon = 5; // frames: its pane may have to come first
+    constexpr int soon = 5;                                  // frames: its pane may have to come first
+    const auto& typed = ImGui::GetIO().InputQueueCharacters; // the first of them called the field
+    state_->early = {ImGui::GetFrameCount() + soon, {typed.begin() + std::min(typed.Size, 1), typed.end()}};
     state_->edit = {.path = std::string(path),
                     .text = {},
                     .initial = {},

@@ -166,6 +166,26 @@ TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
     EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
 }
 
+TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
+    using render::Key;
+    Bench bench;
+    bench.connect();
+    bench.give_power();
+    bench.person.click("lower/tabs/program");
+    bench.person.click("hand/jog/keys");
+    bench.person.hold_keys({Key::semicolon, Key::h, Key::x}); // all in the frame that sees the colon
+    bench.person.type(":#");
+    bench.person.hold_keys({});
+    bench.person.type("1");
+    bench.person.type("P");
+    bench.person.frames(4);
+    EXPECT_TRUE(bench.person.workshop().session().hand.arm_keys);
+    EXPECT_TRUE(bench.is(DriverState::idle));
+    bench.person.press_key(Key::enter);
+    ASSERT_FALSE(bench.person.workshop().session().hand.commands.empty());
+    EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
+}
+
 TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
     using render::Key;
     Bench bench;

@@ -19,6 +19,11 @@ struct Ui::State {
         bool called = false; ///< it takes the keyboard when it is drawn next
         int kept_until = -1; ///< ImGui's frame: behind Enter the field takes the keyboard again until then
     };
+    /// What is typed while a called field does not have the keyboard yet: it goes into it.
+    struct EarlyText {
+        int until = -1; ///< ImGui's frame; -1: no field is on its way
+        std::vector<unsigned int> characters = {};
+    };
     struct Refusal {
         std::string reason;
         double until = 0.0; ///< ImGui time
@@ -52,6 +57,7 @@ struct Ui::State {
 
     Places places;
     Edit edit;
+    EarlyText early;
     Written written;
     std::map<std::string, Refusal, std::less<>> refusals;
     std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
