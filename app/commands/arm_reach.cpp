@@ -14,6 +14,7 @@
 #include "core/motion/planner.h"
 #include "core/project/arm_input.h"
 #include "core/project/assets.h"
+#include "core/project/plot_input.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -82,8 +83,18 @@ Frame frame_of(const std::vector<double>& v) {
     return project::base_T_path({Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])});
 }
 
+/// A plot's lines are no G-code, and its first one would be told as wrong.
+void refuse_plots(const std::string& file) {
+    if (project::is_plot_file(file)) {
+        throw Error("a plot is no program yet",
+                    {.file = file},
+                    fmt::format("'millwright plot toolpath {} --out program.ngc' makes one of it", file));
+    }
+}
+
 std::vector<ArmWay> ways_of(const Options& options) {
     const Frame frame = frame_of(options.frame);
+    refuse_plots(options.file);
     const auto machine = std::make_shared<const MachineModel>(machine_of(options));
     gcode::MachineProgramBuilder builder(*machine, options.file);
     gcode::ReaderSettings reading;

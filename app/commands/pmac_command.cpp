@@ -13,7 +13,10 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +31,26 @@ struct Options {
     std::string file;
     std::string arm = "motoman-l3";
 };
+
+/// What the card said to lines of a file: each refusal with the place of its line.
+std::string with_places(const std::string& said, const machine::PmacFile& file, const std::string& path) {
+    std::string placed;
+    auto next = file.lines.begin(); // refusals come in the order of the lines
+    for (std::size_t begin = 0; begin < said.size();) {
+        const std::size_t end = std::min(said.find('\n', begin), said.size());
+        const std::string sentence = said.substr(begin, end - begin);
+        const auto refused = std::find_if(next, file.lines.end(), [&](const machine::PmacFile::Line& line) {
+            return sentence.starts_with("'" + line.text + "' is refused");
+        });
+        if (refused != file.lines.end()) {
+            placed += fmt::format("{}:{}: ", path, refused->number);
+            next = std::next(refused);
+        }
+        placed += sentence + (end < said.size() ? "\n" : "");
+        begin = end + 1;
+    }
+    return placed;
+}
 
 class Conversation {
 public:
@@ -49,7 +72,8 @@ public:
         if (lines.empty()) {
             throw Error("there is no command in it", path);
         }
-        const bool done = answered(driver_->load(lines));
+        const bool done = answered(driver_->load(lines),
+                                   [&](const std::string& said) { return with_places(said, file, path); });
         wait_for_rest();
         return done && file.left_out == 0;
     }
@@ -62,7 +86,7 @@ public:
 
 private:
     /// What the card said. A refusal is an Error unless the rest was to be sent all the same.
-    bool answered(int number) {
+    bool answered(int number, const std::function<std::string(const std::string&)>& told = std::identity()) {
         constexpr double glance = 0.005;
         machine::DriverStatus now = driver_->status();
         while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
@@ -74,7 +98,7 @@ private:
         }
         const bool done = now.answer.state == machine::CommandAnswer::State::done;
         if (!now.answer.text.empty()) {
-            fmt::print(done ? stdout : stderr, "{}\n", now.answer.text);
+            fmt::print(done ? stdout : stderr, "{}\n", told(now.answer.text));
         }
         return done;
     }

@@ -5,6 +5,8 @@
 #include "core/kinematics/arm_forward.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -162,6 +164,59 @@ double joint_distance(const ArmModel& arm, const JointPositions& a, const JointP
     return largest;
 }
 
+/// From `q` to `previous`, each joint that turns by the shorter way that its limits allow.
+JointPositions way_back(const ArmModel& arm, const JointPositions& q, const JointPositions& previous) {
+    JointPositions way = previous - q;
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        const double shorter = std::remainder(way[n], 2.0 * pi);
+        const bool allowed = q[n] + shorter >= arm.joint(n).min && q[n] + shorter <= arm.joint(n).max;
+        if (arm.joint(n).kind == JointKind::revolute && allowed) {
+            way[n] = shorter;
+        }
+    }
+    return way;
+}
+
+/// Of all positions that meet the same demand without a jump, as rolls about the tool axis do, the one that
+/// is nearest to `previous`: gradient projection on the null space of the Jacobian (Liegeois 1977).
+JointPositions pulled(const ArmModel& arm,
+                      const Frame& goal,
+                      ArmDemand demand,
+                      JointPositions found,
+                      const JointPositions& previous) {
+    constexpr int most_pulls = 30;
+    constexpr double still = 1e-9, singular = 1e-9; // of the arm's length or a radian
+    const double length = std::max(stretched_length(arm), 1.0);
+    JointPositions unit = JointPositions::Ones(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        unit[n] = arm.joint(n).kind == JointKind::prismatic ? length : 1.0;
+    }
+    for (int pull = 0; pull < most_pulls; ++pull) {
+        ArmJacobian jacobian = demanded(arm_jacobian(arm, found), base_T_tool(arm, found), demand);
+        jacobian.topRows<3>() /= length;
+        const Eigen::MatrixXd scaled = jacobian * unit.asDiagonal();
+        Eigen::FullPivLU<Eigen::MatrixXd> decomposed(scaled);
+        decomposed.setThreshold(singular);
+        if (decomposed.dimensionOfKernel() == 0) {
+            break;
+        }
+        const Eigen::MatrixXd free = decomposed.kernel().householderQr().householderQ() *
+                                     Eigen::MatrixXd::Identity(found.size(), decomposed.dimensionOfKernel());
+        const Eigen::VectorXd wanted = way_back(arm, found, previous).cwiseQuotient(unit);
+        const Eigen::VectorXd step = free * (free.transpose() * wanted);
+        if (step.norm() < still) {
+            break;
+        }
+        const JointPositions start = inside(arm, found + JointPositions(step.cwiseProduct(unit)));
+        const ArmSolverResult there = solve_arm(arm, goal, demand, start);
+        if (!there.converged || (there.positions - found).cwiseQuotient(unit).norm() < still) {
+            break;
+        }
+        found = there.positions;
+    }
+    return found;
+}
+
 } // namespace
 
 ArmSolverResult solve_arm(const ArmModel& arm,
@@ -188,7 +243,10 @@ std::vector<JointPositions> solve_arm_from_many_starts(
             const double high = std::min(arm.joint(joint).max, reach);
             start[joint] = low + (high - low) * spread(n, joint, golden);
         }
-        const ArmSolverResult result = solve_arm(arm, goal, demand, start);
+        ArmSolverResult result = solve_arm(arm, goal, demand, start);
+        if (result.converged && demand != ArmDemand::frame) {
+            result.positions = pulled(arm, goal, demand, result.positions, previous);
+        }
         const bool known = std::ranges::any_of(found, [&](const JointPositions& other) {
             return joint_distance(arm, other, result.positions, length) < same;
         });

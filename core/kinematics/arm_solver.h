@@ -33,8 +33,9 @@ struct ArmSolverResult {
                                         const ArmSolverSettings& settings = {});
 
 /// The different solutions found from `starts` starting points, spread evenly inside the limits (a turn to
-/// each side of 0 where there are none), nearest to `previous` first. The same for the same arguments. For an
-/// arm with free joints these are samples of infinitely many.
+/// each side of 0 where there are none), nearest to `previous` first. The same for the same arguments. Where
+/// the demand leaves joints free (every roll about the tool axis will do) the nearest one to `previous`
+/// stands for all that hang together.
 [[nodiscard]] std::vector<JointPositions> solve_arm_from_many_starts(
     const ArmModel& arm, const Frame& goal, ArmDemand demand, const JointPositions& previous, int starts);
 

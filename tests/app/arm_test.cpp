@@ -129,6 +129,8 @@ TEST(Arm, SaysHowMuchOfAProgramItReaches) {
 TEST(Arm, RefusesProgramsThatItCannotRead) {
     const ScratchFolder scratch;
     write_content((scratch / "five.ngc").string(), "G21 G90 F600\nG1 X1 A10\nM2\n");
+    EXPECT_THAT(run({"arm", "reach", "assets/samples/plot/hatched-sign.plt"}).err,
+                HasSubstr("hatched-sign.plt: a plot is no program yet"));
     const Ended rotary = run({"arm", "reach", (scratch / "five.ngc").string()});
     EXPECT_EQ(rotary.exit_code, 1);
     EXPECT_THAT(rotary.err, HasSubstr("five.ngc:2"));

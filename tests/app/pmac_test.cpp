@@ -55,7 +55,7 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     write_content(scratch / "pmac.ini", "I131=many\nI130=702");
     const Ended refused = run({"pmac", "--load", (scratch / "pmac.ini").string(), "--port", port});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("'I131=many' is refused"));
+    EXPECT_THAT(refused.err, HasSubstr("pmac.ini:1: 'I131=many' is refused"));
     EXPECT_EQ(run({"pmac", "I130", "--port", port}).out, "702\n"); // the others are sent
 }
 

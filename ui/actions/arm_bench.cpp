@@ -149,8 +149,13 @@ void ArmBench::solve() {
     const kinematics::ArmAim aim{kinematics::ArmDemand::tip_and_axis, projects_ ? 0.5 * pi : rounding};
     for (JointPositions& joints : kinematics::all_holds(arm(), goal, aim, joints_)) {
         std::string branch = branch_of(joints);
-        const double turn = (joints - joints_).cwiseAbs().maxCoeff();
-        solutions_.push_back({std::move(joints), std::move(branch), turn});
+        ArmSolution solution{std::move(joints), std::move(branch)};
+        for (int n = 0; n < arm().joint_count(); ++n) {
+            const bool slides = arm().joint(n).kind == kinematics::JointKind::prismatic;
+            double& farthest = slides ? solution.farthest_slide : solution.farthest_turn;
+            farthest = std::max(farthest, std::abs(solution.joints[n] - joints_[n]));
+        }
+        solutions_.push_back(std::move(solution));
     }
     if (solutions_.empty()) {
         reason_ = kinematics::hold_tool(arm(), goal, aim, joints_).why;

@@ -24,8 +24,9 @@ namespace millwright::actions {
 /// One way to hold the tool at the goal.
 struct ArmSolution {
     kinematics::JointPositions joints;
-    std::string branch;         ///< "front, elbow up"; of other arms than the L-3's kind empty
-    double farthest_turn = 0.0; ///< of a joint from where it stands, rad or mm of a sliding one
+    std::string branch;          ///< "front, elbow up"; of other arms than the L-3's kind empty
+    double farthest_turn = 0.0;  ///< of a joint from where it stands, rad
+    double farthest_slide = 0.0; ///< mm, of a joint that slides
 };
 
 enum class ArmMove : std::uint8_t {

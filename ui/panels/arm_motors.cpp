@@ -24,8 +24,16 @@ double shown(const ArmJoint& joint, double value) {
     return joint.kind == kinematics::JointKind::revolute ? to_degrees(value) : value;
 }
 
-std::string number(const ArmJoint& joint, std::optional<double> value, int decimals) {
-    return value && std::isfinite(*value) ? fixed(shown(joint, *value), decimals) : nothing;
+/// The columns' unit is the degree; what slides has its own with it.
+std::string number(const ArmJoint& joint,
+                   std::optional<double> value,
+                   int decimals,
+                   const std::string& of_slides = " mm") {
+    if (!value || !std::isfinite(*value)) {
+        return nothing;
+    }
+    const bool slides = joint.kind == kinematics::JointKind::prismatic;
+    return fixed(shown(joint, *value), decimals) + (slides ? of_slides : "");
 }
 
 /// One joint as its file has it and, where a controller drives it, as that tells.
@@ -48,6 +56,7 @@ public:
 
     [[nodiscard]] std::string cell(int column) const {
         constexpr int volt_decimals = 3;
+        constexpr const char* per_second = " mm/s";
         const auto volts = [](std::optional<double> value) {
             return value ? fixed(*value, volt_decimals) : nothing;
         };
@@ -59,13 +68,16 @@ public:
         case 2:
             return travel();
         case 3:
-            return number(joint_, velocity_, 3);
+            return number(joint_, velocity_, 3, per_second);
         case 4:
-            return number(joint_, limits_.jog_speed, 1);
+            return number(joint_, limits_.jog_speed, 1, per_second);
         case 5:
-            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1);
+            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1, per_second);
         case 6:
-            return number(joint_, limits_.acceleration ? limits_.acceleration : joint_.max_acceleration, 0);
+            return number(joint_,
+                          limits_.acceleration ? limits_.acceleration : joint_.max_acceleration,
+                          0,
+                          " mm/s\u00b2");
         case 7:
             return volts(motor_ ? std::optional(motor_->output_V) : std::nullopt);
         case 8:
@@ -82,7 +94,7 @@ private:
     [[nodiscard]] std::string travel() const {
         const double least = std::max(joint_.min, limits_.min.value_or(joint_.min));
         const double most = std::min(joint_.max, limits_.max.value_or(joint_.max));
-        return number(joint_, least, 0) + " \u2026 " + number(joint_, most, 0);
+        return number(joint_, least, 0, "") + " \u2026 " + number(joint_, most, 0);
     }
 
     const ArmJoint& joint_;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace millwright::panels {
 
@@ -53,6 +54,15 @@ widgets::Permission by_hand(const Workbench& now) {
     return now.arm_connected()
                ? widgets::Permission::refused("The picture follows the connected controller: jog it.")
                : widgets::Permission{};
+}
+
+bool slides(const kinematics::ArmModel& arm) {
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        if (arm.joint(n).kind == kinematics::JointKind::prismatic) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -202,16 +212,19 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
         (void)widgets::banner(ui, "reason", {widgets::Severity::warning, as_sentence(bench.reason()), {}});
         return;
     }
-    constexpr std::array<widgets::Column, 2> columns{
-        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}}};
+    constexpr std::array<widgets::Column, 3> columns{
+        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}, {"Slide", "mm", 1.0F, true}}};
     widgets::TableView view;
-    view.columns = columns;
+    view.columns = std::span(columns).first(slides(bench.arm()) ? 3 : 2);
     view.rows = std::ssize(bench.solutions());
     view.chosen = bench.chosen();
     view.cell = [&](std::ptrdiff_t row, int column) {
         const actions::ArmSolution& solution = bench.solutions()[static_cast<std::size_t>(row)];
         if (column == 1) {
             return fixed(to_degrees(solution.farthest_turn), 1);
+        }
+        if (column == 2) {
+            return fixed(solution.farthest_slide, 1);
         }
         return solution.branch.empty() ? fmt::format("{}", row + 1) : capitalised(solution.branch);
     };

@@ -69,13 +69,31 @@ void lean_text(Ui& ui, const kinematics::ArmReach& reach) {
     }
 }
 
+/// Short ones are easily overlooked in the drawing.
+void holes_text(Ui& ui, const kinematics::ArmReach& reach) {
+    if (reach.holes.empty()) {
+        return;
+    }
+    const std::string what = reach.holes.size() == 1
+                                 ? "One stretch of it is"
+                                 : fmt::format("{} stretches of it are", reach.holes.size());
+    (void)widgets::banner(ui,
+                          "holes",
+                          {widgets::Severity::warning,
+                           "The arm does not reach the whole path: " + what + " out of reach.",
+                           {}});
+}
+
 void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     if (!path.track) {
         (void)widgets::banner(ui, "why", {widgets::Severity::warning, path.why + ".", {}});
         return;
     }
     const kinematics::ArmReach& reach = path.reach;
-    const double percent = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
+    constexpr double nearly = 99.9; // short stretches that are left out are no rounding
+    const double share = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
+    const double percent = reach.holes.empty() ? share : std::min(share, nearly);
+    holes_text(ui, reach);
     ui.value("reached", "Reached", fixed(percent, 1), fmt::format("% of {} mm", fixed(reach.length, 0)));
     lean_text(ui, reach);
     constexpr std::size_t most_shown = 3;

@@ -75,6 +75,22 @@ TEST(ArmSolverOfTheL3, FindsTheBranchesOfTheClosedForm) {
     }
 }
 
+// Each roll about the tool axis is a solution: the list had eight of them that looked the same.
+TEST(ArmSolverOfTheScara, OneSolutionStandsForEveryRoll) {
+    const ArmModel arm = test::arm("scara");
+    JointPositions q = JointPositions::Zero(4);
+    q << 0.3, 0.9, 60.0, 0.2;
+    const Frame goal = base_T_tool(arm, q);
+    const auto found = solve_arm_from_many_starts(arm, goal, ArmDemand::tip_and_axis, q, 60);
+    ASSERT_EQ(found.size(), 2U); // the elbow to the left and to the right
+    EXPECT_LT((found[0] - q).norm(), 1e-6) << found[0].transpose();
+    EXPECT_NEAR(found[1][1], -0.9, 1e-6);
+    EXPECT_NEAR(found[1][3], 0.2, 1e-6); // no joint turns for nothing
+    for (const JointPositions& one : found) {
+        EXPECT_LT((base_T_tool(arm, one).translation() - goal.translation()).norm(), 1e-6);
+    }
+}
+
 TEST(ArmSolverOfTheL3, SaysThatItFoundNothing) {
     const ArmModel arm = test::arm("motoman-l3");
     Frame far = Frame::Identity();

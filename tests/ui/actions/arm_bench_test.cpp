@@ -47,6 +47,16 @@ TEST_F(ArmBenchTest, FindsEverySolutionOfAGoalAndNamesItsBranch) {
     }
 }
 
+TEST_F(ArmBenchTest, TellsSlidesInMillimetres) {
+    bench_.load("scara");
+    const Frame tool = bench_.tool();
+    bench_.set_goal(tool.translation() - Vec3(0.0, 0.0, 40.0), tool.linear().col(2));
+    ASSERT_FALSE(bench_.solutions().empty()) << bench_.reason();
+    EXPECT_LE(bench_.solutions().size(), 2U);
+    EXPECT_NEAR(bench_.solutions()[0].farthest_slide, 40.0, 1e-6);
+    EXPECT_NEAR(bench_.solutions()[0].farthest_turn, 0.0, 1e-6);
+}
+
 TEST_F(ArmBenchTest, SaysWhyThereIsNoSolution) {
     bench_.set_goal(Vec3(1500.0, 0.0, 0.0), Vec3::UnitZ());
     EXPECT_TRUE(bench_.solutions().empty());

@@ -77,6 +77,7 @@ TEST_F(ArmPath, AProjectsProgramIsGreenWhereTheArmReachesIt) {
     EXPECT_GT(near, border);
     EXPECT_GT(border, 0.0);
     EXPECT_LT(border, 1.0);
+    EXPECT_TRUE(person_.sees("inspector/path/holes"));
     EXPECT_FALSE(person_.refusal("inspector/path/arm_send_path").empty());
 }
 

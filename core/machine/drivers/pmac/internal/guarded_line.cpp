@@ -81,11 +81,13 @@ void GuardedLine::receive(std::string_view bytes, double now) {
             step_ = Step::waiting;
             since_ = now;
         } else {
+            reply_.heard = true;
             again(now);
         }
         break;
     case Step::waiting:
     case Step::refusing:
+        reply_.heard = true;
         input_ += bytes;
         read_answer();
         break;

@@ -24,6 +24,7 @@ public:
         Outcome outcome = Outcome::none;
         std::vector<std::string> lines;
         int error = 0;
+        bool heard = false; ///< anything that was no guard of the line as it was sent
     };
 
     /// `patience`: how long an answer may take, s.

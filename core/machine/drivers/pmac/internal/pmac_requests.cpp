@@ -217,6 +217,7 @@ void PmacSession::home_axis(std::size_t n) {
 void PmacSession::enable(double /*now*/) {
     require_rest("power");
     ask(every_motor("J/"));
+    power_polls_ = patient_polls;
 }
 
 /// While others are jogged on, an axis whose key is up brakes.

@@ -217,7 +217,10 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
                 "the arm stands");
         } else {
             unseen_ = true;
-            fail(fmt::format("the card did not answer {} as it should", asked(request)));
+            fail(reply.heard ? fmt::format("the card answers {} in another way than it was set up to: was it "
+                                           "reset, or is the line disturbed?",
+                                           asked(request))
+                             : fmt::format("the card did not answer {}", asked(request)));
         }
     }
 }
@@ -235,6 +238,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         break;
     case Kind::reading:
         readings_.read(lines);
+        read_at_ = now;
         break;
     case Kind::jog_speeds:
         slow_down(lines);

@@ -4,6 +4,7 @@
 
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/own_pause.h"
+#include "core/machine/drivers/pmac/internal/following_watch.h"
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/internal/motor_readings.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
@@ -21,7 +22,8 @@ class PmacSession final : public internal::ControllerSession {
 public:
     explicit PmacSession(PmacSettings settings)
         : settings_(std::move(settings)), talk_(settings_.patience), readings_(settings_.axes),
-          motors_(settings_.axes.size()), own_jog_speeds_(settings_.axes.size()) {}
+          motors_(settings_.axes.size()), following_(settings_.axes.size()),
+          own_jog_speeds_(settings_.axes.size()) {}
 
     void opened(double now) override;
     void lost(const std::string& why) override;
@@ -66,6 +68,8 @@ public:
     [[nodiscard]] std::vector<MachineLimits::Axis> limits() const { return readings_.limits(); }
 
 private:
+    static constexpr int patient_polls = 25; ///< half a second
+
     enum class Stage {
         closed,
         greeting,
@@ -92,6 +96,8 @@ private:
         std::uint32_t word_1 = 0, word_2 = 0;
         double target = 0.0; ///< of the last jog
         [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
+        [[nodiscard]] bool faulty() const { return (word_2 >> 3 & 1U) != 0; } ///< its amplifier
+        [[nodiscard]] bool left_behind() const { return (word_2 >> 2 & 1U) != 0; }
         [[nodiscard]] bool home() const { return (word_2 >> 10 & 1U) != 0; }
         [[nodiscard]] bool searching() const { return (word_1 >> 10 & 1U) != 0; }
         [[nodiscard]] bool in_place() const { return !enabled() || (word_2 & 1U) != 0; }
@@ -118,8 +124,11 @@ private:
 
     // pmac_watch.cpp: what the card tells
     void read_poll(const std::vector<std::string>& lines, double now);
-    void watch();
+    void watch(double now);
     void watch_motors();
+    void watch_killed();
+    void watch_power();
+    void watch_following(double now);
     void watch_stage();
     void watch_program(bool stands);
     void watch_homing();
@@ -134,6 +143,7 @@ private:
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
     [[nodiscard]] std::string unheard() const;
+    [[nodiscard]] std::string reason_of_kill() const;
     [[nodiscard]] std::string commanded_limit() const;
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
@@ -189,7 +199,8 @@ private:
 
     MotorReadings readings_;
     std::vector<MotorState> motors_;
-    double polled_at_ = 0.0;
+    FollowingWatch following_;
+    double polled_at_ = 0.0, read_at_ = 0.0;
     std::uint32_t system_1_ = 0, system_2_ = 0;
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
@@ -198,8 +209,10 @@ private:
     bool held_ = false;
     bool armed_ = false; ///< the watchdog in the card
     int quiet_polls_ = 0;
-    int astray_polls_ = 0;  ///< a motor stands where it was not sent
-    bool was_home_ = false; ///< to tell when the card forgets
+    int astray_polls_ = 0;     ///< a motor stands where it was not sent
+    int power_polls_ = 0;      ///< for which power that was given is still waited for
+    bool unexplained_ = false; ///< a motor was killed, and the card has not told yet by what
+    bool was_home_ = false;    ///< to tell when the card forgets
     std::size_t homing_axis_ = 0;
     double homing_from_ = 0.0;           ///< counts
     std::vector<double> commanded_from_; ///< counts of each motor when the last command was given

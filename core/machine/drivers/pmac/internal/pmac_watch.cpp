@@ -1,4 +1,5 @@
 // What a round of answers says, and what follows from it.
+#include "core/base/units.h"
 #include "core/kinematics/arm_model.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/internal/card_numbers.h"
@@ -17,7 +18,6 @@ namespace millwright::machine::pmac {
 namespace {
 
 constexpr std::size_t status_digits = 12;
-constexpr int patience = 25; // polls: half a second
 
 struct Words {
     std::uint32_t first = 0, second = 0;
@@ -67,7 +67,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     polled_ = true;
     unseen_ = false;
     polled_at_ = now;
-    watch();
+    watch(now);
 }
 
 bool PmacSession::position_known() const {
@@ -80,7 +80,7 @@ bool PmacSession::enabled() const {
            std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); });
 }
 
-void PmacSession::watch() {
+void PmacSession::watch(double now) {
     if (stage_ == Stage::greeting) {
         finish(Stage::ready);
         was_home_ = position_known();
@@ -92,9 +92,12 @@ void PmacSession::watch() {
         if (powered) {
             kill(); // what was sent may have been lost
         }
+        watch_killed();
         return;
     }
     watch_motors();
+    watch_power();
+    watch_following(now);
     watch_limits();
     watch_rest();
     if (stage_ == Stage::homing) {
@@ -104,18 +107,18 @@ void PmacSession::watch() {
 }
 
 void PmacSession::watch_motors() {
-    constexpr std::uint32_t fatal = 1U << 2, fault = 1U << 3;
-    for (std::size_t n = 0; n < motors_.size(); ++n) {
-        const MotorState& motor = motors_[n];
-        const std::string name = fmt::format("motor {}", settings_.axes[n].motor);
-        const bool watched = active() || stage_ == Stage::astir;
-        if (watched && (motor.word_2 & fault) != 0 && !motor.enabled()) {
-            fail(name + ": its amplifier reports a fault");
-        } else if (watched && (motor.word_2 & fatal) != 0 && !motor.enabled()) {
-            fail(name + ": its following error became too great");
-        } else if ((stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging) &&
-                   !motor.enabled()) {
-            fail(name + " was killed" + (unheard().empty() ? "" : ": " + unheard()));
+    const bool watched = active() || stage_ == Stage::astir;
+    const bool need_power = stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging;
+    const auto killed =
+        std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
+    if (watched && killed != motors_.end()) {
+        // A card that kills one motor may kill all of them: what one of them tells is the reason for all.
+        if (const std::string why = reason_of_kill(); !why.empty()) {
+            fail(why);
+        } else if (need_power) {
+            const int motor = settings_.axes[static_cast<std::size_t>(killed - motors_.begin())].motor;
+            fail(fmt::format("motor {} was killed", motor) + (unheard().empty() ? "" : ": " + unheard()));
+            unexplained_ = unheard().empty();
         }
     }
     const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
@@ -124,6 +127,72 @@ void PmacSession::watch_motors() {
         fail("the card forgot the position: was it reset?");
     }
     was_home_ = position_known();
+}
+
+/// Empty where no motor without power tells any.
+std::string PmacSession::reason_of_kill() const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        const MotorState& motor = motors_[n];
+        if (motor.faulty() && !motor.enabled()) {
+            return fmt::format("motor {}: its amplifier reports a fault", settings_.axes[n].motor);
+        }
+        if (motor.left_behind() && !motor.enabled()) {
+            return fmt::format("motor {}: its following error became too great", settings_.axes[n].motor);
+        }
+    }
+    return {};
+}
+
+/// A report tells of one motor after the other: the reason may stand in the next one only.
+void PmacSession::watch_killed() {
+    if (!unexplained_) {
+        return;
+    }
+    if (std::string why = reason_of_kill(); !why.empty()) {
+        unexplained_ = false;
+        tell(false, ConsoleKind::fault, why);
+        message_ = std::move(why);
+    }
+}
+
+/// Motors that take no power say nothing of it.
+void PmacSession::watch_power() {
+    if (power_polls_ == 0 || !queue_.empty()) {
+        return;
+    }
+    power_polls_ = enabled() || !rests() ? 0 : power_polls_ - 1;
+    if (power_polls_ > 0 || enabled() || !rests()) {
+        return;
+    }
+    const std::string why = reason_of_kill();
+    const auto without =
+        std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
+    fail(!why.empty()
+             ? why + ", and it takes no power"
+             : fmt::format("motor {} takes no power",
+                           settings_.axes[static_cast<std::size_t>(without - motors_.begin())].motor));
+}
+
+/// By what the card told last of the following errors, if that was just now.
+void PmacSession::watch_following(double now) {
+    constexpr double fresh = 0.3; // s
+    const std::vector<MotorReading>& readings = readings_.motors();
+    const bool moves = (active() && stage_ != Stage::loading) || stage_ == Stage::astir;
+    if (!moves || readings.size() != motors_.size() || now - read_at_ > fresh) {
+        following_.forget();
+        return;
+    }
+    std::vector<double> lags;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        lags.push_back(motors_[n].enabled() ? to_degrees(readings[n].following_error) : 0.0);
+    }
+    if (const auto n = following_.left_behind(lags, axes_deg(), now)) {
+        fail(fmt::format(
+            "{} is sent {:.2f} degrees further and does not go there: has its amplifier power, is "
+            "its brake off and the way free?",
+            name_of(*n),
+            std::abs(lags[*n])));
+    }
 }
 
 void PmacSession::watch_limits() {
@@ -219,7 +288,7 @@ void PmacSession::watch_stage() {
     const bool in_place =
         std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
     astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
-    if (astray_polls_ > patience) {
+    if (astray_polls_ > patient_polls) {
         fail("a motor with power is not where it was sent");
         return;
     }
@@ -344,7 +413,7 @@ void PmacSession::watch_homing() {
         return;
     }
     const bool found = motors_[homing_axis_].home();
-    if (!found && quiet_polls_ <= patience) {
+    if (!found && quiet_polls_ <= patient_polls) {
         return; // it stands for a moment where it turns back to its flag
     }
     if (!found) {
@@ -379,8 +448,9 @@ void PmacSession::finish(Stage stage, std::string why) {
     message_ = std::move(why);
     jog_until_.reset();
     jog_stopping_ = held_ = false;
-    quiet_polls_ = astray_polls_ = 0;
-    unbraked_ = false;
+    quiet_polls_ = astray_polls_ = power_polls_ = 0;
+    unbraked_ = unexplained_ = false;
+    following_.forget();
     brake_by_.reset();
     if (given_up && answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = CommandAnswer::State::refused;

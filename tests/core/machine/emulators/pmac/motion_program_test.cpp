@@ -143,6 +143,51 @@ TEST(MotionProgramS6, APlannedMotionEndsAtItsCountsAndStaysOnTheWay) {
     }
 }
 
+motion::Trajectory slow_plan(double share) {
+    const kinematics::ArmModel arm = kinematics::read_arm("assets/arms/motoman-l3.json").arm;
+    kinematics::JointPositions end = kinematics::arm_home();
+    end.head(4) += (kinematics::JointPositions(4) << 0.4, 0.2, -0.3, 0.1).finished();
+    return motion::plan(motion::tour(arm, kinematics::arm_home(), to(end, share)), arm, {}, {});
+}
+
+// Where the motion is even one move is enough; the thesis's sign of 1580 s did not fit at even steps.
+TEST(MotionProgramS6, HasAsFewMovesAsKeepAQuarterOfACount) {
+    const motion::Trajectory plan = slow_plan(0.05);
+    const std::vector<std::string> lines = pmac_program(plan, arm_settings());
+    EXPECT_LT(std::ssize(lines), 30);
+    ASSERT_GT(plan.duration(), 3.0);
+    double time = 0.0, lasts = 0.0, at = to_degrees(kinematics::arm_home()[0]);
+    for (const std::string& line : lines) {
+        if (line.starts_with("TM")) {
+            lasts = 1e-3 * std::stod(line.substr(2));
+        } else if (line.starts_with("X")) {
+            const double to = std::stod(line.substr(1));
+            for (double share = 0.0; share < 1.0; share += 0.05) {
+                EXPECT_NEAR(to_degrees(plan.at(time + share * lasts).position[0]),
+                            at + share * (to - at),
+                            0.6 / 120.0) // a quarter of a count, and the bend within 50 ms
+                    << line;
+            }
+            time += lasts;
+            at = to;
+        }
+    }
+    EXPECT_NEAR(time, plan.duration(), 1e-3);
+}
+
+TEST(MotionProgramS6, ThatFitsInNoMemoryOfACardIsRefused) {
+    PmacSettings fine = arm_settings();
+    for (PmacAxis& axis : fine.axes) {
+        axis.counts_per_degree = 1e12;
+    }
+    try {
+        (void)pmac_program(slow_plan(0.05), fine, 1e-5);
+        FAIL() << "it has more than 9000 moves";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("moves of the card, and its memory holds 9000"));
+    }
+}
+
 TEST(MotionProgramS6, AJointThatTheCardDoesNotDriveIsRefused) {
     const kinematics::ArmModel arm = kinematics::read_arm("assets/arms/motoman-l3.json").arm;
     kinematics::JointPositions end = kinematics::arm_home();

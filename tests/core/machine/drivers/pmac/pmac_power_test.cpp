@@ -1,0 +1,130 @@
+// Motors that cannot go where they are sent, or have lost or get no power: F2, in computed time.
+#include "core/machine/drivers/pmac/internal/following_watch.h"
+#include "tests/core/machine/drivers/pmac/pmac_wire.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::machine::pmac {
+namespace {
+
+using test::jog_of;
+using test::PmacWire;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(PmacFollowingWatch, TellsAMotorThatStands) {
+    FollowingWatch watch(2);
+    double time = 0.0;
+    for (; time < 0.49; time += 0.02) {
+        EXPECT_FALSE(watch.left_behind({0.0, 0.6}, {3.0 + time, 7.0}, time)) << time;
+    }
+    EXPECT_EQ(watch.left_behind({0.0, 0.6}, {3.5, 7.0}, time + 0.02), 1U);
+}
+
+TEST(PmacFollowingWatch, TellsAMotorThatGoesTheOtherWay) {
+    FollowingWatch watch(1);
+    std::optional<std::size_t> told;
+    for (double time = 0.0; time < 0.6 && !told; time += 0.02) {
+        told = watch.left_behind({-2.0}, {5.0 * time}, time);
+    }
+    EXPECT_EQ(told, 0U);
+}
+
+TEST(PmacFollowingWatch, LeavesALoopAloneThatIsWeakAndOneThatSettles) {
+    FollowingWatch weak(1), settling(1);
+    for (double time = 0.0; time < 5.0; time += 0.02) {
+        EXPECT_FALSE(weak.left_behind({4.0}, {1.0 * time}, time));
+        EXPECT_FALSE(settling.left_behind({0.2}, {0.0}, time));
+    }
+}
+
+TEST(PmacFollowingWatch, HasSeenNothingWhileTheComputerWasBusy) {
+    FollowingWatch watch(1);
+    EXPECT_FALSE(watch.left_behind({1.0}, {0.0}, 0.0));
+    EXPECT_FALSE(watch.left_behind({1.0}, {0.0}, 3.0));
+}
+
+/// Renewed as a window does, until the arm is in alarm: s of the card's time, or -1 after `longest`.
+double held_until_alarm(PmacWire& wire, const Jog& jog, double longest) {
+    const double begin = wire.card.time();
+    while (wire.card.time() - begin < longest) {
+        if (wire.state() == DriverState::alarm) {
+            return wire.card.time() - begin;
+        }
+        wire.session.jog(jog, wire.now);
+        wire.pass(0.016);
+    }
+    return -1.0;
+}
+
+TEST(PmacPowerF2, AHeldJogOfAmplifiersWithoutPowerEndsInAlarm) {
+    for (const double speed : {5.0, 1.0}) {
+        PmacWire wire;
+        const Jog jog = jog_of(0, speed, speed, 0.1);
+        ASSERT_EQ(held_until_alarm(wire, jog, 2.0), -1.0) << wire.session.status().message;
+        ASSERT_FALSE(wire.standing());
+        wire.card.emergency_stop();
+        const double taken = held_until_alarm(wire, jog, 5.0);
+        EXPECT_GT(taken, 0.0);
+        EXPECT_LT(taken, 1.2);
+        EXPECT_THAT(wire.session.status().message,
+                    AllOf(HasSubstr("does not go there"), HasSubstr("has its amplifier power")));
+        wire.pass(0.5);
+        EXPECT_FALSE(wire.powered());
+    }
+}
+
+TEST(PmacPowerF2, MotorsThatTakeNoPowerSaySo) {
+    PmacWire wire({}, false);
+    wire.card.raise_alarm();
+    wire.session.enable(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 2.0));
+    EXPECT_EQ(wire.session.status().message, "motor 1: its amplifier reports a fault, and it takes no power");
+    wire.card.clear_faults();
+    wire.session.reset(wire.now);
+    wire.session.enable(wire.now);
+    wire.pass(2.0);
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_TRUE(wire.powered());
+}
+
+// A report is asked for in the middle of it: what a motor without power tells comes with the next one.
+TEST(PmacPowerF2, AFaultOfAnAmplifierIsTheReasonWheneverItComes) {
+    for (int phase = 0; phase < 24; ++phase) {
+        PmacWire wire;
+        wire.session.jog(jog_of(1, 40.0, 5.0), wire.now);
+        wire.pass(1.0);
+        for (int n = 0; n < phase; ++n) {
+            wire.step(0.001);
+        }
+        wire.card.raise_alarm();
+        ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 1.0));
+        wire.pass(0.1);
+        EXPECT_THAT(wire.session.status().message, HasSubstr("its amplifier reports a fault")) << phase;
+    }
+}
+
+TEST(PmacPowerF2, ACardThatWasSwitchedOffAndOnIsNotToldAsSilent) {
+    for (const bool moves : {false, true}) {
+        PmacWire wire;
+        if (moves) {
+            wire.session.jog(jog_of(1, 40.0, 5.0), wire.now);
+        }
+        wire.pass(1.0);
+        wire.card.power_cycle();
+        ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 3.0));
+        EXPECT_THAT(wire.session.status().message,
+                    AllOf(HasSubstr("reset"), Not(HasSubstr("did not answer"))));
+    }
+    PmacWire deaf;
+    deaf.go_deaf();
+    ASSERT_TRUE(deaf.run_until([&] { return deaf.state() == DriverState::alarm; }, 3.0));
+    EXPECT_THAT(deaf.session.status().message, HasSubstr("the card did not answer"));
+}
+
+} // namespace
+} // namespace millwright::machine::pmac
