@@ -5,6 +5,7 @@
 
 #include "core/grid/improver.h"
 #include "core/grid/path_descent.h"
+#include "core/grid/track_candidates.h"
 #include "core/grid/track_optimiser.h"
 
 #include <optional>
@@ -21,7 +22,7 @@ struct ChainSettings {
     double widest_gap = 1.125;   ///< the same, 1 to 2
     int first_descent = 300;     ///< iterations at the exponent of `tracks`, at most, 0 to 100 000
     int later_descents = 150;    ///< the same at each later exponent
-    std::vector<double> exponents{4.0, 8.0, 16.0}; ///< of the error, one descent each
+    std::vector<double> exponents{4.0, 8.0, 16.0, 32.0}; ///< of the error, one descent each
     double least_jacobian = 0.015; ///< of a corner triangle in a grid that is accepted, 1 on a uniform grid
 };
 
@@ -33,11 +34,12 @@ struct ChainLink {
 };
 
 /// First step: measures the start. Second: the tracks and their nodes, beside what the track optimiser makes
-/// of the start's own. Then a few iterations of a descent a step. `best` has the least product of max and
-/// mean of the grids that keep the promise: max, mean, lmean and axis_max not above the start's, the track
-/// gap not above it by more than the allowance, no corner triangle below the least. In the end it is the best
-/// of a link whose path as it is run keeps the promise of GridPromise too. `norm` is the furthest way of a
-/// node in the last iteration, in cells.
+/// of the start's own; where they break the promise they are chosen anew with a price on the tool axis. Then
+/// a few iterations of a descent a step. `best` has the least product of max and mean of the grids that keep
+/// the promise: max, mean, lmean and axis_max not above the start's, the track gap not above it by more than
+/// the allowance, no corner triangle below the least. In the end it is the best of a link whose path as it is
+/// run keeps the promise of GridPromise too. `norm` is the furthest way of a node in the last iteration, in
+/// cells.
 class ChainOptimiser final : public GridImprover {
 public:
     /// `model` must outlive the optimiser. Throws Defect if a track of `start` is not straight.
@@ -60,6 +62,14 @@ private:
     void measure_start(const Progress& progress);
     void choose_tracks(const Progress& progress);
     void optimise_tracks(const Progress& progress);
+    bool choose_by_cost(const std::string& name, const TrackCandidates& candidates, const Progress& progress);
+    bool choose_with_axis_priced(const Progress& progress);
+    bool take(const std::string& name,
+              const TrackCandidates& candidates,
+              int nearest,
+              int furthest,
+              const Progress& progress);
+    [[nodiscard]] TrackSettings price_axis(double price) const;
     void begin_descent(const Progress& progress);
     void descend(const Progress& progress);
     bool consider(const NodeArray& nodes, const Progress& progress);
@@ -74,6 +84,7 @@ private:
     ImproverState state_;
     std::vector<PlacedTrack> start_;
     double widest_gap_mm_ = 0.0;
+    double moving_price_ = 0.0; // of the axis, while all nodes move
     std::optional<PathDescent> descent_;
     std::size_t level_ = 0; // 0: the exponent of the tracks; n: exponents[n - 1]
     int iterations_of_level_ = 0;

@@ -1,12 +1,18 @@
 #include "core/grid/chain_optimiser.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/units.h"
+#include "tests/support/closed_form_error_model.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stop_token>
+#include <string_view>
 
 namespace millwright::grid {
 namespace {
@@ -32,11 +38,47 @@ TEST(ChainOptimiser, EachLinkCutsTheErrorOfASpike) {
     EXPECT_LT(state.of_best.mean, 0.85 * state.start.mean);
     EXPECT_LT(state.of_best.max, 0.3 * state.start.max);
     EXPECT_EQ(state.status, ImproverStatus::converged);
-    ASSERT_EQ(chain.links().size(), 7U); // start, track optimiser, chosen tracks, exponents 2, 4, 8, 16
+    ASSERT_EQ(chain.links().size(), 8U); // start, track optimiser, chosen tracks, exponents 2, 4, 8, 16, 32
     EXPECT_LT(chain.links()[1].reached.max, chain.links()[0].reached.max);
     EXPECT_LT(chain.links()[2].reached.max, chain.links()[0].reached.max);
     EXPECT_LT(chain.links()[3].reached.lmean, chain.links()[2].reached.lmean);
-    EXPECT_LT(chain.links()[6].reached.max, chain.links()[3].reached.max);
+    EXPECT_LT(chain.links()[7].reached.max, chain.links()[3].reached.max);
+}
+
+/// A spike whose error is smaller between the tracks of a start than on them, where the tool axis turns more.
+class TwistedErrorModel final : public ClosedFormErrorModel {
+public:
+    explicit TwistedErrorModel(int gaps) : gaps_(gaps) {}
+
+    [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling sampling) const override {
+        const double between = square(std::sin(pi * gaps_ * 0.5 * (a.x() + b.x())));
+        MoveError found = spike_.move(a, b, sampling);
+        found.tip *= 1.0 - 0.5 * between;
+        found.axis *= 1.0 + 3.0 * between;
+        return found;
+    }
+
+private:
+    SpikeErrorModel spike_{{.width = 0.02}};
+    int gaps_;
+};
+
+bool has_link(const ChainOptimiser& chain, std::string_view name, bool accepted) {
+    return std::ranges::any_of(
+        chain.links(), [&](const ChainLink& link) { return link.name == name && link.accepted == accepted; });
+}
+
+TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
+    const TwistedErrorModel model(7);
+    ChainSettings settings = small();
+    settings.candidates_a_gap = 8;
+    ChainOptimiser chain(model, Grid::uniform(8, 12), along_v, settings);
+    const ImproverState state = run(chain, {});
+    EXPECT_TRUE(has_link(chain, "best tracks and nodes", false));
+    EXPECT_TRUE(has_link(chain, "best tracks and nodes, the axis priced", true));
+    EXPECT_EQ(chain.links().size(), 9U);
+    EXPECT_LE(state.of_best.axis_max, state.start.axis_max + 1e-8);
+    EXPECT_LT(state.of_best.mean, 0.9 * state.start.mean);
 }
 
 TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {
