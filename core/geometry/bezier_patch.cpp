@@ -2,10 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/geometry/internal/bernstein.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
 namespace millwright::geometry {
@@ -14,43 +14,25 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;
 
-/// Bernstein polynomials of one degree with their first and second derivatives at one parameter.
+/// With first and second derivatives.
 struct Basis {
-    std::array<double, max_degree + 1> value, first, second;
+    Bernstein value, first, second;
 };
 
-/// B_i^n from B_i^(n-1): the stable triangle of de Casteljau.
-void raise_degree(std::array<double, max_degree + 1>& b, int degree, double t) {
-    double carried = 0.0;
-    for (int i = 0; i < degree; ++i) {
-        const double lower = b[static_cast<std::size_t>(i)];
-        b[static_cast<std::size_t>(i)] = carried + (1.0 - t) * lower;
-        carried = t * lower;
-    }
-    b[static_cast<std::size_t>(degree)] = carried;
-}
-
-/// B_i' = n (B_(i-1)^(n-1) - B_i^(n-1)) and B_i'' = n (n-1) (B_(i-2) - 2 B_(i-1) + B_i)^(n-2).
+/// B_i'' = n (n-1) (B_(i-2) - 2 B_(i-1) + B_i)^(n-2).
 Basis basis_at(int n, double t) {
     Basis basis;
     auto& b = basis.value;
-    b[0] = 1.0;
-    for (int degree = 1; degree <= n - 2; ++degree) {
-        raise_degree(b, degree, t);
-    }
-    const auto lower = [&](int i, int degree) {
-        return i < 0 || i > degree ? 0.0 : b[static_cast<std::size_t>(i)];
-    };
+    begin_at_degree(b, n - 2, t);
+    const auto lower = [&](int i) { return i < 0 || i > n - 2 ? 0.0 : b[static_cast<std::size_t>(i)]; };
     for (int i = 0; i <= n; ++i) {
         basis.second[static_cast<std::size_t>(i)] =
-            n < 2 ? 0.0 : n * (n - 1) * (lower(i - 2, n - 2) - 2.0 * lower(i - 1, n - 2) + lower(i, n - 2));
+            n < 2 ? 0.0 : n * (n - 1) * (lower(i - 2) - 2.0 * lower(i - 1) + lower(i));
     }
     if (n >= 2) {
         raise_degree(b, n - 1, t);
     }
-    for (int i = 0; i <= n; ++i) {
-        basis.first[static_cast<std::size_t>(i)] = n * (lower(i - 1, n - 1) - lower(i, n - 1));
-    }
+    differentiate(b, n, basis.first);
     raise_degree(b, n, t);
     return basis;
 }

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/geometry/surface_tangents.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
@@ -38,8 +39,8 @@ struct Node {
 };
 
 ToolPose pose_at(const BezierPatch& patch, const Vec2& uv, bool flipped) {
-    const auto at = patch.derivatives(uv.x(), uv.y());
-    const Vec3 normal = patch.unit_normal(at).value_or(Vec3::Zero());
+    const geometry::SurfaceTangents at = geometry::tangents(patch, uv.x(), uv.y());
+    const Vec3 normal = unit_normal(patch, at).value_or(Vec3::Zero());
     return {at.position, flipped ? Vec3(-normal) : normal};
 }
 
@@ -120,12 +121,12 @@ public:
         expects(0 <= k && k < l && l < static_cast<int>(nodes_.size()), "a move goes forward on its lattice");
         const int intervals = raster * (l - k);
         const int chords = std::min(intervals, sampling_.curve);
-        std::vector<Vec3> points;
-        std::vector<Vec3> normals;
+        std::vector<Vec3> points(static_cast<std::size_t>(chords) + 1);
+        std::vector<Vec3> normals(points.size());
         for (int c = 0; c <= chords; ++c) {
             const auto n = static_cast<std::size_t>(raster * k + intervals * c / chords);
-            points.push_back(points_[n]);
-            normals.push_back(normals_[n]);
+            points[static_cast<std::size_t>(c)] = points_[n];
+            normals[static_cast<std::size_t>(c)] = normals_[n];
         }
         const ChordCurve curve(std::move(points), std::move(normals));
         return judge(machine_, node(k), node(l), curve, sampling_.tip);
@@ -177,12 +178,13 @@ KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool fli
     : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)) {}
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
-    std::vector<Vec3> points;
-    std::vector<Vec3> normals;
-    for (int c = 0; c <= sampling.curve; ++c) {
-        const ToolPose pose = pose_at(patch_, blend(a, b, static_cast<double>(c) / sampling.curve), flipped_);
-        points.push_back(pose.tip);
-        normals.push_back(pose.axis);
+    std::vector<Vec3> points(static_cast<std::size_t>(sampling.curve) + 1);
+    std::vector<Vec3> normals(points.size());
+    for (std::size_t c = 0; c < points.size(); ++c) {
+        const double t = static_cast<double>(c) / sampling.curve;
+        const ToolPose pose = pose_at(patch_, blend(a, b, t), flipped_);
+        points[c] = pose.tip;
+        normals[c] = pose.axis;
     }
     const Node first = node_at(machine_, {points.front(), normals.front()});
     const Node second = node_at(machine_, {points.back(), normals.back()});
