@@ -8,6 +8,26 @@
 
 namespace millwright::exchange {
 
+Vec3 CadFace::position(const Vec2& at) const {
+    const int row = std::clamp(static_cast<int>(at.x()), 0, rows - 1);
+    const int column = std::clamp(static_cast<int>(at.y()), 0, columns - 1);
+    return patches[static_cast<std::size_t>(row * columns + column)].position(at.x() - row, at.y() - column);
+}
+
+geometry::Trim CadFace::trim() const {
+    geometry::Trim trim;
+    if (trimmed()) {
+        trim.loops.push_back(outline);
+        trim.loops.insert(trim.loops.end(), holes.begin(), holes.end());
+    }
+    for (geometry::Trim::Loop& loop : trim.loops) {
+        for (Vec2& corner : loop) {
+            corner = {corner.x() / rows, corner.y() / columns};
+        }
+    }
+    return trim;
+}
+
 bool is_cad_file(const std::filesystem::path& file) {
     constexpr std::array<std::string_view, 4> kinds{"step", "stp", "iges", "igs"};
     return std::ranges::find(kinds, kind_of(file)) != kinds.end();

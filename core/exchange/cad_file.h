@@ -4,6 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/geometry/surface.h"
+#include "core/geometry/trim.h"
 
 #include <filesystem>
 #include <string>
@@ -22,9 +23,13 @@ struct CadFace {
     std::vector<geometry::BezierPatch> patches; ///< row by row; S_u x S_v looks out of the body
     std::vector<Vec2> outline; ///< outer boundary in [0, rows] x [0, columns], not closed; empty: all of it
     std::vector<std::vector<Vec2>> holes; ///< the same of what is cut out inside; only with an outline
-    Box3 box;                             ///< mm, of the control points
+    Box3 box;                             ///< mm, of the face itself, not of its control points
 
     [[nodiscard]] bool trimmed() const { return !outline.empty(); }
+    /// At a place in [0, rows] x [0, columns].
+    [[nodiscard]] Vec3 position(const Vec2& at) const;
+    /// Outline and holes over [0,1]^2 of the whole face; nothing is cut off where it is not trimmed.
+    [[nodiscard]] geometry::Trim trim() const;
 };
 
 struct CadModel {

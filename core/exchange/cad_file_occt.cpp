@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/exchange/cad_file.h"
 #include "core/exchange/internal/cad_child.h"
+#include "core/exchange/internal/cad_contents.h"
 #include "core/exchange/internal/cad_faces.h"
 #include "core/exchange/internal/cad_frames.h"
 #include "core/exchange/internal/cad_reading.h"
@@ -26,6 +27,7 @@
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -39,12 +41,17 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace millwright::exchange {
 
 namespace {
 
 enum class CadKind { step, iges };
+
+bool is_step_name(const std::filesystem::path& file) {
+    return kind_of(file) == "step" || kind_of(file) == "stp";
+}
 
 /// By its content: the library reads anything as far as it can, and says nothing.
 CadKind checked_kind(const std::filesystem::path& file) {
@@ -60,7 +67,7 @@ CadKind checked_kind(const std::filesystem::path& file) {
     if (start == std::string::npos) {
         throw Error("the file is empty", file);
     }
-    const bool step_name = kind_of(file) == "step" || kind_of(file) == "stp";
+    const bool step_name = is_step_name(file);
     if (head.compare(start, 12, "ISO-10303-21") == 0) {
         return CadKind::step;
     }
@@ -91,19 +98,34 @@ std::string unit_of(const IGESControl_Reader& reader) {
     return short_unit(name.IsNull() ? "" : name->ToCString());
 }
 
+/// Why a file that begins as it should is none that can be read.
+[[noreturn]] void refuse_damaged(const std::filesystem::path& file) {
+    constexpr std::string_view last = "END-ISO-10303-21";
+    constexpr std::size_t enough = 4096;
+    const std::string text = read_file(file);
+    const bool ends = text.find(last, text.size() - std::min(text.size(), enough)) != std::string::npos;
+    if (is_step_name(file) && !ends) {
+        throw Error(fmt::format("the file is cut off: it does not end with {}", last),
+                    file,
+                    "write or copy it once more");
+    }
+    throw Error("the file is damaged, no model can be read from it", file);
+}
+
 template <typename Reader>
 CadModel read_by(Reader reader, const std::filesystem::path& file, const Progress& progress) {
     progress.report(0.0, "reading the file");
     if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-        throw Error("the file is damaged, no model can be read from it", file);
+        refuse_damaged(file);
     }
+    expect_not_too_many_faces(*reader.Model(), file);
     progress.check();
     const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
     reader.TransferRoots(indicator->Start());
     progress.check();
     const TopoDS_Shape shape = reader.OneShape();
-    if (shape.IsNull()) {
-        throw Error("the file has no body and no surface", file);
+    if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
+        refuse_without_face(shape, *reader.Model(), file);
     }
     CadModel model = faces_of(shape, file, progress.part(0.6, 1.0));
     model.unit = unit_of(reader);

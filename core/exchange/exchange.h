@@ -4,6 +4,7 @@
 //   const TriangleMesh mesh = read_mesh("scan.stl", 1.0, progress);    the reference
 //   const MeshFit fit = fit_patch(mesh, settings, progress);           a patch near it, and how near
 //   const CadModel model = read_cad("part.step", progress);            faces as Bezier patches
+//   const MeshFit near = fit_face(model.faces[0], settings, progress); one patch near a face
 //   write_surface(surface, "part.step", tolerance, progress);          the way back
 #pragma once
 

@@ -2,18 +2,17 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/seen_side.h"
 #include "core/exchange/internal/square_map.h"
 #include "core/geometry/closest_point.h"
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,13 +21,6 @@ namespace millwright::exchange {
 namespace {
 
 using geometry::BezierPatch;
-using geometry::ControlNet;
-
-struct Sample {
-    Vec3 point = Vec3::Zero();
-    Vec2 uv = Vec2::Zero();
-    std::optional<int> side; ///< of the square that it stays on, as OutlineEdge counts them
-};
 
 /// A mix of three points of the mesh.
 struct Spread {
@@ -41,6 +33,17 @@ struct Spread {
             sum += shares[static_cast<Eigen::Index>(k)] * values[static_cast<std::size_t>(corners[k])];
         }
         return sum;
+    }
+};
+
+/// What is fitted: triangles, or the part of a face that they stand for.
+struct Target {
+    SeenSide side;
+    const CadFace* face = nullptr; ///< none for a mesh, which is its triangles
+    std::vector<Vec2> places;      ///< on the face, one a point of the side
+
+    [[nodiscard]] Vec3 at(const Spread& spread) const {
+        return face != nullptr ? face->position(spread.of(places)) : spread.of(side.mesh.points);
     }
 };
 
@@ -68,123 +71,6 @@ std::vector<Spread> spread_over(const TriangleMesh& mesh, double area, int count
     }
     return samples;
 }
-
-/// B_0^n(t) ... B_n^n(t).
-Eigen::VectorXd bernstein(int degree, double t) {
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(degree + 1);
-    values[0] = 1.0;
-    for (int n = 1; n <= degree; ++n) {
-        for (int i = n; i > 0; --i) {
-            values[i] = (1.0 - t) * values[i] + t * values[i - 1];
-        }
-        values[0] *= 1.0 - t;
-    }
-    return values;
-}
-
-/// Sum of the squares of all second differences of a net, as a matrix over its points.
-Eigen::MatrixXd bending(int rows, int columns) {
-    const int count = rows * columns;
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
-    const auto add = [&](std::initializer_list<std::pair<int, double>> difference) {
-        for (const auto& [a, wa] : difference) {
-            for (const auto& [b, wb] : difference) {
-                matrix(a, b) += wa * wb;
-            }
-        }
-    };
-    const auto at = [&](int i, int j) { return i * columns + j; };
-    for (int i = 0; i < rows; ++i) {
-        for (int j = 0; j < columns; ++j) {
-            if (i > 0 && i + 1 < rows) {
-                add({{at(i - 1, j), 1.0}, {at(i, j), -2.0}, {at(i + 1, j), 1.0}});
-            }
-            if (j > 0 && j + 1 < columns) {
-                add({{at(i, j - 1), 1.0}, {at(i, j), -2.0}, {at(i, j + 1), 1.0}});
-            }
-            if (i + 1 < rows && j + 1 < columns) {
-                add({{at(i, j), 1.0}, {at(i + 1, j), -1.0}, {at(i, j + 1), -1.0}, {at(i + 1, j + 1), 1.0}});
-            }
-        }
-    }
-    return matrix;
-}
-
-/// How much a miss counts, by its direction: (S - p)' metric (S - p).
-struct Weighted {
-    Sample sample;
-    Mat3 metric = Mat3::Identity();
-};
-
-/// The net that is nearest to the samples at their parameters.
-class LeastSquares {
-public:
-    LeastSquares(int degree_u, int degree_v, double smoothness)
-        : rows_(degree_u + 1), columns_(degree_v + 1), bending_(smoothness * bending(rows_, columns_)) {}
-
-    [[nodiscard]] BezierPatch solve(const std::vector<Weighted>& samples, const Progress& progress) const {
-        constexpr std::size_t block = 500;
-        const int count = rows_ * columns_;
-        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(3 * count, 3 * count);
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(3 * count);
-        for (std::size_t first = 0; first < samples.size(); first += block) {
-            progress.check();
-            add(normal, right, std::span(samples).subspan(first, std::min(block, samples.size() - first)));
-        }
-        const double share = 1.0 / static_cast<double>(samples.size());
-        normal *= share;
-        for (int axis = 0; axis < 3; ++axis) {
-            normal.block(axis * count, axis * count, count, count) += bending_;
-        }
-        const Eigen::VectorXd net = normal.ldlt().solve(share * right);
-        ControlNet result = ControlNet::sized(rows_, columns_);
-        for (int n = 0; n < count; ++n) {
-            result.points[static_cast<std::size_t>(n)] = {net[n], net[count + n], net[2 * count + n]};
-        }
-        return BezierPatch(std::move(result));
-    }
-
-private:
-    /// Unknowns are all x, then all y, then all z of the net.
-    void add(Eigen::MatrixXd& normal, Eigen::VectorXd& right, std::span<const Weighted> samples) const {
-        const int count = rows_ * columns_;
-        const Eigen::Index size = std::ssize(samples);
-        Eigen::MatrixXd basis(size, count);
-        for (Eigen::Index k = 0; k < size; ++k) {
-            basis.row(k) = row_at(samples[static_cast<std::size_t>(k)].sample.uv);
-        }
-        Eigen::VectorXd weights(size);
-        Eigen::VectorXd pulls(size);
-        for (int a = 0; a < 3; ++a) {
-            for (int c = 0; c < 3; ++c) {
-                for (Eigen::Index k = 0; k < size; ++k) {
-                    weights[k] = samples[static_cast<std::size_t>(k)].metric(a, c);
-                }
-                normal.block(a * count, c * count, count, count).noalias() +=
-                    basis.transpose() * weights.asDiagonal() * basis;
-            }
-            for (Eigen::Index k = 0; k < size; ++k) {
-                const Weighted& at = samples[static_cast<std::size_t>(k)];
-                pulls[k] = at.metric.row(a).dot(at.sample.point);
-            }
-            right.segment(a * count, count) += basis.transpose() * pulls;
-        }
-    }
-
-    [[nodiscard]] Eigen::RowVectorXd row_at(const Vec2& uv) const {
-        const Eigen::VectorXd u = bernstein(rows_ - 1, uv.x());
-        const Eigen::VectorXd v = bernstein(columns_ - 1, uv.y());
-        Eigen::RowVectorXd row(rows_ * columns_);
-        for (int i = 0; i < rows_; ++i) {
-            row.segment(i * columns_, columns_) = u[i] * v.transpose();
-        }
-        return row;
-    }
-
-    int rows_;
-    int columns_;
-    Eigen::MatrixXd bending_;
-};
 
 /// Every direction alike.
 std::vector<Weighted> by_distance(const std::vector<Sample>& samples) {
@@ -267,6 +153,48 @@ Deviation deviation_of(const std::vector<Vec3>& points, const BezierPatch& patch
     return result;
 }
 
+/// Whether each of the places lies inside the outline of the face.
+std::vector<char> insides(const CadFace& face, const std::vector<Vec2>& places) {
+    const geometry::Trim trim = face.trim();
+    const Vec2 whole(face.rows, face.columns);
+    std::vector<char> inside(places.size());
+    parallel_for(std::ssize(places), 256, [&](std::ptrdiff_t n) {
+        const auto at = static_cast<std::size_t>(n);
+        inside[at] = trim.contains(places[at].cwiseQuotient(whole)) ? 1 : 0;
+    });
+    return inside;
+}
+
+/// Of points that are spread over the face, equally many on equal areas, and of the corners of its triangles,
+/// which are on its sides, too: only what its outline leaves, unless that is too little to be met.
+Deviation
+deviation_from(const Target& target, int points, const BezierPatch& patch, const Progress& progress) {
+    const CadFace& face = *target.face;
+    std::vector<Vec2> places;
+    for (const Spread& spread : spread_over(target.side.mesh, target.side.area, points)) {
+        places.push_back(spread.of(target.places));
+    }
+    const std::vector<char> spread_inside = insides(face, places);
+    std::vector<Vec3> inside;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        if (spread_inside[n] != 0) {
+            inside.push_back(face.position(places[n]));
+        }
+    }
+    Deviation at_corners = deviation_of(target.side.mesh.points, patch, progress);
+    if (inside.empty()) {
+        return at_corners;
+    }
+    Deviation result = deviation_of(inside, patch, progress);
+    const std::vector<char> corner_inside = insides(face, target.places);
+    for (std::size_t n = 0; n < corner_inside.size(); ++n) {
+        result.max =
+            corner_inside[n] != 0 ? std::max(result.max, std::abs(at_corners.at_points[n])) : result.max;
+    }
+    result.at_points = std::move(at_corners.at_points);
+    return result;
+}
+
 void check(const FitSettings& settings) {
     const auto fits = [](int degree) { return degree >= 1 && degree <= max_fit_degree; };
     expects(fits(settings.degree_u) && fits(settings.degree_v), "a degree that can be fitted");
@@ -275,11 +203,11 @@ void check(const FitSettings& settings) {
 }
 
 /// Points on the triangles and on the outline, where the square has them.
-std::vector<Sample> samples_on(const SquareMap& map, const SeenSide& side, int count) {
+std::vector<Sample> samples_on(const SquareMap& map, const Target& target, int count) {
     constexpr int points_an_edge_on_average = 4;
     std::vector<Sample> samples;
-    for (const Spread& spread : spread_over(side.mesh, side.area, count)) {
-        samples.push_back({spread.of(side.mesh.points), spread.of(map.places), std::nullopt});
+    for (const Spread& spread : spread_over(target.side.mesh, target.side.area, count)) {
+        samples.push_back({target.at(spread), spread.of(map.places), std::nullopt});
     }
     const int each =
         std::clamp<int>(count / (points_an_edge_on_average * static_cast<int>(map.outline.size())), 1, 20);
@@ -288,17 +216,16 @@ std::vector<Sample> samples_on(const SquareMap& map, const SeenSide& side, int c
             const double share = (k + 0.5) / each;
             const Spread spread{{edge.from, edge.to, edge.to}, {1.0 - share, share, 0.0}};
             // The last corner of a side has its place on the next side.
-            samples.push_back(
-                {spread.of(side.mesh.points), kept_on(edge.side, spread.of(map.places)), edge.side});
+            samples.push_back({target.at(spread), kept_on(edge.side, spread.of(map.places)), edge.side});
         }
     }
     return samples;
 }
 
-std::vector<Sample> samples_in(const Rectangle& rectangle, const SeenSide& side, int count) {
+std::vector<Sample> samples_in(const Rectangle& rectangle, const Target& target, int count) {
     std::vector<Sample> samples;
-    for (const Spread& spread : spread_over(side.mesh, side.area, count)) {
-        const Vec3 point = spread.of(side.mesh.points);
+    for (const Spread& spread : spread_over(target.side.mesh, target.side.area, count)) {
+        const Vec3 point = target.at(spread);
         samples.push_back({point, rectangle.place_of(point).cwiseMax(0.0).cwiseMin(1.0), std::nullopt});
     }
     return samples;
@@ -337,39 +264,123 @@ approach(const LeastSquares& squares, std::vector<Sample> samples, int rounds, c
 constexpr double everywhere_filled = 1e-13;
 constexpr double partly_empty = 1e-8;
 
+MeshFit fitted(Target target,
+               const std::optional<SquareMap>& square,
+               const FitSettings& settings,
+               const Progress& progress) {
+    const SeenSide& side = target.side;
+    std::vector<Sample> samples;
+    if (square) {
+        samples = samples_on(*square, target, settings.points);
+    } else if (const auto rectangle = least_rectangle(side.mesh.points, *settings.along)) {
+        samples = samples_in(*rectangle, target, settings.points);
+    } else {
+        throw Error("the points of the mesh lie in a line");
+    }
+    progress.report(0.1, "fitting the patch");
+    const LeastSquares squares(
+        settings.degree_u, settings.degree_v, square ? everywhere_filled : partly_empty);
+    Approach fit = approach(squares, std::move(samples), settings.rounds, progress.part(0.1, 0.7));
+    progress.report(0.7, "measuring the deviation");
+    constexpr int denser = 4; // than what was fitted, and so other points
+    Deviation deviation = target.face != nullptr
+                              ? deviation_from(target, denser * settings.points, fit.patch, progress)
+                              : deviation_of(side.mesh.points, fit.patch, progress);
+    return {std::move(fit.patch),
+            std::move(target.side.mesh),
+            std::move(target.side.left_out),
+            side.left_out_area,
+            *settings.along,
+            square.has_value(),
+            std::move(deviation),
+            fit.rounds};
+}
+
+/// The side of the target's mesh that is seen, by the way that the settings or the mesh itself say.
+MeshFit fitted_side(Target target,
+                    const TriangleMesh& mesh,
+                    const std::vector<Vec2>& places,
+                    FitSettings settings,
+                    const Progress& progress) {
+    settings.along = settings.along.value_or(mean_direction(mesh));
+    const Vec3& along = *settings.along;
+    target.side = seen_side(mesh, along);
+    if (target.side.mesh.triangles.empty()) {
+        throw Error(fmt::format(
+            "no triangle of the mesh looks along ({:.3g}, {:.3g}, {:.3g})", along.x(), along.y(), along.z()));
+    }
+    if (target.face != nullptr) {
+        for (const int number : target.side.numbers) {
+            target.places.push_back(places[static_cast<std::size_t>(number)]);
+        }
+    }
+    const auto rectangle = least_rectangle(target.side.mesh.points, along);
+    const auto square = rectangle ? square_map(target.side.mesh, *rectangle) : std::nullopt;
+    return fitted(std::move(target), square, settings, progress);
+}
+
+/// Triangles with corners on a face, and where on it those are.
+struct FaceMesh {
+    TriangleMesh mesh;
+    std::vector<Vec2> places;
+    std::vector<OutlineEdge> outline; ///< of the whole raster of patches
+};
+
+FaceMesh triangles_of(const CadFace& face) {
+    constexpr int steps = 24; // of a patch each way
+    const int down = face.rows * steps;
+    const int across = face.columns * steps;
+    FaceMesh made;
+    for (int i = 0; i <= down; ++i) {
+        for (int j = 0; j <= across; ++j) {
+            made.places.emplace_back(static_cast<double>(i) / steps, static_cast<double>(j) / steps);
+            made.mesh.points.push_back(face.position(made.places.back()));
+        }
+    }
+    const auto at = [&](int i, int j) { return i * (across + 1) + j; };
+    for (int i = 0; i < down; ++i) {
+        for (int j = 0; j < across; ++j) {
+            made.mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            made.mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    }
+    for (int i = 0; i < down; ++i) {
+        made.outline.push_back({at(i, 0), at(i + 1, 0), 0});
+        made.outline.push_back({at(i + 1, across), at(i, across), 2});
+    }
+    for (int j = 0; j < across; ++j) {
+        made.outline.push_back({at(down, j), at(down, j + 1), 1});
+        made.outline.push_back({at(0, j + 1), at(0, j), 3});
+    }
+    return made;
+}
+
 } // namespace
 
 MeshFit fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const Progress& progress) {
     check(settings);
-    const Vec3 along = settings.along.value_or(mean_direction(mesh));
-    SeenSide side = seen_side(mesh, along);
-    if (side.mesh.triangles.empty()) {
-        throw Error(fmt::format(
-            "no triangle of the mesh looks along ({:.3g}, {:.3g}, {:.3g})", along.x(), along.y(), along.z()));
+    return fitted_side({}, mesh, {}, settings, progress);
+}
+
+MeshFit fit_face(const CadFace& face, FitSettings settings, const Progress& progress) {
+    check(settings);
+    FaceMesh made = triangles_of(face);
+    Target target;
+    target.face = &face;
+    if (settings.along) {
+        return fitted_side(std::move(target), made.mesh, made.places, settings, progress);
     }
-    const std::optional<Rectangle> rectangle = least_rectangle(side.mesh.points, along);
-    if (!rectangle) {
-        throw Error("the points of the mesh lie in a line");
+    settings.along = mean_direction(made.mesh);
+    SquareMap own{{}, std::move(made.outline)};
+    for (const Vec2& place : made.places) {
+        own.places.push_back(place.cwiseQuotient(Vec2(face.rows, face.columns)));
     }
-    const std::optional<SquareMap> square = square_map(side.mesh, *rectangle);
-    progress.report(0.1, "fitting the patch");
-    const LeastSquares squares(
-        settings.degree_u, settings.degree_v, square ? everywhere_filled : partly_empty);
-    Approach fit = approach(squares,
-                            square ? samples_on(*square, side, settings.points)
-                                   : samples_in(*rectangle, side, settings.points),
-                            settings.rounds,
-                            progress.part(0.1, 0.7));
-    progress.report(0.7, "measuring the deviation");
-    Deviation deviation = deviation_of(side.mesh.points, fit.patch, progress);
-    return {std::move(fit.patch),
-            std::move(side.mesh),
-            std::move(side.left_out),
-            side.left_out_area,
-            along,
-            square.has_value(),
-            std::move(deviation),
-            fit.rounds};
+    for (std::size_t n = 0; n < made.mesh.triangles.size(); ++n) {
+        target.side.area += 0.5 * made.mesh.doubled_area(n).norm();
+    }
+    target.side.mesh = std::move(made.mesh);
+    target.places = std::move(made.places);
+    return fitted(std::move(target), own, settings, progress);
 }
 
 } // namespace millwright::exchange

@@ -1,11 +1,12 @@
-// A Bezier patch of chosen degree near a mesh: least squares over points spread evenly on the triangles.
-// After each round their parameters go to the nearest point of the patch (Hoschek and Lasser, Fundamentals of
-// Computer Aided Geometric Design, ch. 4.4), and the next one counts the distance from the tangent plane
-// there, which lets points slide along the patch and needs few rounds (Blake and Isard 1998, "tangent
-// distance minimization").
+// A Bezier patch of chosen degree near a mesh or a face: least squares over points spread evenly on the
+// triangles. After each round their parameters go to the nearest point of the patch (Hoschek and Lasser,
+// Fundamentals of Computer Aided Geometric Design, ch. 4.4), and the next one counts the distance from the
+// tangent plane there, which lets points slide along the patch and needs few rounds (Blake and Isard 1998,
+// "tangent distance minimization").
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/exchange/cad_file.h"
 #include "core/exchange/triangle_mesh.h"
 #include "core/geometry/bezier_patch.h"
 
@@ -23,12 +24,13 @@ struct FitSettings {
     int degree_u = 5; ///< 1 to `max_fit_degree`
     int degree_v = 5; ///< the same
     std::optional<Vec3> along =
-        std::nullopt;   ///< unit, out of the part: the side that is fitted; else found, see `fit_patch`
+        std::nullopt;   ///< unit, out of the part: the side that is fitted; else found, or a whole face
     int points = 5'000; ///< spread over the triangles, at least 100
     int rounds = 12;    ///< of correcting the parameters, at most
 };
 
-/// Distances of points of the mesh from the patch, mm; above zero on the side of its normal.
+/// Distances of points of the mesh from the patch, mm; above zero on the side of its normal. Of a face the
+/// figures are those of points spread densely over what its outline leaves.
 struct Deviation {
     std::vector<double> at_points; ///< one a point of `MeshFit::side`
     double max = 0.0;              ///< without sign
@@ -53,5 +55,10 @@ struct MeshFit {
 /// no triangle looks that way or they all lie in a line; Cancelled.
 [[nodiscard]] MeshFit
 fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const Progress& progress);
+
+/// The same near a face: the points that are fitted and measured lie on the face itself, between the corners
+/// of the triangles, too. The whole face keeps its parameters, so that the patch follows its sides; with
+/// `FitSettings::along` only what is seen from there is fitted, as of a mesh.
+[[nodiscard]] MeshFit fit_face(const CadFace& face, FitSettings settings, const Progress& progress);
 
 } // namespace millwright::exchange

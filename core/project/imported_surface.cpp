@@ -68,32 +68,6 @@ import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Pr
     return imported;
 }
 
-/// All patches of a face; points on common sides are one.
-TriangleMesh triangles_of(const CadFace& face) {
-    constexpr int steps = 24; // of a patch each way
-    TriangleMesh mesh;
-    const int across = face.columns * steps + 1;
-    for (int i = 0; i <= face.rows * steps; ++i) {
-        for (int j = 0; j < across; ++j) {
-            const int row = std::min(i / steps, face.rows - 1);
-            const int column = std::min(j / steps, face.columns - 1);
-            const geometry::BezierPatch& patch =
-                face.patches[static_cast<std::size_t>(row * face.columns + column)];
-            mesh.points.push_back(patch.position(static_cast<double>(i - row * steps) / steps,
-                                                 static_cast<double>(j - column * steps) / steps));
-        }
-    }
-    for (int i = 0; i < face.rows * steps; ++i) {
-        for (int j = 0; j + 1 < across; ++j) {
-            const int a = i * across + j;
-            const int b = a + across;
-            mesh.triangles.push_back({a, b, b + 1});
-            mesh.triangles.push_back({a, b + 1, a + 1});
-        }
-    }
-    return mesh;
-}
-
 std::vector<geometry::Trim::Loop> loops_of(const CadFace& face) {
     std::vector<geometry::Trim::Loop> loops;
     if (face.trimmed()) {
@@ -101,14 +75,6 @@ std::vector<geometry::Trim::Loop> loops_of(const CadFace& face) {
         loops.insert(loops.end(), face.holes.begin(), face.holes.end());
     }
     return loops;
-}
-
-/// In the parameters of the whole face.
-Vec3 position_on(const CadFace& face, const Vec2& at) {
-    const int row = std::clamp(static_cast<int>(at.x()), 0, face.rows - 1);
-    const int column = std::clamp(static_cast<int>(at.y()), 0, face.columns - 1);
-    return face.patches[static_cast<std::size_t>(row * face.columns + column)].position(at.x() - row,
-                                                                                        at.y() - column);
 }
 
 /// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
@@ -124,7 +90,7 @@ moved_onto(const geometry::ClosestPointSearch& patch, const CadFace& face, const
         for (int k = 0; k < pieces; ++k) {
             const Vec2 at = a + static_cast<double>(k) / pieces * edge;
             const Vec2 start(at.x() / face.rows, at.y() / face.columns);
-            moved.push_back(patch.closest(position_on(face, at), start).parameters);
+            moved.push_back(patch.closest(face.position(at), start).parameters);
         }
     }
     return moved;
@@ -132,7 +98,7 @@ moved_onto(const geometry::ClosestPointSearch& patch, const CadFace& face, const
 
 ImportedSurface fitted_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
-    take_fit(imported, exchange::fit_patch(triangles_of(face), fit_settings(choice), progress));
+    take_fit(imported, exchange::fit_face(face, fit_settings(choice), progress));
     const geometry::ClosestPointSearch search(imported.fit->patch);
     geometry::Trim trim;
     for (const geometry::Trim::Loop& loop : loops_of(face)) {

@@ -26,21 +26,6 @@ int cells_of_a_patch(const exchange::CadModel& model) {
     return std::clamp(static_cast<int>(std::sqrt(each)), 1, most_trimmed_cells);
 }
 
-/// The outline and the holes over [0,1]^2.
-geometry::Trim trim_of(const CadFace& face) {
-    geometry::Trim trim;
-    if (face.trimmed()) {
-        trim.loops.push_back(face.outline);
-        trim.loops.insert(trim.loops.end(), face.holes.begin(), face.holes.end());
-    }
-    for (geometry::Trim::Loop& loop : trim.loops) {
-        for (Vec2& corner : loop) {
-            corner = {corner.x() / face.rows, corner.y() / face.columns};
-        }
-    }
-    return trim;
-}
-
 /// The triangles of one patch whose middle lies inside.
 void add_patch(
     TriangleMesh& mesh, const CadFace& face, int row, int column, int cells, const geometry::Trim& trim) {
@@ -80,7 +65,7 @@ void add_faces_but(ReferenceMesh& reference,
         if (face.number == chosen) {
             continue;
         }
-        const geometry::Trim trim = trim_of(face);
+        const geometry::Trim trim = face.trim();
         for (int row = 0; row < face.rows; ++row) {
             for (int column = 0; column < face.columns; ++column) {
                 add_patch(

@@ -13,7 +13,7 @@ namespace millwright::project {
 struct ReferenceMesh {
     exchange::TriangleMesh fitted;
     std::vector<double> deviation; ///< one a point of `fitted`, mm; above zero on the side of the normal
-    double largest = 0.0;          ///< of them, without sign
+    double largest = 0.0;          ///< as it is told, without sign
     exchange::TriangleMesh rest;   ///< other faces of the file, other sides of the mesh
     std::vector<int> faces; ///< number of the face that each triangle of `rest` is of; empty for a mesh
 };

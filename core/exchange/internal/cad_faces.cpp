@@ -1,6 +1,7 @@
 #include "core/exchange/internal/cad_faces.h"
 
 #include "core/base/error.h"
+#include "core/exchange/internal/cad_box.h"
 
 #include <BRepAdaptor_Curve2d.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -191,7 +192,6 @@ CadFace face_of(const TopoDS_Face& original, int number) {
     for (int i = 1; i <= result.rows; ++i) {
         for (int j = 1; j <= result.columns; ++j) {
             result.patches.push_back(patch_of(*pieces.Patch(i, j)));
-            result.box.extend(result.patches.back().control_box());
         }
     }
     Knots knots{TColStd_Array1OfReal(1, result.rows + 1), TColStd_Array1OfReal(1, result.columns + 1)};
@@ -206,8 +206,11 @@ CadFace face_of(const TopoDS_Face& original, int number) {
     if (face.Orientation() == TopAbs_REVERSED) {
         turn_over(result);
     }
+    result.box = box_of(result, original);
     return result;
 }
+
+constexpr const char* write_fewer = "write the body or the faces that are to be cut to a file of their own";
 
 /// The faces in the order of the file.
 std::vector<TopoDS_Face> listed(const TopoDS_Shape& shape, const std::filesystem::path& file) {
@@ -215,12 +218,10 @@ std::vector<TopoDS_Face> listed(const TopoDS_Shape& shape, const std::filesystem
     for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
         faces.push_back(TopoDS::Face(at.Current()));
         if (std::ssize(faces) > most_cad_faces) {
-            throw Error(fmt::format("more than {} faces", most_cad_faces), file);
+            throw Error(fmt::format("more than {} faces", most_cad_faces), file, write_fewer);
         }
     }
-    if (faces.empty()) {
-        throw Error("the file has no face", file, "curves and points alone cannot be cut as a surface");
-    }
+    expects(!faces.empty(), "a shape with faces");
     return faces;
 }
 
@@ -247,7 +248,7 @@ CadModel faces_of(const TopoDS_Shape& shape, const std::filesystem::path& file, 
             leave_out(error.diagnostic().message.c_str());
         }
         if (patches > most_cad_patches) {
-            throw Error(fmt::format("more than {} Bezier patches", most_cad_patches), file);
+            throw Error(fmt::format("more than {} Bezier patches", most_cad_patches), file, write_fewer);
         }
     }
     if (model.faces.empty()) {

@@ -7,7 +7,8 @@
 
 namespace millwright::exchange {
 
-/// Every face of the shape. Throws Error, naming `file`, if there is none, or beyond the limits; Cancelled.
+/// Every face of the shape, which has some. Throws Error, naming `file`, if none can be converted, or beyond
+/// the limits; Cancelled.
 [[nodiscard]] CadModel
 faces_of(const TopoDS_Shape& shape, const std::filesystem::path& file, const Progress& progress);
 

@@ -127,6 +127,8 @@ void put_face(Packer& to, const CadFace& face) {
     to.put_each(face.patches, [&](const auto& patch) { put_patch(to, patch); });
     put_loop(to, face.outline);
     to.put_each(face.holes, [&](const auto& hole) { put_loop(to, hole); });
+    put_vector(to, face.box.min());
+    put_vector(to, face.box.max());
 }
 
 CadFace get_face(Unpacker& from) {
@@ -137,9 +139,8 @@ CadFace get_face(Unpacker& from) {
     face.patches = from.get_each(sizeof(int), [&] { return get_patch(from); });
     face.outline = get_loop(from);
     face.holes = from.get_each(sizeof(std::uint64_t), [&] { return get_loop(from); });
-    for (const geometry::BezierPatch& patch : face.patches) {
-        face.box.extend(patch.control_box());
-    }
+    const Vec3 low = get_vector(from);
+    face.box = Box3(low, get_vector(from));
     return face;
 }
 

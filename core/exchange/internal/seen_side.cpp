@@ -36,17 +36,20 @@ public:
             if (at < 0) {
                 at = static_cast<int>(part_.points.size());
                 part_.points.push_back(whole_.points[static_cast<std::size_t>(corner)]);
+                numbers_.push_back(corner);
             }
             corner = at;
         }
         part_.triangles.push_back(triangle);
     }
-    [[nodiscard]] TriangleMesh take() && { return std::move(part_); }
+    [[nodiscard]] TriangleMesh take_mesh() { return std::move(part_); }
+    [[nodiscard]] std::vector<int> take_numbers() { return std::move(numbers_); }
 
 private:
     const TriangleMesh& whole_;
     std::vector<int> place_;
     TriangleMesh part_;
+    std::vector<int> numbers_;
 };
 
 } // namespace
@@ -62,8 +65,9 @@ SeenSide seen_side(const TriangleMesh& mesh, const Vec3& along) {
         (is_seen ? side.area : side.left_out_area) += 0.5 * normal.norm();
         (is_seen ? seen : left_out).add(n);
     }
-    side.mesh = std::move(seen).take();
-    side.left_out = std::move(left_out).take();
+    side.mesh = seen.take_mesh();
+    side.numbers = seen.take_numbers();
+    side.left_out = left_out.take_mesh();
     return side;
 }
 

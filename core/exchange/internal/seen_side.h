@@ -9,6 +9,7 @@ namespace millwright::exchange {
 
 struct SeenSide {
     TriangleMesh mesh;
+    std::vector<int> numbers;   ///< of its points in the whole mesh
     TriangleMesh left_out;      ///< the triangles that look the other way or sideways
     double area = 0.0;          ///< mm^2
     double left_out_area = 0.0; ///< mm^2

@@ -6,10 +6,12 @@
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -17,6 +19,7 @@
 #include <Message_Printer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gmock/gmock.h>
 #include <gp_Circ.hxx>
@@ -25,6 +28,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <stop_token>
+#include <string>
 
 namespace millwright::exchange {
 namespace {
@@ -160,6 +165,104 @@ TEST_F(CadBodies, HolesOfAPlateComeWithItsOutline) {
         }
     }
     EXPECT_EQ(drilled, 2);
+}
+
+void expect_box(const Box3& box, const Vec3& low, const Vec3& high) {
+    EXPECT_LT((box.min() - low).norm(), 1e-4) << box.min().transpose();
+    EXPECT_LT((box.max() - high).norm(), 1e-4) << box.max().transpose();
+}
+
+// The control points of these lie up to 13 mm outside of them.
+TEST_F(CadBodies, BoxIsThatOfTheFaceNotOfItsControlPoints) {
+    const double quarter = std::numbers::pi / 2.0;
+    const gp_Ax2 turned(gp_Pnt(0, 0, 0), gp_Dir(1, 1, 1), gp_Dir(1, -1, 0));
+    for (const CadFace& face :
+         through_step(BRepPrimAPI_MakeSphere(turned, 20.0, -quarter, quarter).Shape()).faces) {
+        expect_box(face.box, Vec3::Constant(-20.0), Vec3::Constant(20.0));
+    }
+    const gp_Ax2 upright(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+    Box3 octant;
+    for (const CadFace& face :
+         through_step(BRepPrimAPI_MakeSphere(upright, 20.0, 0.0, quarter, quarter).Shape()).faces) {
+        octant.extend(face.box);
+    }
+    expect_box(octant, Vec3::Zero(), Vec3::Constant(20.0));
+    // 60 degrees, so that no side of the box is at an end of the arc.
+    const gp_Ax2 across(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(std::sqrt(3.0), -1.0, 0));
+    const CadModel bar =
+        through_step(BRepPrimAPI_MakeCylinder(across, 10.0, 40.0, std::numbers::pi / 3.0).Shape());
+    Box3 round;
+    for (const CadFace& face : bar.faces) {
+        if (face.patches.front().rational()) {
+            round.extend(face.box);
+        }
+    }
+    expect_box(round, Vec3(5.0 * std::sqrt(3.0), -5.0, 0.0), Vec3(10.0, 5.0, 40.0));
+}
+
+TEST_F(CadBodies, BoxOfATrimmedFaceIsOfWhatIsLeft) {
+    const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(10.0, 40.0).Shape();
+    const TopoDS_Shape drill =
+        BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-30, 0, 40), gp_Dir(1, 0, 0)), 6.0, 60.0).Shape();
+    int walls = 0;
+    for (const CadFace& face : through_step(BRepAlgoAPI_Cut(bar, drill).Shape()).faces) {
+        if (face.box.min().z() < 1.0 || face.box.min().z() > 39.0) {
+            continue;
+        }
+        ++walls;
+        expect_box(face.box, Vec3(-10.0, -6.0, 34.0), Vec3(10.0, 6.0, 40.0));
+    }
+    EXPECT_EQ(walls, 1);
+}
+
+TEST_F(CadBodies, OfAFileWithoutAFaceIsToldWhatItHolds) {
+    const auto refusal = [&](const TopoDS_Shape& shape, bool iges) {
+        try {
+            (void)(iges ? through_iges(shape) : through_step(shape));
+        } catch (const Error& error) {
+            return error.diagnostic().message + " / " + error.diagnostic().hint;
+        }
+        return std::string("none");
+    };
+    const BRep_Builder builder;
+    TopoDS_Compound nothing;
+    builder.MakeCompound(nothing);
+    EXPECT_THAT(
+        refusal(nothing, false),
+        ::testing::MatchesRegex("the file holds no face: 1 product without a shape / an assembly .*"));
+    TopoDS_Compound frame;
+    builder.MakeCompound(frame);
+    builder.Add(frame, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Shape());
+    builder.Add(frame, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 5, 0), gp_Pnt(10, 5, 0)).Shape());
+    builder.Add(frame, BRepBuilderAPI_MakeVertex(gp_Pnt(1, 2, 3)).Shape());
+    for (const bool iges : {false, true}) {
+        EXPECT_EQ(refusal(frame, iges),
+                  "the file holds no face: 2 edges and 1 point / curves and points alone cannot be cut as a "
+                  "surface");
+    }
+}
+
+TEST_F(CadBodies, ThousandsOfFacesComeWithProgressAndCanBeCancelled) {
+    const BRep_Builder builder;
+    TopoDS_Compound boxes;
+    builder.MakeCompound(boxes);
+    for (int n = 0; n < 200; ++n) {
+        builder.Add(boxes, BRepPrimAPI_MakeBox(gp_Pnt(40.0 * n, 0, 0), 30.0, 20.0, 10.0).Shape());
+    }
+    EXPECT_EQ(through_step(boxes).faces.size(), 1200U);
+    std::stop_source stop;
+    double last = 0.0;
+    const Progress progress(
+        [&](const Progress::Report& now) {
+            EXPECT_GE(now.fraction, last);
+            last = now.fraction;
+            if (last > 0.7) {
+                stop.request_stop();
+            }
+        },
+        stop.get_token());
+    EXPECT_THROW((void)read_cad(folder_ / "body.step", progress), Cancelled);
+    EXPECT_GT(last, 0.7);
 }
 
 TEST_F(CadBodies, IgesIsTheSame) {

@@ -153,12 +153,30 @@ TEST_F(CadFile, DamagedAndOtherFilesAreRefused) {
     EXPECT_THAT(refusal("", "part.step"), HasSubstr("empty"));
     EXPECT_THAT(refusal("solid plate\n", "part.step"), HasSubstr("ISO-10303-21"));
     EXPECT_THAT(refusal("hello\n", "part.igs"), HasSubstr("column 73"));
-    EXPECT_NE(refusal("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n", "part.step"),
-              "none");
     write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
     const std::string whole = read_file(folder_ / "whole.step");
-    EXPECT_NE(refusal(whole.substr(0, whole.size() / 2), "half.step"), "none");
+    EXPECT_THAT(refusal(whole.substr(0, whole.size() / 2), "half.step"), HasSubstr("the file is cut off"));
+    EXPECT_THAT(refusal("ISO-10303-21;\nnonsense\nEND-ISO-10303-21;\n", "broken.step"), HasSubstr("damaged"));
     EXPECT_THROW((void)read_cad(folder_ / "missing.step", {}), Error);
+}
+
+/// A file with these lines as its data.
+std::string step_of(const std::string& data) {
+    return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+           "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n" +
+           data + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+TEST_F(CadFile, WithoutAFaceIsToldAsWhatItIs) {
+    EXPECT_EQ(refusal(step_of(""), "empty.step"), "the file holds nothing: it has no entities");
+    EXPECT_EQ(refusal(step_of("#1=CARTESIAN_POINT('',(1.,2.,3.));\n"), "point.step"),
+              "the file holds no face: 1 point");
+    EXPECT_EQ(refusal(step_of("#1=APPLICATION_CONTEXT('');\n#2=PRODUCT_CONTEXT('',#1,'');\n"
+                              "#3=PRODUCT('bracket','bracket','',(#2));\n"),
+                      "assembly.step"),
+              "the file holds no face: 1 product without a shape");
+    EXPECT_EQ(refusal(step_of("#1=NO_SUCH_SHELL('',());\n"), "other.step"),
+              "the file holds no face: 1 entity of an unknown kind");
 }
 
 // The library follows a reference that the file does not have; the process that reads it ends, this one goes

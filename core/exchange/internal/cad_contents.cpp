@@ -1,0 +1,137 @@
+#include "core/exchange/internal/cad_contents.h"
+
+#include "core/base/error.h"
+#include "core/exchange/cad_file.h"
+
+#include <IGESData_UndefinedEntity.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_UndefinedEntity.hxx>
+#include <StepGeom_Curve.hxx>
+#include <StepGeom_Point.hxx>
+#include <StepShape_Face.hxx>
+#include <TopExp_Explorer.hxx>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace millwright::exchange {
+
+namespace {
+
+/// "1 wire", "3 wires"; nothing of none.
+void add(std::vector<std::string>& parts, int count, const char* one, const char* several) {
+    if (count > 0) {
+        parts.push_back(fmt::format("{} {}", count, count == 1 ? one : several));
+    }
+}
+
+std::string listed(const std::vector<std::string>& parts) {
+    std::string text;
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        text += n == 0 ? "" : n + 1 == parts.size() ? " and " : ", ";
+        text += parts[n];
+    }
+    return text;
+}
+
+int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum not_in = TopAbs_SHAPE) {
+    int count = 0;
+    for (TopExp_Explorer at(shape, kind, not_in); at.More(); at.Next()) {
+        ++count;
+    }
+    return count;
+}
+
+std::vector<std::string> parts_of(const TopoDS_Shape& shape) {
+    std::vector<std::string> parts;
+    add(parts, count_of(shape, TopAbs_WIRE), "wire", "wires");
+    add(parts, count_of(shape, TopAbs_EDGE, TopAbs_WIRE), "edge", "edges");
+    add(parts, count_of(shape, TopAbs_VERTEX, TopAbs_EDGE), "point", "points");
+    return parts;
+}
+
+struct ModelCounts {
+    int products = 0;
+    int curves = 0;
+    int points = 0;
+    int unknown = 0;
+};
+
+ModelCounts counts_of(const Interface_InterfaceModel& model) {
+    ModelCounts counts;
+    for (int n = 1; n <= model.NbEntities(); ++n) {
+        const Handle(Standard_Transient)& entity = model.Value(n);
+        counts.products += entity->IsKind(STANDARD_TYPE(StepBasic_Product)) ? 1 : 0;
+        counts.curves += entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) ? 1 : 0;
+        counts.points += entity->IsKind(STANDARD_TYPE(StepGeom_Point)) ? 1 : 0;
+        counts.unknown += entity->IsKind(STANDARD_TYPE(StepData_UndefinedEntity)) ||
+                                  entity->IsKind(STANDARD_TYPE(IGESData_UndefinedEntity))
+                              ? 1
+                              : 0;
+    }
+    return counts;
+}
+
+/// The points and curves of a product that is placed are of its axes.
+bool is_empty_assembly(const ModelCounts& counts) {
+    return counts.products > 0 && counts.curves == 0 && counts.unknown == 0;
+}
+
+std::vector<std::string> parts_of(const ModelCounts& counts) {
+    std::vector<std::string> parts;
+    add(parts, counts.products, "product without a shape", "products without a shape");
+    if (!is_empty_assembly(counts)) {
+        add(parts, counts.curves, "curve", "curves");
+        add(parts, counts.points, "point", "points");
+    }
+    return parts;
+}
+
+std::string hint_for(const ModelCounts& counts, bool without_shape) {
+    if (counts.unknown > 0) {
+        return "what is not known cannot be read: write exact surfaces, as STEP AP203, AP214 or AP242";
+    }
+    if (without_shape && is_empty_assembly(counts)) {
+        return "an assembly may have its parts in files of their own: import those";
+    }
+    return counts.curves + counts.points > 0 || !without_shape
+               ? "curves and points alone cannot be cut as a surface"
+               : "was anything chosen to be written, and is the file whole?";
+}
+
+} // namespace
+
+void expect_not_too_many_faces(const Interface_InterfaceModel& model, const std::filesystem::path& file) {
+    int faces = 0;
+    for (int n = 1; n <= model.NbEntities(); ++n) {
+        faces += model.Value(n)->IsKind(STANDARD_TYPE(StepShape_Face)) ? 1 : 0;
+    }
+    if (faces > most_cad_faces) {
+        throw Error(fmt::format("the file has {} faces, more than {}", faces, most_cad_faces),
+                    file,
+                    "write the body or the faces that are to be cut to a file of their own");
+    }
+}
+
+void refuse_without_face(const TopoDS_Shape& shape,
+                         const Interface_InterfaceModel& model,
+                         const std::filesystem::path& file) {
+    const ModelCounts counts = counts_of(model);
+    std::vector<std::string> parts = shape.IsNull() ? std::vector<std::string>{} : parts_of(shape);
+    const bool without_shape = parts.empty();
+    if (without_shape) {
+        parts = parts_of(counts);
+    }
+    const std::string hint = hint_for(counts, without_shape);
+    add(parts, counts.unknown, "entity of an unknown kind", "entities of unknown kinds");
+    if (parts.empty()) {
+        add(parts, model.NbEntities(), "entity that is no shape", "entities that are no shape");
+    }
+    throw Error(parts.empty() ? "the file holds nothing: it has no entities"
+                              : fmt::format("the file holds no face: {}", listed(parts)),
+                file,
+                hint);
+}
+
+} // namespace millwright::exchange

@@ -1,0 +1,20 @@
+// What a file holds beside faces, or too many of them, in words.
+#pragma once
+
+#include <Interface_InterfaceModel.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <filesystem>
+
+namespace millwright::exchange {
+
+/// Throws Error about `file` if a STEP model has more faces than can be read: before they are made, which
+/// takes its time.
+void expect_not_too_many_faces(const Interface_InterfaceModel& model, const std::filesystem::path& file);
+
+/// Throws Error about `file`: it has no face. `shape` may be null, where nothing of the model became one.
+[[noreturn]] void refuse_without_face(const TopoDS_Shape& shape,
+                                      const Interface_InterfaceModel& model,
+                                      const std::filesystem::path& file);
+
+} // namespace millwright::exchange

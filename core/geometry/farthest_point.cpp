@@ -1,0 +1,136 @@
+#include "core/geometry/farthest_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace millwright::geometry {
+
+namespace {
+
+using Net = Eigen::ArrayXXd;
+
+/// A part of the patch over a rectangle of its parameters, seen along the direction only.
+struct Piece {
+    Net weighted; ///< heights times weights
+    Net weights;
+    Vec2 corner = Vec2::Zero();
+    Vec2 size = Vec2::Ones();
+    double bound = 0.0; ///< no point of it is higher: of the control points none is
+
+    [[nodiscard]] Net heights() const { return weighted / weights; }
+};
+
+Piece whole(const BezierPatch& patch, const Vec3& direction) {
+    const ControlNet& net = patch.net();
+    Piece piece{Net(net.rows, net.columns), Net(net.rows, net.columns)};
+    for (int i = 0; i < net.rows; ++i) {
+        for (int j = 0; j < net.columns; ++j) {
+            piece.weights(i, j) = net.weight(i, j);
+            piece.weighted(i, j) = net.weight(i, j) * net.point(i, j).dot(direction);
+        }
+    }
+    piece.bound = piece.heights().maxCoeff();
+    return piece;
+}
+
+/// Both halves of each column of the net, by de Casteljau.
+std::pair<Net, Net> halves(Net net) {
+    Net first(net.rows(), net.cols());
+    const Eigen::Index last = net.rows() - 1;
+    for (Eigen::Index k = 0; k <= last; ++k) {
+        first.row(k) = net.row(0);
+        for (Eigen::Index i = 0; i < last - k; ++i) {
+            net.row(i) = 0.5 * (net.row(i) + net.row(i + 1));
+        }
+    }
+    return {std::move(first), std::move(net)};
+}
+
+std::pair<Net, Net> halves(const Net& net, int axis) {
+    if (axis == 0) {
+        return halves(net);
+    }
+    auto [first, second] = halves(Net(net.transpose()));
+    return {first.transpose(), second.transpose()};
+}
+
+std::array<Piece, 2> halves(const Piece& piece, int axis) {
+    auto [low, high] = halves(piece.weighted, axis);
+    auto [low_weights, high_weights] = halves(piece.weights, axis);
+    Vec2 size = piece.size;
+    size[axis] *= 0.5;
+    Vec2 middle = piece.corner;
+    middle[axis] += size[axis];
+    std::array<Piece, 2> result{Piece{std::move(low), std::move(low_weights), piece.corner, size},
+                                Piece{std::move(high), std::move(high_weights), middle, size}};
+    for (Piece& half : result) {
+        half.bound = half.heights().maxCoeff();
+    }
+    return result;
+}
+
+double largest_bend(const Net& heights) {
+    const Eigen::Index inner = heights.rows() - 2;
+    return inner < 1
+               ? 0.0
+               : (heights.topRows(inner) - 2.0 * heights.middleRows(1, inner) + heights.bottomRows(inner))
+                     .abs()
+                     .maxCoeff();
+}
+
+/// A patch that is bent in neither direction is highest at a corner.
+int more_bent_axis(const Piece& piece) {
+    const Net heights = piece.heights();
+    return largest_bend(heights) >= largest_bend(heights.transpose()) ? 0 : 1;
+}
+
+/// The corners are points of the patch.
+void raise(FarthestPoint& best, const Piece& piece) {
+    for (const int i : {0, 1}) {
+        for (const int j : {0, 1}) {
+            const Eigen::Index row = i * (piece.weights.rows() - 1);
+            const Eigen::Index column = j * (piece.weights.cols() - 1);
+            const double height = piece.weighted(row, column) / piece.weights(row, column);
+            if (height > best.along) {
+                best = {piece.corner + Vec2(i, j).cwiseProduct(piece.size), height};
+            }
+        }
+    }
+}
+
+struct LowerBound {
+    bool operator()(const Piece& a, const Piece& b) const { return a.bound < b.bound; }
+};
+
+} // namespace
+
+// Branch and bound: what may be higher than the highest point found is halved.
+FarthestPoint farthest_point(const BezierPatch& patch, const Vec3& direction) {
+    constexpr double tolerance = 1e-9; // of the extent of the net
+    constexpr int most_halvings = 5'000;
+    Piece all = whole(patch, direction);
+    const Net heights = all.heights();
+    const double near = tolerance * (heights.maxCoeff() - heights.minCoeff());
+    FarthestPoint best{Vec2::Zero(), -std::numeric_limits<double>::infinity()};
+    raise(best, all);
+    std::priority_queue<Piece, std::vector<Piece>, LowerBound> open;
+    open.push(std::move(all));
+    for (int n = 0; n < most_halvings && !open.empty() && open.top().bound > best.along + near; ++n) {
+        const Piece piece = open.top();
+        open.pop();
+        for (Piece& half : halves(piece, more_bent_axis(piece))) {
+            raise(best, half);
+            if (half.bound > best.along + near) {
+                open.push(std::move(half));
+            }
+        }
+    }
+    return best;
+}
+
+} // namespace millwright::geometry
