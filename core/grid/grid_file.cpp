@@ -105,14 +105,55 @@ struct Placed {
     std::vector<Number> places;
 };
 
-bool is_folded(const NodeArray& nodes, int i, int j) {
-    NodeArray cell(2, 2);
-    for (int a = 0; a < 2; ++a) {
-        for (int b = 0; b < 2; ++b) {
-            cell.at(a, b) = nodes.at(i + a, j + b);
+std::string node_name(int i, int j) {
+    return "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
+}
+
+/// The corners of cell (i, j) one after another around it.
+using Corner = std::array<int, 2>;
+std::array<Corner, 4> corners_of(int i, int j) {
+    return {Corner{i, j}, Corner{i + 1, j}, Corner{i + 1, j + 1}, Corner{i, j + 1}};
+}
+
+/// Two corners in one place, as the rest of a sentence; empty if there are none.
+std::string same_corners(const NodeArray& nodes, int i, int j) {
+    const std::array<Corner, 4> corners = corners_of(i, j);
+    for (std::size_t a = 0; a < 4; ++a) {
+        for (std::size_t b = a + 1; b < 4; ++b) {
+            if (nodes.at(corners[a][0], corners[a][1]) == nodes.at(corners[b][0], corners[b][1])) {
+                return "nodes " + node_name(corners[a][0], corners[a][1]) + " and " +
+                       node_name(corners[b][0], corners[b][1]) + " are in one place";
+            }
         }
     }
-    return !(min_corner_jacobian(cell) > 0.0);
+    return {};
+}
+
+/// The sines of the angles at the corners of cell (i, j): the least and the largest.
+std::array<double, 2> sines(const NodeArray& nodes, int i, int j) {
+    const std::array<Corner, 4> corners = corners_of(i, j);
+    const auto at = [&](std::size_t k) { return nodes.at(corners[k % 4][0], corners[k % 4][1]); };
+    std::array<double, 2> found{2.0, -2.0};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 ahead = (at(k + 1) - at(k)).normalized();
+        const Vec2 back = (at(k + 3) - at(k)).normalized();
+        const double sine = ahead.x() * back.y() - ahead.y() * back.x();
+        found = {std::min(found[0], sine), std::max(found[1], sine)};
+    }
+    return found;
+}
+
+/// What is wrong with cell (i, j), as the rest of a sentence; empty if nothing is.
+std::string fault_of_cell(const NodeArray& nodes, int i, int j) {
+    constexpr double rounding = 1e-12; // of a sine: a line that is not parallel to an axis is none to the bit
+    if (const std::string same = same_corners(nodes, i, j); !same.empty()) {
+        return "has no area of its own: " + same;
+    }
+    const auto [least, largest] = sines(nodes, i, j);
+    if (std::max(std::abs(least), std::abs(largest)) <= rounding) {
+        return "has no area: its nodes lie on one line";
+    }
+    return least > rounding ? "" : "is folded";
 }
 
 void require_near(const Placed& found, const std::filesystem::path& file) {
@@ -132,12 +173,12 @@ void require_unfolded(const Placed& found, const std::filesystem::path& file, co
     const NodeArray& nodes = found.nodes;
     for (int i = 0; i + 1 < nodes.rows; ++i) {
         for (int j = 0; j + 1 < nodes.columns; ++j) {
-            if (is_folded(nodes, i, j)) {
+            if (const std::string fault = fault_of_cell(nodes, i, j); !fault.empty()) {
                 const Number& place = found.places[nodes.index(i, j)];
                 fail(file,
                      place.line,
                      place.column,
-                     "The cell from node (" + std::to_string(i) + ", " + std::to_string(j) + ") is folded",
+                     "The cell from node " + node_name(i, j) + " " + fault,
                      hint);
             }
         }

@@ -85,8 +85,13 @@ bool JacobiNewton::iterate() {
     if (status_ != SolverStatus::running) {
         return false;
     }
-    const bool singular = relax(nodes_, equations_, settings_.boundary, settings_.relaxation) > 0;
     ++iterations_;
+    // An iteration may spread a folded start out, which is no answer to it.
+    if (iterations_ == 1 && !(min_corner_jacobian(nodes_) > 0.0)) {
+        status_ = SolverStatus::folded;
+        return false;
+    }
+    const bool singular = relax(nodes_, equations_, settings_.boundary, settings_.relaxation) > 0;
     if (all_finite(nodes_)) {
         sweep();
     } else {

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "tests/support/grid_arrays.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -115,6 +116,29 @@ TEST(GridFile, AFoldedGridIsNamedByItsFirstCell) {
     EXPECT_EQ(diagnostic_of(blocks_text(nodes)), "grid.dat:2:28: The cell from node (1, 1) is folded");
     EXPECT_EQ(pairs_diagnostic_of(pairs_text(nodes), 4, 4),
               "start.dat:6:1: The cell from node (1, 1) is folded");
+}
+
+TEST(GridFile, ACellWithoutAreaIsNamedWithWhatItsNodesDo) {
+    NodeArray twice = unit_spaced(4, 4);
+    twice.at(2, 1) = twice.at(1, 1);
+    EXPECT_THAT(
+        diagnostic_of(blocks_text(twice)),
+        testing::EndsWith("The cell from node (1, 0) has no area of its own: nodes (2, 1) and (1, 1) are "
+                          "in one place"));
+    NodeArray row_on_row = unit_spaced(4, 4);
+    for (int j = 0; j < 4; ++j) {
+        row_on_row.at(2, j) = row_on_row.at(1, j) + Vec2(0.0, 0.25);
+    }
+    EXPECT_THAT(diagnostic_of(blocks_text(row_on_row)),
+                testing::EndsWith("The cell from node (1, 0) has no area: its nodes lie on one line"));
+    NodeArray slanted = unit_spaced(3, 5);
+    for (Vec2& node : slanted.nodes) {
+        node = (node.x() + 0.1 * node.y()) * Vec2(0.3, 0.7);
+    }
+    EXPECT_THAT(diagnostic_of(blocks_text(slanted)),
+                testing::EndsWith("The cell from node (0, 0) has no area: its nodes lie on one line"));
+    EXPECT_THAT(pairs_diagnostic_of("0.5 0.5\n0.5 0.5\n0.5 0.5\n0.5 0.5\n", 2, 2),
+                testing::HasSubstr("nodes (0, 0) and (1, 0) are in one place"));
 }
 
 TEST(GridFile, AWrongCountOfPairsIsNamedWithItsPlace) {
