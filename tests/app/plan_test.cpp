@@ -15,6 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
+// T24.
 TEST(PlanCommand, LeavesProgramReportAndPicture) {
     const ScratchFolder scratch;
     const fs::path project = small_project(scratch.path(), "dome");

@@ -11,6 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
+// T24.
 TEST(StudyCommand, CountsTheFewestPoints) {
     const ScratchFolder scratch;
     const Ended ended =

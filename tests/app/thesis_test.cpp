@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 constexpr const char* dome = "assets/projects/dome.json";
 
-// The same records as tests/core/toolpath/thesis_files_test.cpp has from an independent program.
+// T11: The same records as tests/core/toolpath/thesis_files_test.cpp has from an independent program.
 TEST(ThesisCommand, WritesTheFilesOfTheListing) {
     const ScratchFolder scratch;
     const Ended ended = run({"thesis", "files", dome, "--out", scratch / "out"});

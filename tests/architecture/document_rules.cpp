@@ -265,4 +265,29 @@ std::vector<Finding> check_tests(const std::vector<TextFile>& files) {
     return findings;
 }
 
+std::vector<Finding> check_items(const std::vector<TextFile>& files, std::string_view page) {
+    const std::regex item(R"(\b[A-Z]\d+\b)");
+    const std::regex of_row(R"(\| ([A-Z]\d+) .*)");
+    std::set<std::string> named;
+    for (const TextFile& file : files) {
+        for (const Line& line : lines_of(file.path.starts_with("tests/") ? file.text : std::string_view())) {
+            const std::string text(line.text.starts_with("//") ? line.text : std::string_view());
+            for (std::sregex_iterator found(text.begin(), text.end(), item), end; found != end; ++found) {
+                named.insert(found->str());
+            }
+        }
+    }
+    std::vector<Finding> findings;
+    for (const TextFile& file : files) {
+        for (const Line& line : lines_of(file.path == page ? file.text : std::string_view())) {
+            const std::string text(line.text);
+            std::smatch row;
+            if (std::regex_match(text, row, of_row) && !named.contains(row.str(1))) {
+                findings.push_back({file.path, line.number, "no test names it: " + row.str(1)});
+            }
+        }
+    }
+    return findings;
+}
+
 } // namespace millwright::architecture

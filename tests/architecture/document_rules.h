@@ -23,4 +23,7 @@ using Exists = std::function<bool(const std::string&)>;
 /// Tests named in tables of Markdown, as `Suite.Test` or `Suite.*`, that no source has.
 [[nodiscard]] std::vector<Finding> check_tests(const std::vector<TextFile>& files);
 
+/// Items of the tables of `page`, as T7 at the beginning of a row, that no comment of a test names.
+[[nodiscard]] std::vector<Finding> check_items(const std::vector<TextFile>& files, std::string_view page);
+
 } // namespace millwright::architecture

@@ -96,6 +96,15 @@ TEST(Tests, NamedInATableAreThere) {
                             Finding{"a.md", 1, "names a test that is not there: Circle.*"}));
 }
 
+TEST(Items, OfATableAreNamedAboveTests) {
+    const TextFile source{"tests/a_test.cpp", "// T1, T3: both.\nTEST(Arc, Ends) {\n    go(\"T2\"); // T4\n"};
+    const TextFile page{"a.md", "| T1 arcs | x |\n| T3 ends | x |\n| T2 lines | x |\n| T4 points | x |\n"};
+    EXPECT_THAT(
+        check_items({source, page}, "a.md"),
+        ElementsAre(Finding{"a.md", 3, "no test names it: T2"}, Finding{"a.md", 4, "no test names it: T4"}));
+    EXPECT_THAT(check_items({source, page}, "b.md"), IsEmpty());
+}
+
 class TheseDocuments : public ::testing::Test {
 protected:
     const std::vector<TextFile> files_ = read_repository(".");
@@ -104,6 +113,10 @@ protected:
 
 TEST_F(TheseDocuments, NameTestsThatAreThere) {
     EXPECT_THAT(check_tests(files_), IsEmpty());
+}
+
+TEST_F(TheseDocuments, NameEveryItemOfTheGridAboveATest) {
+    EXPECT_THAT(check_items(files_, "docs/dev/grid-tests.md"), IsEmpty());
 }
 
 TEST_F(TheseDocuments, LinkToWhatIsThere) {

@@ -45,6 +45,7 @@ Vec3 matrix_form(const ControlNet& net, double u, double v) {
     return s;
 }
 
+// T2.
 TEST(BezierPatch, MatrixFormEqualsBernsteinForm) {
     const ControlNet net = random_net(4, 4, 7, false);
     const BezierPatch patch(net);
@@ -66,6 +67,7 @@ TEST(BezierPatch, PassesThroughItsCornerPointsExactly) {
 
 class BezierDerivatives : public ::testing::TestWithParam<std::tuple<int, int, bool>> {};
 
+// T2.
 TEST_P(BezierDerivatives, EqualCentralDifferences) {
     const auto [rows, columns, rational] = GetParam();
     const BezierPatch patch(random_net(rows, columns, 3, rational));
@@ -137,6 +139,7 @@ TEST(BezierPatch, TheHighestDegreeStillSumsToOne) {
     EXPECT_NEAR(patch.position(0.37, 0.5).z(), 1.0, 1e-13);
 }
 
+// T2.
 TEST(UnitNormal, IsReportedMissingWhereAnEdgeHasCollapsed) {
     ControlNet net = random_net(4, 4, 9, false);
     for (int j = 0; j < 4; ++j) {
@@ -152,6 +155,7 @@ TEST(UnitNormal, IsReportedMissingForANetOfCoincidentPoints) {
     EXPECT_FALSE(patch.unit_normal(0.5, 0.5).has_value());
 }
 
+// T1.
 TEST(ControlNet, FaultsAreNamed) {
     EXPECT_NE(fault_of(ControlNet::sized(1, 4)).find("1 x 4"), std::string::npos);
     EXPECT_NE(fault_of(ControlNet::sized(4, 65)).find("4 x 65"), std::string::npos);

@@ -17,6 +17,7 @@ struct ReferencePoint {
     Vec3 position, normal;
 };
 
+// T1.
 TEST(DomePreset, HasTheReferencePointsAndNormals) {
     const BezierPatch dome = patch_of("dome");
     const ReferencePoint points[] = {
@@ -47,12 +48,14 @@ TEST(DomePreset, EqualsItsClosedForm) {
     }
 }
 
+// T1.
 TEST(DomeTextPreset, HasItsBorderAtZero) {
     const BezierPatch dome = patch_of("dome-text");
     EXPECT_NEAR(dome.position(0.5, 0.5).z(), 810.0 / 16.0, 1e-12);
     EXPECT_NEAR(dome.position(0.3, 0.0).z(), 0.0, 1e-12);
 }
 
+// T1.
 TEST(SinePreset, HasTheReferenceHeightsAndNormal) {
     const BezierPatch sine = patch_of("sine");
     EXPECT_NEAR(sine.position(0.25, 0.6).z(), -11.25, 1e-12);
@@ -63,6 +66,7 @@ TEST(SinePreset, HasTheReferenceHeightsAndNormal) {
     EXPECT_LT((*normal - Vec3(-0.58817170, 0.0, 0.80873608)).norm(), 1e-8);
 }
 
+// T1.
 TEST(SineAsPrintedPreset, HasTheReferenceHeights) {
     const BezierPatch sine = patch_of("sine-as-printed");
     EXPECT_NEAR(sine.position(0.25, 0.5).z(), 1.40625, 1e-12);
@@ -70,6 +74,7 @@ TEST(SineAsPrintedPreset, HasTheReferenceHeights) {
     EXPECT_NEAR(sine.position(0.75, 0.5).z(), 15.46875, 1e-12);
 }
 
+// T1.
 TEST(MatlabDemoPreset, InterpolatesItsCornersAndIsASheetOverTheUnitSquare) {
     const BezierPatch demo = patch_of("matlab-demo");
     EXPECT_NEAR(demo.position(0.3, 0.8).x(), 0.3, 1e-14);
@@ -91,6 +96,7 @@ TEST(TwoBellPreset, EqualsItsPolynomial) {
     }
 }
 
+// T1.
 TEST(SurfacePreset, TheSaddleIsItsFormula) {
     const BezierPatch saddle = patch_of("saddle");
     for (double u = 0.0; u <= 1.0; u += 0.1) {

@@ -31,6 +31,7 @@ TEST(DiscreteFunctional, OfTheUniformGridIsTheIntegral) {
     EXPECT_NEAR(found.value, 40.0 * (2.0 + 2.0 * 3.0 * 0.7), 1e-10);
 }
 
+// T12.
 TEST(DiscreteFunctional, HasTheGradientOfItsValue) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> away(-0.2, 0.2);
@@ -136,6 +137,7 @@ TEST(DiscreteMinimiser, LeavesAUniformGridAloneWhenTheWeightIsConstant) {
     }
 }
 
+// T15.
 TEST(DiscreteMinimiser, DoesNotMoveAFixedBoundaryByOneBit) {
     NodeArray start = square_grid(15);
     start.at(0, 7).x() = 0.0123;
@@ -193,6 +195,7 @@ WeightPtr random_weight(std::mt19937& random, double size) {
     });
 }
 
+// T15.
 TEST(EllipticSolvers, NeverAcceptAFoldedGridWhateverTheSmoothWeight) {
     const unsigned seed = 20251121;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -217,6 +220,7 @@ TEST(EllipticSolvers, NeverAcceptAFoldedGridWhateverTheSmoothWeight) {
     EXPECT_GT(converged, 8); // or nothing was tested
 }
 
+// T21.
 TEST(DiscreteMinimiser, GivesTheSameBytesOnAnyNumberOfThreads) {
     std::vector<NodeArray> found;
     for (const int threads : {1, 2, 7}) {

@@ -60,6 +60,7 @@ TEST(EllipticAdaptation, CutsTheMeanErrorOfAPoleByMultigrid) {
     }
 }
 
+// T3.
 TEST(EllipticAdaptation, TellsTheMemoryOfAMillionNodesBeforeItStarts) {
     for (const EllipticMethod method : {EllipticMethod::minimiser,
                                         EllipticMethod::multigrid,
@@ -72,6 +73,7 @@ TEST(EllipticAdaptation, TellsTheMemoryOfAMillionNodesBeforeItStarts) {
     }
 }
 
+// T17.
 TEST(EllipticAdaptation, NeverReportsWorseThanTheStart) {
     const unsigned seed = 1997;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -184,6 +186,7 @@ TEST(EllipticAdaptation, FollowsAWeightThatAPersonGave) {
     EXPECT_LT(state.of_best.mean, state.start.mean);
 }
 
+// T16.
 TEST(EllipticAdaptation, WarnsOfAWeightThatIsNotPositive) {
     const PoleErrorModel model({});
     EllipticAdaptation adaptation(model, Grid::uniform(25, 25), quick(), weight_w4());
@@ -215,6 +218,7 @@ TEST(EllipticAdaptation, WarnsOfAWeightOfTheErrorThatIsNotPositive) {
     EXPECT_NE(end.warning.find("not positive at"), std::string::npos) << end.note;
 }
 
+// T18.
 TEST(EllipticAdaptation, DoesAsManyIterationsAStepAsAskedWithTheSameResult) {
     const PoleErrorModel model({});
     EllipticAdaptationSettings settings = quick();

@@ -117,6 +117,7 @@ void expect_is(Real factor, const Density& L, const Case& c, double R_X, double 
 
 constexpr int cases = 50;
 
+// T12.
 TEST(EllipticEquations, SmoothnessResidualIsMinusHalfOfItsEulerLagrangeExpression) {
     std::mt19937 random(1997);
     for (int n = 0; n < cases; ++n) {

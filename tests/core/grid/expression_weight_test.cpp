@@ -33,6 +33,7 @@ Diagnostic fault_of(const std::string& text) {
     return {};
 }
 
+// T16.
 TEST(ExpressionWeight, KnowsParametersNodesAndPi) {
     const Vec2 p(5.0, 2.0); // u = 0.25, v = 0.2
     EXPECT_DOUBLE_EQ(value("u", p), 0.25);

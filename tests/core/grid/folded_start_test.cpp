@@ -57,6 +57,7 @@ EllipticSettings adapted() {
     return settings;
 }
 
+// T14.
 TEST(FoldedStart, WithoutAreaIsToldByEverySolver) {
     for (const Start& start : degenerate_starts()) {
         EllipticSettings settings = adapted();

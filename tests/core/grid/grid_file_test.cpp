@@ -43,6 +43,7 @@ std::string pairs_diagnostic_of(const std::string& text, int rows, int columns) 
     return "read";
 }
 
+// T11, T19.
 TEST(GridFile, WritesBlocksEighteenWideWithEightDecimalsAndABlank) {
     NodeArray nodes(2, 2);
     nodes.at(0, 0) = Vec2(0.0, -1.5);

@@ -9,6 +9,7 @@
 namespace millwright::grid {
 namespace {
 
+// T3.
 TEST(Grid, UniformHasEqualCellsAndExactEdges) {
     const Grid grid = Grid::uniform(20, 7);
     EXPECT_EQ(grid.nu(), 20);

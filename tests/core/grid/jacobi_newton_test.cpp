@@ -91,6 +91,7 @@ const std::vector<Row> rows{
 
 class JacobiNewtonRow : public testing::TestWithParam<Row> {};
 
+// T13.
 TEST_P(JacobiNewtonRow, HoldsAndNoIterationFolds) {
     const Row& row = GetParam();
     JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(row.LV, row.cap));
@@ -129,6 +130,7 @@ TEST(JacobiNewton, IsSymmetricAboutTheDiagonalAsItsWeightIs) {
     }
 }
 
+// T14.
 TEST(JacobiNewton, ReportsAFoldAtTheFirstIterationWithAWeightTooStrongForIt) {
     JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(100.0, 220));
     EXPECT_EQ(solve(solver), SolverStatus::folded);
@@ -150,6 +152,7 @@ TEST(JacobiNewton, ReportsAFoldAtTheFirstIterationWithAWeightTooStrongForIt) {
                 1e-8 * 300.0);
 }
 
+// T14.
 TEST(JacobiNewton, WithTheListedDerivativesIsReportedFoldedInsteadOfConvergedByNaN) {
     EllipticSettings settings = with_adaptation(1.0, 220);
     settings.derivatives = WeightDerivatives::listed;
@@ -162,6 +165,7 @@ TEST(JacobiNewton, WithTheListedDerivativesIsReportedFoldedInsteadOfConvergedByN
     EXPECT_NEAR(min_cell_area(solver.nodes()), -3656.910, 0.01);
 }
 
+// T13.
 TEST(JacobiNewton, SmoothesADisplacedGridBackToTheUniformOne) {
     JacobiNewton solver(displaced_square_grid(25, 1.2), constant_weight(1.0), with_adaptation(0.0, 5000));
     solver.iterate();
@@ -184,6 +188,7 @@ TEST(JacobiNewton, SmoothedLongEnoughIsTheUniformGrid) {
     }
 }
 
+// T13.
 TEST(JacobiNewton, NeedsOneIterationForW4OnAnySize) {
     for (const int n : {50, 70, 100, 150}) {
         JacobiNewton solver(square_grid(n), weight_w4(), with_adaptation(1.0, 220));
@@ -201,6 +206,7 @@ TEST(JacobiNewton, LeavesAUniformGridAloneToTheBitWhenTheWeightIsConstant) {
     EXPECT_EQ(solver.nodes(), unit_spaced(12, 9));
 }
 
+// T15.
 TEST(JacobiNewton, DoesNotMoveAFixedBoundaryByOneBit) {
     NodeArray start = displaced_square_grid(25, 0.4);
     start.at(0, 7) += Vec2(0.1234567, 0.0); // neither straight nor even
@@ -238,6 +244,7 @@ TEST(JacobiNewton, SlidesTheBoundaryAlongItsSideInOrderAndKeepsTheCorners) {
     EXPECT_GT(moved, 0.2);
 }
 
+// T22.
 TEST(JacobiNewton, IsTheSameAsTwoSweepsAnIterationToTheBit) {
     const EllipticSettings settings = with_adaptation(5.0, 60);
     JacobiNewton solver(square_grid(25), weight_w1(), settings);
@@ -258,6 +265,7 @@ TEST(JacobiNewton, IsTheSameAsTwoSweepsAnIterationToTheBit) {
     EXPECT_EQ(listed, solver.nodes());
 }
 
+// T21.
 TEST(JacobiNewton, GivesTheSameBytesOnAnyNumberOfThreads) {
     EllipticSettings settings = with_adaptation(5.0, 25);
     settings.boundary = Boundary::sliding;
@@ -273,6 +281,7 @@ TEST(JacobiNewton, GivesTheSameBytesOnAnyNumberOfThreads) {
     EXPECT_EQ(found[0], found[2]);
 }
 
+// T14.
 TEST(JacobiNewton, KeepsANodeWhoseSystemIsSingularAndSaysSo) {
     // On the uniform grid R_XX = -2 (2 + 2 w LV): zero for w LV = -1.
     JacobiNewton solver(square_grid(5), constant_weight(-1.0), with_adaptation(1.0, 220));

@@ -79,6 +79,7 @@ TEST(Multigrid, SmoothsADisplacedGridBackToTheUniformOne) {
     EXPECT_LT(farthest(solver.nodes(), square_grid(25)), 1e-8);
 }
 
+// T16.
 TEST(Multigrid, LeavesAUniformGridWithAConstantWeightAloneToTheBit) {
     Multigrid solver(unit_spaced(17, 12), constant_weight(3.0), to_norm(1e-12, 10.0));
     ASSERT_EQ(solve(solver), SolverStatus::converged);
@@ -95,6 +96,7 @@ TEST(Multigrid, TakesHardlyMoreCyclesForManyTimesTheNodes) {
     EXPECT_LE(cycles(150), cycles(38) + 3);
 }
 
+// T15.
 TEST(Multigrid, NeitherMovesAFixedOutlineNorLeavesTheSidesWhenSliding) {
     const NodeArray start = unit_spaced(20, 27);
     for (const Boundary boundary : {Boundary::fixed, Boundary::sliding}) {
@@ -111,6 +113,7 @@ TEST(Multigrid, NeitherMovesAFixedOutlineNorLeavesTheSidesWhenSliding) {
     }
 }
 
+// T21.
 TEST(Multigrid, HasTheSameBytesOnAnyNumberOfThreads) {
     const auto nodes_with = [](int threads) {
         set_thread_count(threads);
@@ -126,6 +129,7 @@ TEST(Multigrid, HasTheSameBytesOnAnyNumberOfThreads) {
     EXPECT_EQ(one, nodes_with(8));
 }
 
+// T15.
 TEST(Multigrid, NeverFoldsACellHoweverStrongTheWeight) {
     for (const double LV : {100.0, 1e4, 1e7}) {
         Multigrid solver(square_grid(33), weight_w1(), to_norm(1e-3, LV));
@@ -152,6 +156,7 @@ TEST(Multigrid, SaysThatItStallsWhereTheWeightHasNoGround) {
     EXPECT_GT(min_corner_jacobian(other.nodes()), 0.0);
 }
 
+// T14.
 TEST(Multigrid, ReportsAFoldedStartAndWeightsThatAreNoNumbers) {
     const test::WithoutTraps quiet;
     NodeArray folded = square_grid(9);

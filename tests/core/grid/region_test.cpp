@@ -27,6 +27,7 @@ geometry::BezierPatch plane() {
 
 const Region square{{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}}, 10.0};
 
+// T20.
 TEST(Region, CountsInsideOfItsOutlineAndFadesOverItsBorderInMillimetres) {
     const Field share = share_of(square, plane());
     EXPECT_EQ(share.at({0.5, 0.5}), 1.0);
@@ -118,6 +119,7 @@ private:
     }
 };
 
+// T20.
 TEST(EllipticAdaptation, ActsInTheRegionOnly) {
     constexpr int nodes = 25;
     const Grid start = Grid::uniform(nodes, nodes);

@@ -45,6 +45,7 @@ Timed run(int side, int threads) {
 
 class ThesisTables : public testing::TestWithParam<int> {};
 
+// T3, T23.
 TEST_P(ThesisTables, TenIterationsAreTheSameOnAnyNumberOfThreads) {
     const Timed alone = run(GetParam(), 1);
     EXPECT_EQ(alone.iterations, iterations);
@@ -57,6 +58,7 @@ TEST_P(ThesisTables, TenIterationsAreTheSameOnAnyNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Sides, ThesisTables, testing::Values(50, 70, 100, 150));
 
+// T23.
 TEST(ThesisTable71, AnIterationOn4900NodesTakesLessThanAThousandthOfTheThesiss) {
     constexpr double thesis = 992.345 / 19.0; // s of the processor an iteration, its profile
     EXPECT_LT(run(70, 1).seconds / iterations, thesis / 1000.0);

@@ -34,6 +34,7 @@ MixSettings unsmoothed() {
     return settings;
 }
 
+// T16.
 TEST(WeightMix, AddsMultipliesOrTakesTheLargest) {
     const MixedReasons reasons{.painted = constant_weight(0.5), .expression = constant_weight(3.0)};
     MixSettings settings = unsmoothed();
@@ -124,6 +125,7 @@ TEST(WeightMix, OfTheCurvatureIsLargestWhereTheSurfaceBendsMost) {
     }
 }
 
+// T20.
 TEST(WeightMix, ABrushIsRoundOnTheSurfaceInMillimetres) {
     const geometry::BezierPatch patch = dome();
     const Vec2 middle(0.4, 0.6);

@@ -24,6 +24,7 @@ Vec2 gradient_at(const Weight& weight, const Vec2& p) {
     return g;
 }
 
+// T16.
 TEST(Weight, W1IsLargeOnTheCircleOfRadius5About10And10) {
     const WeightPtr w = weight_w1();
     EXPECT_DOUBLE_EQ(value_at(*w, {13.0, 14.0}), 1.01);

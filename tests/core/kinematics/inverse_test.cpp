@@ -22,6 +22,7 @@ protected:
     AxisPositions zero_ = AxisPositions::Zero(5);
 };
 
+// T5.
 TEST_P(InverseKinematics, EveryBranchReturnsToThePose) {
     std::mt19937 random(1997);
     for (int n = 0; n < 1000; ++n) {
@@ -84,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Machines,
                          InverseKinematics,
                          ::testing::Values("rotary-tilt-listing", "rotary-tilt-gui", "ac-table"));
 
+// T5.
 TEST(InverseKinematics, EqualsTheThesisInConsistentMode) {
     const MachineModel machine = test::machine("rotary-tilt-listing");
     std::mt19937 random(9);

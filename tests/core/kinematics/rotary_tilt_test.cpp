@@ -21,6 +21,7 @@ struct ThesisSet {
 
 class RotaryTiltSets : public ::testing::TestWithParam<ThesisSet> {};
 
+// T5.
 TEST_P(RotaryTiltSets, ListedInverseUndoesForward) {
     std::mt19937 random(1997);
     for (int n = 0; n < 1000; ++n) {
@@ -58,6 +59,7 @@ Vec3 carried(const Vec3& n, const RotaryTiltAngles& angles) {
     return machine_from_workpiece(listing_values, n, angles.A, angles.B) - origin;
 }
 
+// T6.
 TEST(ConsistentAngles, CarryEveryNormalToTheToolAxis) {
     std::mt19937 random(53);
     for (int n = 0; n < 1000; ++n) {
@@ -91,6 +93,7 @@ TEST(ConsistentAngles, ReproduceTheReferenceTableOfTheDome) {
     }
 }
 
+// T6.
 TEST(FaultyAngles, DoNotCarryTheNormalToOneDirection) {
     const Vec3 left = Vec3(-0.5, 0.4, 0.7).normalized();
     const Vec3 right = Vec3(0.5, 0.4, 0.7).normalized();

@@ -228,6 +228,7 @@ TEST_F(PipelineTest, AFaultyFieldStillShowsTheSurface) {
     EXPECT_NE(pipeline.latest()->plan.surface, nullptr);
 }
 
+// T18.
 TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
     pipeline.request(sample("dome", 8));
     pipeline.wait_idle();

@@ -51,6 +51,7 @@ TEST(Plan, NoGridIsWorseThanTheUniformOne) {
     }
 }
 
+// T11.
 TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
     Project project = sample("dome", 6);
     const Plan by_tracks = make_plan(project, folders, Progress());

@@ -41,6 +41,7 @@ std::string fault(const std::string& from, const std::string& to) {
     return fault_in(replaced(project_text(project_from_preset("dome")), from, to));
 }
 
+// T1.
 TEST(ProjectFile, WhatIsWrittenIsRead) {
     std::mt19937 random(1997);
     std::uniform_real_distribution<double> coordinate(-1e4, 1e4);
@@ -191,6 +192,7 @@ TEST(ProjectFile, NetsMustBeRectangularAndFinite) {
         HasSubstr("surface: a surface needs"));
 }
 
+// T20.
 TEST(ProjectFile, ARegionOfAdaptationComesBackAndAFaultyOneIsRefused) {
     Project project = project_from_preset("dome");
     project.grid.elliptic.region = {{{0.1, 0.2}, {0.9, 0.25}, {0.5, 0.75}}, 7.5};

@@ -30,6 +30,7 @@ WeightMap map_of(const GridInput& chosen) {
     return weight_map(chosen, dome(), Progress());
 }
 
+// T16.
 TEST(WeightMap, OfW1IsTheClosedFormOfTheThesis) {
     const WeightMap map = map_of(input(WeightSource::w1));
     for (const auto& [i, j] : {std::pair{0, 0}, std::pair{50, 50}, std::pair{70, 31}, std::pair{96, 3}}) {
@@ -70,6 +71,7 @@ TEST(WeightMap, OfAFormulaKnowsTheSurfaceAndTheError) {
     EXPECT_GT(map_of(chosen).high, 0.1);
 }
 
+// T20.
 TEST(WeightMap, OfAMixShowsWhatIsPainted) {
     GridInput chosen = input(WeightSource::mixed);
     chosen.elliptic.mix = {.error = 0.0, .painted = 5.0, .smoothing_passes = 0, .low = 0.5};

@@ -13,6 +13,7 @@ namespace {
 
 using kinematics::AxisPositions;
 
+// T8.
 TEST(ActualTrajectory, StartsAndEndsExactlyAtThePoses) {
     const auto machine = test::machine("rotary-tilt-listing");
     AxisPositions a(5), b(5);

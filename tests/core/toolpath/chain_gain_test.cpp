@@ -33,6 +33,7 @@ struct Row {
 
 class ChainGain : public ::testing::TestWithParam<Row> {};
 
+// T17.
 TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
     const KinematicError error = test::two_bell_error();
     const grid::Grid start = inner_tracks(GetParam().nodes);

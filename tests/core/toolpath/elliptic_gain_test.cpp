@@ -41,6 +41,7 @@ void expect_gain(const KinematicError& error, TrackDirection direction) {
               promised * to_the_curve(error, uniform, direction).mean);
 }
 
+// T17.
 TEST(EllipticGain, OnTheDomeAndTheThesisMachineIsAtLeastSevenPercent) {
     expect_gain(test::dome_error(), TrackDirection::along_u);
     expect_gain(test::dome_error(), TrackDirection::along_v);

@@ -29,6 +29,7 @@ struct Case {
     }
 };
 
+// T9.
 TEST(ErrorField, ClosestIsNeverLargerThanParametricAndBothAreFinite) {
     const Case dome("dome", "rotary-tilt-listing", 20);
     for (const MoveDeviation& move : dome.field(10).moves) {
@@ -46,6 +47,7 @@ TEST(ErrorField, GrowsWithTheNumberOfSamplesOnNestedTimes) {
     }
 }
 
+// T9.
 TEST(ErrorField, OfTheDomeIsLargerThanOfTheSineSheet) {
     const Case dome("dome", "rotary-tilt-listing", 20), sine("sine", "rotary-tilt-listing", 20);
     const auto d = summary(dome.field(10), Distance::closest, MoveKind::track);

@@ -33,6 +33,7 @@ TEST(Sequencing, ReachesEveryPoseExactly) {
     }
 }
 
+// T10.
 TEST(Sequencing, NeverTravelsFartherThanTheFixedPrincipalBranch) {
     const auto machine = test::machine("rotary-tilt-listing");
     for (const int n : {5, 8, 20, 33}) {

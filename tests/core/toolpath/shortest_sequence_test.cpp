@@ -152,6 +152,7 @@ TEST_P(EachMachine, IsTheBestOfEveryWay) {
     }
 }
 
+// T10.
 TEST(ShortestSequence, IsTheBestOfEveryWayThroughTurnsInsideLimits) {
     const MachineModel machine = limited_table(500.0);
     for (unsigned seed = 1; seed <= 6; ++seed) {

@@ -56,6 +56,7 @@ Vec3 mid_point(const kinematics::MachineModel& machine,
 
 class ThesisErrorTable : public ::testing::TestWithParam<Row> {};
 
+// T3, T9.
 TEST_P(ThesisErrorTable, IsReproduced) {
     const Row& row = GetParam();
     const auto patch = test::patch(row.surface);
@@ -95,6 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Row{"sine", Mode::kin, 10, 0.21451, 0.72519, 4.68947, 0.12241, 0.55585, 4.00676},
                       Row{"sine", Mode::kin, 20, 0.03070, 0.12222, 1.08195, 0.01504, 0.09461, 1.03134}));
 
+// T8.
 TEST(ThesisSingleMove, HasTheReferenceMidPoint) {
     const auto patch = test::patch("dome");
     const auto machine = test::machine("rotary-tilt-listing");

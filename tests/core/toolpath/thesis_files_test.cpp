@@ -20,6 +20,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+// T4.
 TEST(ObliqueView, HasTheScaleOfTheListing) {
     EXPECT_NEAR(ObliqueView(listing_samples(test::patch("dome"), 20)).scale(), 2.944258501924, 1e-9);
 }
@@ -30,6 +31,7 @@ TEST(ObliqueView, HasNoScaleForPointsOnTheWrongSide) {
     EXPECT_THROW(ObliqueView({Vec3(-10.0, 0.0, 20.0)}), Error);
 }
 
+// T4, T11.
 TEST(SurfaceDat, HasTheReferenceRecords) {
     const auto lines = lines_of(surface_dat(test::patch("dome"), 20));
     ASSERT_EQ(lines.size(), 760U);
@@ -40,6 +42,7 @@ TEST(SurfaceDat, HasTheReferenceRecords) {
     EXPECT_EQ(lines[759], "466 261 479 265 ");
 }
 
+// T8.
 TEST(ListingMidPoints, CorrectedForwardEquationsGiveTheReferencePoints) {
     const auto points =
         listing_mid_points(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::corrected);
@@ -55,6 +58,7 @@ TEST(ListingMidPoints, AllFaultsGiveTheOriginalsPoint) {
     EXPECT_LT((points[0] - Vec3(11.934237, 11.536875, 9.975673)).cwiseAbs().maxCoeff(), 2e-6);
 }
 
+// T11.
 TEST(ToolpathDat, HasTheReferenceLines) {
     const auto corrected =
         lines_of(toolpath_dat(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::corrected));

@@ -60,6 +60,7 @@ double cut(double before, double after) {
 
 class TrackGain : public ::testing::TestWithParam<Case> {};
 
+// T17.
 TEST_P(TrackGain, CutsTheMeanByFortyFiveAndTheMaxByEightyFivePerCent) {
     const ImproverState state = optimised(GetParam(), 20);
     EXPECT_GE(cut(state.start.mean, state.of_best.mean), 0.45);

@@ -15,6 +15,7 @@ using grid::TrackDirection;
 
 class Zigzag : public ::testing::TestWithParam<std::tuple<int, int, TrackDirection>> {};
 
+// T3, T7.
 TEST_P(Zigzag, VisitsEveryNodeOnceInUnitStepsOfTheGrid) {
     const auto [nu, nv, direction] = GetParam();
     const Toolpath path = zigzag(test::patch("dome"), Grid::uniform(nu, nv), direction, false);
@@ -44,6 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes,
                                             ::testing::Values(TrackDirection::along_u,
                                                               TrackDirection::along_v)));
 
+// T7.
 TEST(ZigzagPoses, LieOnTheSurfaceWithTheToolAlongTheNormal) {
     const auto patch = test::patch("two-bell");
     for (const bool flipped : {false, true}) {

@@ -42,6 +42,7 @@ protected:
     Person person_{{1600, 1400}};
 };
 
+// T20.
 TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.click("inspector/surface_tool/tool/brush");
     ASSERT_EQ(person_.workshop().session().surface_tool.kind, SurfaceToolKind::brush);

@@ -145,6 +145,7 @@ TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
     EXPECT_FALSE(seen->reason.empty());
 }
 
+// T18.
 TEST(Workbench, AWatchedAdaptationStepsAndGoesBack) {
     Person person;
     person.click("menu/workspaces/grid");

@@ -63,6 +63,7 @@ protected:
 
 constexpr Layers nothing{.surface = false, .floor = false, .origin = false};
 
+// T4.
 TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
     const Scene all = test::scene_of(test::two_bell, ViewKind::design);
     const Scene scene = only(all, {.floor = false, .origin = false});

@@ -46,6 +46,7 @@ TEST(Navigation, PansWithShift) {
     EXPECT_TRUE(same(navigated(camera, pointer, size), camera.panned(glm::dvec2(30.0, -20.0), size)));
 }
 
+// T4.
 TEST(Navigation, ZoomsToTheMouse) {
     const render::Camera camera;
     Pointer pointer;
@@ -60,6 +61,8 @@ TEST(Navigation, ZoomsToTheMouse) {
     const auto after = meet_plane(ray(closer.view(size, scene), pixel), {}, camera.backward());
     ASSERT_TRUE(before && after);
     EXPECT_LT((render::to_core(*before) - render::to_core(*after)).norm(), 1e-6);
+    pointer.wheel = -2.0F;
+    EXPECT_GT(navigated(camera, pointer, size).pose().distance, camera.pose().distance);
 }
 
 } // namespace

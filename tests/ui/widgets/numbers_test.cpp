@@ -43,6 +43,7 @@ protected:
     void SetUp() override { stage.frames(2); }
 };
 
+// T1.
 TEST_F(NumberField, CommitsArithmeticOnEnter) {
     stage.fill_in("tool/radius", "25.4/2");
     EXPECT_TRUE(committed.empty()) << "nothing is committed while typing";
