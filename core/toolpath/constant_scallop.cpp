@@ -2,15 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/toolpath/contact_shape.h"
+#include "core/base/parallel.h"
 #include "core/toolpath/internal/contact_point.h"
-#include "core/toolpath/lean.h"
+#include "core/toolpath/internal/groove_track.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -18,146 +17,179 @@ namespace millwright::toolpath {
 
 namespace {
 
-/// A track as a function: the parameter across it at equal steps of the parameter along it, each 0 to 1.
-using Across = std::vector<double>;
+bool done(const Across& track) {
+    return std::ranges::all_of(track, [](double across) { return across >= 1.0; });
+}
 
-/// Place on the domain: along the tracks and across them.
-struct Place {
-    double along = 0.0;
-    double across = 0.0;
+/// The ridge between two grooves: where it is, as a share of the way from one to the other, and how high.
+struct Ridge {
+    double share = 0.5;
+    double height = 0.0;
 };
 
-double step_of(const Across& track) {
-    return 1.0 / static_cast<double>(std::ssize(track) - 1);
+/// Both heights grow with the square of the distance from their groove: from those at one place follows where
+/// they meet.
+Ridge ridge_from(double share, double height_a, double height_b) {
+    if (!std::isfinite(height_a) || !std::isfinite(height_b)) {
+        return {0.5, std::max(height_a, height_b)};
+    }
+    const double a = std::sqrt(std::max(height_a, 0.0)) / share;
+    const double b = std::sqrt(std::max(height_b, 0.0)) / (1.0 - share);
+    return a + b > 0.0 ? Ridge{std::clamp(b / (a + b), 0.05, 0.95), square(a * b / (a + b))} : Ridge{};
 }
 
-double at(const Across& track, double along) {
-    const double place = std::clamp(along, 0.0, 1.0) / step_of(track);
-    const auto n = std::min(static_cast<std::size_t>(place), track.size() - 2);
-    return mix(track[n], track[n + 1], place - static_cast<double>(n));
+/// Where a track may bend, as numbers of its nodes. More bends than these lead, where they are nearer to each
+/// other than the tracks are, to tracks with teeth.
+std::vector<std::size_t> bends_of(std::size_t nodes) {
+    constexpr std::size_t most = 20;
+    const std::size_t moves = nodes - 1;
+    const std::size_t count = std::min(moves, most);
+    std::vector<std::size_t> bends;
+    for (std::size_t n = 0; n <= count; ++n) {
+        bends.push_back(n * moves / count);
+    }
+    return bends;
 }
 
+int columns_per_node(std::size_t nodes) {
+    constexpr int fine = 400;
+    const int moves = static_cast<int>(nodes) - 1;
+    return std::max(2, (fine + moves - 1) / moves);
+}
+
+/// Lays each track as far from the one before as leaves the height: measures the ridge between them on every
+/// column of a raster, and moves the bends until it is nowhere higher and, as far as they allow, not much
+/// lower.
 class Stepper {
 public:
-    Stepper(const Covering& of, double height) : of_(of), height_(height) {}
-
-    [[nodiscard]] Vec2 uv(const Place& place) const {
-        return of_.direction == grid::TrackDirection::along_v ? Vec2(place.across, place.along)
-                                                              : Vec2(place.along, place.across);
+    Stepper(const Covering& of, double height, std::size_t nodes)
+        : of_(of), height_(height), bends_(bends_of(nodes)), per_node_(columns_per_node(nodes)),
+          nodes_(nodes, 0.0), groove_(of, nodes_, per_node_, true), shares_(groove_.columns(), 0.5) {
+        for (const std::size_t bend : bends_) {
+            steps_.push_back(groove_.first_step(of, column_of(bend), height));
+        }
     }
 
-    /// The next track; `forward`: the tool goes with the parameter on `track`.
-    [[nodiscard]] Across next(const Across& track, bool forward) const {
-        std::vector<Place> places;
-        for (std::size_t n = 0; n < track.size(); ++n) {
-            places.push_back(stepped(track, n, forward));
+    [[nodiscard]] const Across& track() const { return nodes_; }
+
+    /// From the track to the next, on which the tool goes `forward` with the parameter along.
+    void advance(bool forward) {
+        for (int round = 0;; ++round) {
+            Across next = stepped();
+            GrooveTrack groove(of_, next, per_node_, forward);
+            const std::vector<double> ratios = ratios_at_bends(groove);
+            if (round == most_rounds || good(ratios, next, round)) {
+                groove_ = std::move(groove);
+                nodes_ = std::move(next);
+                return;
+            }
+            correct(ratios, round);
         }
-        std::ranges::sort(places, {}, &Place::along);
-        Across found(track.size());
-        for (std::size_t n = 0; n < track.size(); ++n) {
-            const double along = static_cast<double>(n) * step_of(track);
-            found[n] = std::clamp(between(places, along), track[n], 1.0);
+    }
+
+private:
+    static constexpr int growing_rounds = 6; ///< after these the steps become only shorter
+    static constexpr int most_rounds = 30;
+    static constexpr double aim = 0.98; ///< of the wanted height
+    static constexpr double low = 0.93; ///< a ridge that is lower may be higher
+
+    [[nodiscard]] std::size_t column_of(std::size_t node) const {
+        return node * static_cast<std::size_t>(per_node_);
+    }
+
+    [[nodiscard]] Across stepped() const {
+        Across next(nodes_.size());
+        const auto at_bend = [&](std::size_t n) { return std::min(1.0, nodes_[bends_[n]] + steps_[n]); };
+        for (std::size_t n = 0; n + 1 < bends_.size(); ++n) {
+            const auto moves = static_cast<double>(bends_[n + 1] - bends_[n]);
+            for (std::size_t node = bends_[n]; node <= bends_[n + 1]; ++node) {
+                next[node] = mix(at_bend(n), at_bend(n + 1), static_cast<double>(node - bends_[n]) / moves);
+            }
+        }
+        return next;
+    }
+
+    /// By which factor the square of each bend's step is too large: the worst of the columns up to the bends
+    /// beside it.
+    [[nodiscard]] std::vector<double> ratios_at_bends(const GrooveTrack& next) {
+        std::vector<double> of_columns(shares_.size());
+        constexpr std::ptrdiff_t chunk = 32;
+        parallel_for(std::ssize(of_columns), chunk, [&](std::ptrdiff_t n) {
+            of_columns[static_cast<std::size_t>(n)] = ratio_at(next, static_cast<std::size_t>(n));
+        });
+        std::vector<double> found(bends_.size());
+        for (std::size_t n = 0; n < found.size(); ++n) {
+            const std::size_t first = n == 0 ? 0 : column_of(bends_[n - 1]) + 1;
+            const std::size_t end = n + 1 == found.size() ? of_columns.size() : column_of(bends_[n + 1]);
+            found[n] = *std::max_element(of_columns.data() + first, of_columns.data() + end);
         }
         return found;
     }
 
-private:
-    [[nodiscard]] Place stepped(const Across& track, std::size_t n, bool forward) const {
-        const double step = step_of(track);
-        const Place from{static_cast<double>(n) * step, track[n]};
-        const std::size_t before = n == 0 ? 0 : n - 1;
-        const std::size_t after = std::min(n + 1, track.size() - 1);
-        const double slope = (track[after] - track[before]) / (step * static_cast<double>(after - before));
-        const Vec2 here = uv(from);
-        const geometry::SurfaceDerivatives d = of_.patch.derivatives(here.x(), here.y());
-        const bool along_v = of_.direction == grid::TrackDirection::along_v;
-        const Vec3& s_along = along_v ? d.dv : d.du;
-        const Vec3& s_across = along_v ? d.du : d.dv;
-        const Vec3 feed = (s_along + slope * s_across) * (forward ? 1.0 : -1.0);
-        const PathPoint point = contact_point(of_.patch, here, of_.flipped);
-        Vec3 way = point.normal.cross(feed);
-        if (!(way.squaredNorm() > 0.0)) {
-            throw Error(
-                fmt::format("the track has no direction at u = {:.6g}, v = {:.6g}", here.x(), here.y()));
+    [[nodiscard]] double ratio_at(const GrooveTrack& next, std::size_t column) {
+        if (next.across(column) <= groove_.across(column)) {
+            return 0.0; // this part is done
         }
-        way.normalize();
-        way = way.dot(s_across) < 0.0 ? Vec3(-way) : way;
-        const double gap = gap_at(d, point, feed.normalized(), from.along, way);
-        return moved(from, s_along, s_across, way, gap, point.contact);
+        const double gap = groove_.distance(next.contact(column), column);
+        const double most = of_.tool.cutter->shape().radius;
+        const double least = std::min(2.0 * height_, most);
+        return std::max(std::min(ridge_at(next, column) / height_, square(gap / least)), square(gap / most));
     }
 
-    /// The distance across the tracks that leaves the height, between one that is worth a track and half of
-    /// the cutter.
-    [[nodiscard]] double gap_at(const geometry::SurfaceDerivatives& d,
-                                const PathPoint& point,
-                                const Vec3& feed,
-                                double along,
-                                const Vec3& way) const {
-        const Profile& cutter = *of_.tool.cutter;
-        const Vec3 axis = of_.machine.rotary_axes().empty()
-                              ? of_.machine.description().tool_axis
-                              : leaning_axis(of_.tool.lean, point.normal, feed, along);
-        const ContactShape shape = contact_shape(cutter, point.normal, axis);
-        const double gap = step_over(
-            effective_radius(shape, point.normal, feed), convex_curvature(d, point.normal, way), height_);
-        return std::clamp(gap, std::min(2.0 * height_, cutter.shape().radius), cutter.shape().radius);
+    /// Looked for where it was found last, twice.
+    [[nodiscard]] double ridge_at(const GrooveTrack& next, std::size_t column) {
+        Ridge ridge{.share = shares_[column]};
+        for (int look = 0; look < 2; ++look) {
+            const double across = mix(groove_.across(column), next.across(column), ridge.share);
+            const PathPoint point =
+                contact_point(of_.patch, uv_of(of_.direction, next.along(column), across), of_.flipped);
+            ridge = ridge_from(ridge.share,
+                               groove_.height(point.contact, point.normal, column),
+                               next.height(point.contact, point.normal, column));
+        }
+        shares_[column] = ridge.share;
+        return ridge.height;
     }
 
-    /// So far along the surface that the chord is `gap`.
-    [[nodiscard]] Place moved(const Place& from,
-                              const Vec3& s_along,
-                              const Vec3& s_across,
-                              const Vec3& way,
-                              double gap,
-                              const Vec3& contact) const {
-        Eigen::Matrix2d metric;
-        metric << s_along.squaredNorm(), s_along.dot(s_across), s_along.dot(s_across), s_across.squaredNorm();
-        const Vec2 direction = metric.fullPivLu().solve(Vec2(way.dot(s_along), way.dot(s_across)));
-        double length = gap;
-        const auto to = [&] {
-            return Place{from.along + length * direction.x(), from.across + length * direction.y()};
-        };
-        constexpr int corrections = 3;
-        for (int n = 0; n < corrections; ++n) {
-            const Vec2 there = uv(to()).cwiseMax(0.0).cwiseMin(1.0);
-            const bool inside = (there - uv(to())).cwiseAbs().maxCoeff() <= 0.0;
-            const double chord = (of_.patch.position(there.x(), there.y()) - contact).norm();
-            if (!inside || !(chord > 0.0)) {
-                break; // over the border the first order is all there is
+    [[nodiscard]] bool good(const std::vector<double>& ratios, const Across& next, int round) const {
+        for (std::size_t n = 0; n < ratios.size(); ++n) {
+            const bool may_grow = next[bends_[n]] < 1.0 && round < growing_rounds;
+            if (ratios[n] > 1.0 || (may_grow && ratios[n] < low)) {
+                return false;
             }
-            length *= gap / chord;
         }
-        return to();
+        return true;
     }
 
-    /// The parameter across at `along` between neighbours of the places, which are sorted; straight on before
-    /// the first and after the last.
-    static double between(const std::vector<Place>& places, double along) {
-        const auto straight = [along](const Place& a, const Place& b) {
-            const double span = b.along - a.along;
-            return span > 0.0 ? mix(a.across, b.across, (along - a.along) / span)
-                              : std::min(a.across, b.across);
-        };
-        const auto after = std::ranges::lower_bound(places, along, {}, &Place::along) - places.begin();
-        const auto n = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(places) - 1));
-        return straight(places[n - 1], places[n]);
+    void correct(const std::vector<double>& ratios, int round) {
+        constexpr double shortest = 0.5;
+        const double longest = round < growing_rounds ? 4.0 : 1.0;
+        for (std::size_t n = 0; n < steps_.size(); ++n) {
+            const double factor = std::clamp(std::sqrt(aim / std::max(ratios[n], 1e-3)), shortest, longest);
+            steps_[n] = std::min(steps_[n] * factor, 1.0 - nodes_[bends_[n]]);
+        }
     }
 
     const Covering& of_;
     double height_;
+    std::vector<std::size_t> bends_;
+    int per_node_; ///< columns
+    Across nodes_; ///< of the track
+    GrooveTrack groove_;
+    std::vector<double> steps_;  ///< from there across, of each bend
+    std::vector<double> shares_; ///< where the ridge was found last, of each column
 };
 
-/// Stretches of a track, of its parameter along.
-using Stretch = std::pair<double, double>;
+/// Numbers of nodes of a track, the first and the last.
+using Stretch = std::pair<int, int>;
 
-/// Where the surface is not yet done by the track before; a step more at each end, so that none is missed.
+/// Where the surface is not yet done by the track before, and up to the node where it is.
 std::vector<Stretch> to_do(const Across& before) {
     std::vector<Stretch> found;
-    const double step = step_of(before);
-    for (std::size_t n = 0; n < before.size(); ++n) {
-        if (before[n] < 1.0) {
-            const double along = static_cast<double>(n) * step;
-            const Stretch around{std::max(0.0, along - step), std::min(1.0, along + step)};
+    const int last = static_cast<int>(before.size()) - 1;
+    for (int n = 0; n <= last; ++n) {
+        if (before[static_cast<std::size_t>(n)] < 1.0) {
+            const Stretch around{std::max(0, n - 1), std::min(last, n + 1)};
             if (!found.empty() && found.back().second >= around.first) {
                 found.back().second = around.second;
             } else {
@@ -168,23 +200,17 @@ std::vector<Stretch> to_do(const Across& before) {
     return found;
 }
 
-bool done(const Across& track) {
-    return std::ranges::all_of(track, [](double across) { return across >= 1.0; });
-}
-
 /// What is written down of the tracks.
 class Writer {
 public:
-    Writer(const Covering& of, const Stepper& stepper) : of_(of), stepper_(stepper) {
-        path_.direction = of.direction;
-    }
+    explicit Writer(const Covering& of) : of_(of) { path_.direction = of.direction; }
 
     void add(const Across& track, std::vector<Stretch> stretches, bool forward) {
         if (!forward) {
             std::ranges::reverse(stretches);
         }
-        for (const auto& [from, to] : stretches) {
-            add_stretch(track, forward ? from : to, forward ? to : from);
+        for (const auto& [first, last] : stretches) {
+            add_stretch(track, forward ? first : last, forward ? last : first);
         }
         ++track_;
         points_ = 0;
@@ -192,15 +218,15 @@ public:
     [[nodiscard]] Toolpath take() { return std::move(path_); }
 
 private:
-    void add_stretch(const Across& track, double from, double to) {
-        const int most = of_.grid.nodes_per_track(of_.direction) - 1;
-        const int moves = std::max(1, static_cast<int>(std::ceil(most * std::abs(to - from) - 1e-9)));
-        for (int k = 0; k <= moves; ++k) {
-            const double along = mix(from, to, static_cast<double>(k) / moves);
-            PathPoint point = contact_point(of_.patch, stepper_.uv({along, at(track, along)}), of_.flipped);
+    void add_stretch(const Across& track, int from, int to) {
+        const int step = from < to ? 1 : -1;
+        for (int node = from; node != to + step; node += step) {
+            const double along = static_cast<double>(node) / static_cast<double>(std::ssize(track) - 1);
+            PathPoint point = contact_point(
+                of_.patch, uv_of(of_.direction, along, track[static_cast<std::size_t>(node)]), of_.flipped);
             point.origin.i = track_;
             point.origin.j = points_++;
-            point.reached_by = k > 0                  ? MoveKind::track
+            point.reached_by = node != from           ? MoveKind::track
                                : path_.points.empty() ? MoveKind::start
                                                       : MoveKind::cross;
             path_.points.push_back(point);
@@ -208,7 +234,6 @@ private:
     }
 
     const Covering& of_;
-    const Stepper& stepper_;
     Toolpath path_;
     int track_ = 0;
     int points_ = 0; ///< of the track
@@ -227,15 +252,13 @@ Toolpath ConstantScallop::contacts(const Covering& of, const Progress& progress)
             {},
             "choose a cutter for the tool, or another way to place the points");
     }
-    const int moves = of.grid.nodes_per_track(of.direction) - 1;
-    const auto places = static_cast<std::size_t>(std::clamp(4 * moves, 100, 1000) + 1);
-    const Stepper stepper(of, height_);
-    Writer writer(of, stepper);
-    Across track(places, 0.0);
-    writer.add(track, {{0.0, 1.0}}, true);
-    for (int n = 1; !done(track); ++n) {
+    const int nodes = of.grid.nodes_per_track(of.direction);
+    Stepper stepper(of, height_, static_cast<std::size_t>(nodes));
+    Writer writer(of);
+    writer.add(stepper.track(), {{0, nodes - 1}}, true);
+    for (int n = 1; !done(stepper.track()); ++n) {
         progress.check();
-        progress.report(*std::ranges::min_element(track));
+        progress.report(*std::ranges::min_element(stepper.track()));
         if (n >= most_tracks) {
             throw Error(
                 fmt::format("a scallop of {:.6g} mm would take more than {} tracks", height_, most_tracks),
@@ -243,9 +266,9 @@ Toolpath ConstantScallop::contacts(const Covering& of, const Progress& progress)
                 "allow a higher one, or take a larger cutter");
         }
         const bool forward = n % 2 == 0;
-        const std::vector<Stretch> stretches = to_do(track);
-        track = stepper.next(track, !forward);
-        writer.add(track, stretches, forward);
+        const std::vector<Stretch> stretches = to_do(stepper.track());
+        stepper.advance(forward);
+        writer.add(stepper.track(), stretches, forward);
     }
     progress.report(1.0);
     return writer.take();

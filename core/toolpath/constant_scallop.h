@@ -1,6 +1,7 @@
 // Tracks at the distance that leaves the same height of material between neighbours everywhere: each is made
-// from the one before, point by point, by the step-over that cutter and surface allow there (Lin and Koren,
-// J. Manuf. Sci. Eng. 118, 1996; Suresh and Yang, J. Eng. Ind. 116, 1994).
+// from the one before (Lin and Koren, J. Manuf. Sci. Eng. 118, 1996; Suresh and Yang, J. Eng. Ind. 116,
+// 1994), and moved until the ridge that both leave is nowhere higher than wanted.
+// docs/reference/strategies.md.
 #pragma once
 
 #include "core/toolpath/strategy.h"
@@ -9,8 +10,10 @@ namespace millwright::toolpath {
 
 /// The first track is the border at parameter 0 across the tracks, the last is the border at 1. In between
 /// they bend as they have to; where a part of the surface is done before the rest, a track has gaps, and its
-/// parts are tracks of their own. A whole track has as many points as one of the grid, at equal steps of the
-/// parameter along it. A point's origin is its track and its number there.
+/// parts are tracks of their own. A track has as many points as one of the grid, at equal steps of the
+/// parameter along it, a part those of them that it needs. A point's origin is its track and its number
+/// there. What the tool leaves between two points of a track is not counted. Parallel; the same on any number
+/// of threads.
 class ConstantScallop final : public Strategy {
 public:
     /// `height` in mm, above 0.

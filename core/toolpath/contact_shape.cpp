@@ -44,7 +44,8 @@ ContactShape contact_shape(const Profile& body, const Vec3& normal, const Vec3& 
     }
     found.parallel = axis.cross(across / sine);
     found.meridian = found.parallel.cross(normal);
-    const bool on_corner = normal.dot(axis) >= std::sin(shape.half_angle);
+    constexpr double rounding = 1e-9; // a wall along the flank still touches the corner
+    const bool on_corner = normal.dot(axis) >= std::sin(shape.half_angle) - rounding;
     found.meridian_radius = on_corner ? shape.corner : 0.0;
     const double rho = on_corner ? shape.flat + shape.corner * sine : shape.radius;
     found.parallel_radius = rho / sine;
