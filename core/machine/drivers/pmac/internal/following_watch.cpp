@@ -26,7 +26,12 @@ FollowingWatch::left_behind(const std::vector<double>& lags, const std::vector<d
         const double progress = since ? (places[n] - since->place) * (forwards ? 1.0 : -1.0) : 0.0;
         if (!since || since->forwards != forwards || progress >= least_progress * lag) {
             since = Since{places[n], now, forwards, 0};
-        } else if (++since->looks >= least_looks && now - since->time >= patience) {
+            continue;
+        }
+        if (progress < 0.0) {
+            since->place = places[n]; // the wrong way, or its zero was found: progress counts from there
+        }
+        if (++since->looks >= least_looks && now - since->time >= patience) {
             return n;
         }
     }

@@ -42,6 +42,15 @@ TEST(PmacFollowingWatch, LeavesALoopAloneThatIsWeakAndOneThatSettles) {
     }
 }
 
+TEST(PmacFollowingWatch, LeavesAMotorAloneWhosePlacesAreCountedAnew) {
+    FollowingWatch watch(1);
+    double place = 0.0;
+    for (double time = 0.0; time < 3.0; time += 0.02) {
+        place = place > 40.0 ? 0.0 : place + 1.0;
+        EXPECT_FALSE(watch.left_behind({1.0}, {place}, time)) << time;
+    }
+}
+
 TEST(PmacFollowingWatch, HasSeenNothingWhileTheComputerWasBusy) {
     FollowingWatch watch(1);
     EXPECT_FALSE(watch.left_behind({1.0}, {0.0}, 0.0));
