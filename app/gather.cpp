@@ -33,42 +33,48 @@ private:
     std::queue<std::string> messages_;
 };
 
+/// Whether there was anything.
+bool hear(Mailbox& mailbox, const Ranks& ranks, const GatheredWork& work) {
+    bool silent = true;
+    while (const auto message = mailbox.take()) {
+        work.heard(0, *message);
+        silent = false;
+    }
+    while (const auto message = ranks.heard()) {
+        work.heard(message->from, message->text);
+        silent = false;
+    }
+    return !silent;
+}
+
 } // namespace
 
-bool gather(const Ranks& ranks,
-            const std::function<void(const Tell&, const std::stop_token&)>& own,
-            const std::function<void(int from, const std::string& bytes)>& heard,
-            const std::function<bool()>& over,
-            const Progress& progress) {
+bool gather(const Ranks& ranks, const GatheredWork& work, const Progress& progress) {
     // A rank that is gone says nothing more; mpirun then stops the others, and kills them a second later.
-    constexpr std::chrono::milliseconds patience_when_stopped{500};
+    // Until then it has to be said who is gone, and what came has to be written.
+    constexpr std::chrono::milliseconds patience_when_stopped{250};
     constexpr std::chrono::milliseconds nap{5};
     Mailbox mailbox;
     std::stop_source stop;
-    const std::jthread thread(
-        [&] { own([&](const std::string& message) { mailbox.put(message); }, stop.get_token()); });
+    std::jthread thread(
+        [&] { work.own([&](const std::string& message) { mailbox.put(message); }, stop.get_token()); });
     std::optional<std::chrono::steady_clock::time_point> stopped;
-    while (!over()) {
-        bool silent = true;
-        while (const auto message = mailbox.take()) {
-            heard(0, *message);
-            silent = false;
-        }
-        while (const auto message = ranks.heard()) {
-            heard(message->from, message->text);
-            silent = false;
-        }
+    while (!work.over()) {
+        const bool heard = hear(mailbox, ranks, work);
         if (progress.cancelled() && !stopped) {
             stopped = std::chrono::steady_clock::now();
             stop.request_stop();
         }
         if (stopped && std::chrono::steady_clock::now() - *stopped > patience_when_stopped) {
+            work.given_up();
             break;
         }
-        if (silent) {
+        if (!heard) {
             std::this_thread::sleep_for(nap);
         }
     }
+    thread.join();
+    hear(mailbox, ranks, work);
     return !stopped;
 }
 

@@ -12,13 +12,17 @@ namespace millwright::app {
 
 using Tell = std::function<void(const std::string& bytes)>;
 
-/// At rank 0: does its `own` work in a thread and hears of it and of the others'; `heard` is called with each
-/// message, `over` after each look whether that was all, both by the caller's thread. False: the user, or
-/// mpirun for a rank that is gone, said stop before it was over; then it waits half a second for who answers.
-[[nodiscard]] bool gather(const Ranks& ranks,
-                          const std::function<void(const Tell&, const std::stop_token&)>& own,
-                          const std::function<void(int from, const std::string& bytes)>& heard,
-                          const std::function<bool()>& over,
-                          const Progress& progress);
+/// All but `own` by the caller's thread.
+struct GatheredWork {
+    std::function<void(const Tell&, const std::stop_token&)> own;  ///< of rank 0, in a thread
+    std::function<void(int from, const std::string& bytes)> heard; ///< each message, those of rank 0 too
+    std::function<bool()> over;                                    ///< asked after each look
+    std::function<void()> given_up; ///< nobody answers any more; rank 0 may be at its own work yet
+};
+
+/// At rank 0: does its own work and hears of it and of the others'. False: the user, or mpirun for a rank
+/// that is gone, said stop before it was over; then who answers is waited for, but not for long: mpirun
+/// kills.
+[[nodiscard]] bool gather(const Ranks& ranks, const GatheredWork& work, const Progress& progress);
 
 } // namespace millwright::app

@@ -2,6 +2,7 @@
 // there is one: rank 0.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,12 +28,15 @@ public:
         int from = 0;
         std::string text;
     };
-    /// From rank 0 to every other; blocks until it is on its way.
+    /// From rank 0 to every other. Never waits for one that may be gone: what is left to do is done by
+    /// heard().
     void tell_all(std::string_view message) const;
-    /// The next one that has come, nothing if none has.
+    /// The next one that has come whole, nothing if none has. Never waits either.
     [[nodiscard]] std::optional<Message> heard() const;
 
 private:
+    struct UnderWay;
+    std::unique_ptr<UnderWay> under_way_;
     int rank_ = 0;
     int size_ = 1;
 };

@@ -7,6 +7,8 @@
 
 namespace millwright::app {
 
+struct Ranks::UnderWay {};
+
 Ranks::Ranks() {
     const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
     if (size != nullptr && std::string(size) != "1") {

@@ -4,6 +4,8 @@
 #include <mpi.h>
 
 #include <cstdlib>
+#include <list>
+#include <utility>
 
 namespace millwright::app {
 
@@ -16,9 +18,27 @@ bool started_by_mpirun() {
     return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
 }
 
+/// A message that MPI reads or writes. The text stays where it is until the request is done.
+struct Transfer {
+    std::string text;
+    MPI_Request request = MPI_REQUEST_NULL;
+    int from = 0;
+};
+
+bool ended(Transfer& transfer) {
+    int done = 0;
+    MPI_Test(&transfer.request, &done, MPI_STATUS_IGNORE);
+    return done != 0;
+}
+
 } // namespace
 
-Ranks::Ranks() {
+struct Ranks::UnderWay {
+    std::list<Transfer> sent;         // a list, whose elements stay where they are
+    std::unique_ptr<Transfer> coming; // one at a time, so that messages stay in their order
+};
+
+Ranks::Ranks() : under_way_(std::make_unique<UnderWay>()) {
     if (!started_by_mpirun()) {
         return;
     }
@@ -35,6 +55,9 @@ Ranks::~Ranks() {
     int begun = 0;
     MPI_Initialized(&begun);
     if (begun != 0) {
+        for (Transfer& transfer : under_way_->sent) {
+            MPI_Wait(&transfer.request, MPI_STATUS_IGNORE);
+        }
         MPI_Finalize();
     }
 }
@@ -47,7 +70,15 @@ void Ranks::tell(std::string_view message) const {
 void Ranks::tell_all(std::string_view message) const {
     expects(rank_ == 0, "rank 0 tells all");
     for (int to = 1; to < size_; ++to) {
-        MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, to, tag, MPI_COMM_WORLD);
+        Transfer& sent = under_way_->sent.emplace_back();
+        sent.text = message;
+        MPI_Isend(sent.text.data(),
+                  static_cast<int>(sent.text.size()),
+                  MPI_CHAR,
+                  to,
+                  tag,
+                  MPI_COMM_WORLD,
+                  &sent.request);
     }
 }
 
@@ -55,18 +86,28 @@ std::optional<Ranks::Message> Ranks::heard() const {
     if (size_ == 1) {
         return std::nullopt;
     }
-    int waiting = 0;
-    MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &waiting, &status);
-    if (waiting == 0) {
+    under_way_->sent.remove_if(ended);
+    std::unique_ptr<Transfer>& coming = under_way_->coming;
+    if (!coming) {
+        int waiting = 0;
+        MPI_Message found = MPI_MESSAGE_NULL;
+        MPI_Status status;
+        MPI_Improbe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &waiting, &found, &status);
+        if (waiting == 0) {
+            return std::nullopt;
+        }
+        int length = 0;
+        MPI_Get_count(&status, MPI_CHAR, &length);
+        coming = std::make_unique<Transfer>();
+        coming->text.resize(static_cast<std::size_t>(length));
+        coming->from = status.MPI_SOURCE;
+        MPI_Imrecv(coming->text.data(), length, MPI_CHAR, &found, &coming->request);
+    }
+    if (!ended(*coming)) {
         return std::nullopt;
     }
-    int length = 0;
-    MPI_Get_count(&status, MPI_CHAR, &length);
-    Message message{status.MPI_SOURCE, std::string(static_cast<std::size_t>(length), '\0')};
-    MPI_Recv(
-        message.text.data(), length, MPI_CHAR, status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return message;
+    const std::unique_ptr<Transfer> whole = std::move(coming);
+    return Message{whole->from, std::move(whole->text)};
 }
 
 } // namespace millwright::app

@@ -58,7 +58,8 @@ std::string name_of(const SetUpPlace& place) {
 class Costs {
 public:
     Costs(std::span<const SetUpPlace> places, int ranks)
-        : places_(places), ranks_(static_cast<std::size_t>(ranks)), costs_(places.size()), why_not_(ranks_) {}
+        : places_(places), ranks_(static_cast<std::size_t>(ranks)), costs_(places.size()), why_not_(ranks_),
+          told_(ranks_, false) {}
 
     void take(int from, const CostMessage& message) {
         if (!message.why_not.empty()) {
@@ -83,23 +84,25 @@ public:
     }
     [[nodiscard]] std::size_t come() const { return come_; }
 
-    /// A sentence a rank whose costs are not all here; those that were only stopped are silent.
-    [[nodiscard]] std::vector<std::string> lost() const {
-        std::vector<std::string> sentences;
-        for (std::size_t rank = 0; rank < ranks_; ++rank) {
+    /// Says of each rank from `first` on whose costs are not all here, and was not told before, a sentence;
+    /// those that were only stopped are silent.
+    void tell_lost(std::size_t first, const std::function<void(const std::string&)>& say) {
+        for (std::size_t rank = first; rank < ranks_; ++rank) {
             const std::vector<std::size_t> without = missing(rank);
-            if (without.empty() || why_not_[rank] == "was stopped") {
+            if (without.empty() || why_not_[rank] == "was stopped" || told_[rank]) {
                 continue;
             }
-            sentences.push_back(fmt::format("rank {} {}; without {} of its places: from {} to {}",
-                                            rank,
-                                            why_not_[rank].empty() ? "has not ended" : why_not_[rank],
-                                            without.size(),
-                                            name_of(places_[without.front()]),
-                                            name_of(places_[without.back()])));
+            told_[rank] = true;
+            lost_.push_back(fmt::format("rank {} {}; without {} of its places: from {} to {}",
+                                        rank,
+                                        why_not_[rank].empty() ? "has not ended" : why_not_[rank],
+                                        without.size(),
+                                        name_of(places_[without.front()]),
+                                        name_of(places_[without.back()])));
+            say(lost_.back());
         }
-        return sentences;
     }
+    [[nodiscard]] const std::vector<std::string>& lost() const { return lost_; }
     [[nodiscard]] std::vector<double> all() const {
         std::vector<double> all;
         std::ranges::transform(costs_, std::back_inserter(all), [](const auto& cost) { return *cost; });
@@ -121,6 +124,8 @@ private:
     std::size_t ranks_;
     std::vector<std::optional<double>> costs_;
     std::vector<std::string> why_not_; ///< of each rank that has ended early
+    std::vector<bool> told_;           ///< of each rank that it is lost
+    std::vector<std::string> lost_;    ///< the sentences
     std::size_t come_ = 0;
 };
 
@@ -140,19 +145,21 @@ SpreadCosts::~SpreadCosts() {
 std::vector<double> SpreadCosts::at(std::span<const SetUpPlace> places, const Progress& progress) {
     ranks_.tell_all(packed(places));
     Costs costs(places, ranks_.size());
-    const bool whole = gather(
-        ranks_,
-        [&](const Tell& tell, const std::stop_token& stop) { work(ranks_, cost_, places, tell, stop); },
-        [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
-        [&] {
-            progress.report(costs.fraction(),
-                            fmt::format("{} places on {} ranks", places.size(), ranks_.size()));
-            return costs.over();
-        },
-        progress);
-    const std::vector<std::string> lost = costs.lost();
+    const GatheredWork all{
+        .own = [&](const Tell& tell,
+                   const std::stop_token& stop) { work(ranks_, cost_, places, tell, stop); },
+        .heard = [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
+        .over =
+            [&] {
+                progress.report(costs.fraction(),
+                                fmt::format("{} places on {} ranks", places.size(), ranks_.size()));
+                return costs.over();
+            },
+        .given_up = [&] { costs.tell_lost(1, say_); }};
+    const bool whole = gather(ranks_, all, progress);
+    costs.tell_lost(0, say_);
+    const std::vector<std::string>& lost = costs.lost();
     lost_ = !lost.empty();
-    std::ranges::for_each(lost, say_);
     if (lost_) {
         throw Error(fmt::format("{} of {} places were measured: {}", costs.come(), places.size(), lost[0]));
     }

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <exception>
 #include <numeric>
+#include <optional>
 #include <stop_token>
 #include <utility>
 
@@ -82,26 +83,37 @@ public:
     }
     [[nodiscard]] const std::vector<StudyRow>& rows(std::size_t n) const { return study_.rows[n]; }
 
-    [[nodiscard]] SpreadStudy result() && {
-        for (std::size_t r = 0; r < ranks_.size(); ++r) {
-            std::string missing;
-            for (std::size_t n = r; n < cases_.size(); n += ranks_.size()) {
-                if (study_.rows[n].empty()) {
-                    missing += (missing.empty() ? "" : ", ") + name_of(cases_[n]);
-                }
-            }
-            if (!missing.empty()) {
-                study_.lost.push_back(
-                    fmt::format("rank {} {}; without its cases: {}", r, fate(ranks_[r]), missing));
+    /// What is lost by one rank, as a sentence; nothing if all of its cases have come.
+    [[nodiscard]] std::optional<std::string> lost_by(std::size_t rank) const {
+        std::string missing;
+        for (std::size_t n = rank; n < cases_.size(); n += ranks_.size()) {
+            if (study_.rows[n].empty()) {
+                missing += (missing.empty() ? "" : ", ") + name_of(cases_[n]);
             }
         }
-        return std::move(study_);
+        if (missing.empty()) {
+            return std::nullopt;
+        }
+        return fmt::format("rank {} {}; without its cases: {}", rank, fate(ranks_[rank]), missing);
     }
+    /// Notes and tells what is lost by the ranks from `first` on that was not told before.
+    void tell_lost(std::size_t first, const StudyNews& news) {
+        for (std::size_t rank = first; rank < ranks_.size(); ++rank) {
+            const auto sentence = ranks_[rank].told ? std::nullopt : lost_by(rank);
+            if (sentence) {
+                ranks_[rank].told = true;
+                study_.lost.push_back(*sentence);
+                news.lost(*sentence);
+            }
+        }
+    }
+    [[nodiscard]] SpreadStudy result() && { return std::move(study_); }
 
 private:
     struct Rank {
         bool ended = false;
         std::string why; ///< it failed
+        bool told = false;
     };
 
     static std::string fate(const Rank& rank) {
@@ -122,23 +134,25 @@ private:
 SpreadStudy gather_study(const Ranks& ranks,
                          std::span<const StudyCase> cases,
                          const StudyOne& study,
-                         const std::function<void(std::span<const StudyRow>)>& done,
+                         const StudyNews& news,
                          const Progress& progress) {
     Gathering gathering(ranks.size(), cases);
     std::size_t shown = 0;
-    const bool whole = gather(
-        ranks,
-        [&](const Tell& tell, const std::stop_token& stop) { work(ranks, cases, study, tell, stop); },
-        [&](int from, const std::string& bytes) { gathering.take(from, unpacked(bytes)); },
-        [&] {
-            for (; shown < cases.size() && !gathering.rows(shown).empty(); ++shown) {
-                done(gathering.rows(shown));
-            }
-            progress.report(gathering.fraction(),
-                            fmt::format("{} cases on {} ranks", cases.size(), ranks.size()));
-            return gathering.over();
-        },
-        progress);
+    const auto over = [&] {
+        for (; shown < cases.size() && !gathering.rows(shown).empty(); ++shown) {
+            news.done(gathering.rows(shown));
+        }
+        progress.report(gathering.fraction(),
+                        fmt::format("{} cases on {} ranks", cases.size(), ranks.size()));
+        return gathering.over();
+    };
+    const GatheredWork all{
+        .own = [&](const Tell& tell, const std::stop_token& stop) { work(ranks, cases, study, tell, stop); },
+        .heard = [&](int from, const std::string& bytes) { gathering.take(from, unpacked(bytes)); },
+        .over = over,
+        .given_up = [&] { gathering.tell_lost(1, news); }};
+    const bool whole = gather(ranks, all, progress);
+    gathering.tell_lost(0, news);
     SpreadStudy result = std::move(gathering).result();
     result.stopped = !whole;
     return result;

@@ -22,12 +22,20 @@ struct SpreadStudy {
 /// One case on this rank. Throws as it likes.
 using StudyOne = std::function<std::vector<project::StudyRow>(const project::StudyCase&, const Progress&)>;
 
-/// At rank 0: does its own cases in a thread and gathers those of the others; `done` is called with the rows
-/// of each case in the order of the cases, as soon as those before it have come.
+/// What is told on the way, by the caller's thread.
+struct StudyNews {
+    /// The rows of each case in the order of the cases, as soon as those before it have come.
+    std::function<void(std::span<const project::StudyRow>)> done;
+    /// Each sentence of SpreadStudy::lost, once: as soon as it is known, since mpirun may leave no time
+    /// after.
+    std::function<void(const std::string&)> lost;
+};
+
+/// At rank 0: does its own cases in a thread and gathers those of the others.
 [[nodiscard]] SpreadStudy gather_study(const Ranks& ranks,
                                        std::span<const project::StudyCase> cases,
                                        const StudyOne& study,
-                                       const std::function<void(std::span<const project::StudyRow>)>& done,
+                                       const StudyNews& news,
                                        const Progress& progress);
 
 /// At the others: does their cases and tells rank 0. Never throws what `study` throws: rank 0 is told.

@@ -153,14 +153,13 @@ void print(const StudyRow& row) {
                fixed(row.figures->track_gap, 3));
 }
 
+/// The tables first: where mpirun stops a study, it may leave no time for pictures.
 void write(const std::string& folder, const std::vector<StudyRow>& rows) {
-    std::vector<OutputFile> files = {{"kinematic-error.csv", project::study_csv(rows)},
-                                     {"kinematic-error.json", project::study_json(rows)},
-                                     {"kinematic-error.md", project::study_markdown(rows)}};
-    for (OutputFile& picture : pictures_of(rows)) {
-        files.push_back(std::move(picture));
-    }
-    write_outputs(folder, files);
+    write_outputs(folder,
+                  {{"kinematic-error.csv", project::study_csv(rows)},
+                   {"kinematic-error.json", project::study_json(rows)},
+                   {"kinematic-error.md", project::study_markdown(rows)}});
+    write_outputs(folder, pictures_of(rows));
 }
 
 void print_head() {
@@ -186,7 +185,13 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
         printer.finish();
         std::ranges::for_each(found, print);
     };
-    const SpreadStudy found = gather_study(ranks, cases, study, show, progress);
+    const auto name_lost = [&](const std::string& sentence) {
+        if (ranks.size() > 1) {
+            printer.finish();
+            fmt::print(stderr, "{}\n", sentence);
+        }
+    };
+    const SpreadStudy found = gather_study(ranks, cases, study, {show, name_lost}, progress);
     printer.finish();
     std::vector<StudyRow> rows;
     std::size_t done = 0;
@@ -195,11 +200,6 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
         done += of_case.empty() ? 0 : 1;
     }
     write(options.out, rows);
-    if (ranks.size() > 1) {
-        for (const std::string& sentence : found.lost) {
-            fmt::print(stderr, "{}\n", sentence);
-        }
-    }
     if (found.stopped) {
         fmt::print(stderr, "stopped after {} of {} cases, which are written\n", done, cases.size());
         throw Cancelled();
