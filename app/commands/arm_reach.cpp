@@ -87,7 +87,7 @@ Frame frame_of(const std::vector<double>& v) {
 void refuse_plots(const std::string& file) {
     if (project::is_plot_file(file)) {
         throw Error("a plot is no program yet",
-                    {.file = file},
+                    file,
                     fmt::format("'millwright plot toolpath {} --out program.ngc' makes one of it", file));
     }
 }
