@@ -2,6 +2,7 @@
 
 #include "app/arm_choice.h"
 #include "app/interrupt.h"
+#include "app/placed_refusals.h"
 #include "app/pmac_talk.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -13,10 +14,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <functional>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,26 +29,6 @@ struct Options {
     std::string file;
     std::string arm = "motoman-l3";
 };
-
-/// What the card said to lines of a file: each refusal with the place of its line.
-std::string with_places(const std::string& said, const machine::PmacFile& file, const std::string& path) {
-    std::string placed;
-    auto next = file.lines.begin(); // refusals come in the order of the lines
-    for (std::size_t begin = 0; begin < said.size();) {
-        const std::size_t end = std::min(said.find('\n', begin), said.size());
-        const std::string sentence = said.substr(begin, end - begin);
-        const auto refused = std::find_if(next, file.lines.end(), [&](const machine::PmacFile::Line& line) {
-            return sentence.starts_with("'" + line.text + "' is refused");
-        });
-        if (refused != file.lines.end()) {
-            placed += fmt::format("{}:{}: ", path, refused->number);
-            next = std::next(refused);
-        }
-        placed += sentence + (end < said.size() ? "\n" : "");
-        begin = end + 1;
-    }
-    return placed;
-}
 
 class Conversation {
 public:
@@ -72,21 +50,31 @@ public:
         if (lines.empty()) {
             throw Error("there is no command in it", path);
         }
-        const bool done = answered(driver_->load(lines),
-                                   [&](const std::string& said) { return with_places(said, file, path); });
+        const machine::CommandAnswer answer = answer_to(driver_->load(lines));
+        print(answer, with_places(answer.text, file, path));
         wait_for_rest();
-        return done && file.left_out == 0;
+        return is_done(answer) && file.left_out == 0;
     }
 
     bool say(const std::string& command) {
-        const bool done = answered(driver_->command(command));
+        const machine::CommandAnswer answer = answer_to(driver_->command(command));
+        print(answer, answer.text);
         wait_for_rest();
-        return done;
+        return is_done(answer);
     }
 
 private:
-    /// What the card said. A refusal is an Error unless the rest was to be sent all the same.
-    bool answered(int number, const std::function<std::string(const std::string&)>& told = std::identity()) {
+    static bool is_done(const machine::CommandAnswer& answer) {
+        return answer.state == machine::CommandAnswer::State::done;
+    }
+
+    static void print(const machine::CommandAnswer& answer, const std::string& text) {
+        if (!text.empty()) {
+            fmt::print(is_done(answer) ? stdout : stderr, "{}\n", text);
+        }
+    }
+
+    [[nodiscard]] machine::CommandAnswer answer_to(int number) {
         constexpr double glance = 0.005;
         machine::DriverStatus now = driver_->status();
         while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
@@ -96,11 +84,7 @@ private:
             clock_.wait(glance);
             now = driver_->status();
         }
-        const bool done = now.answer.state == machine::CommandAnswer::State::done;
-        if (!now.answer.text.empty()) {
-            fmt::print(done ? stdout : stderr, "{}\n", told(now.answer.text));
-        }
-        return done;
+        return now.answer;
     }
 
     /// What the command set going goes to its end, or until Ctrl+C.
