@@ -64,6 +64,7 @@ json packed_row(const StudyRow& row) {
             {"tracks", row.of.tracks},
             {"method", static_cast<int>(row.method)},
             {"note", row.note},
+            {"no_gain", row.no_gain},
             {"figures", row.figures ? packed_figures(*row.figures) : json()}};
 }
 
@@ -72,6 +73,7 @@ StudyRow unpacked_row(const json& from) {
     row.of = {from.at("surface"), from.at("machine"), from.at("points"), from.at("tracks")};
     row.method = project::every_study_method.at(from.at("method").get<std::size_t>());
     row.note = from.at("note");
+    row.no_gain = from.at("no_gain");
     if (!from.at("figures").is_null()) {
         row.figures = unpacked_figures(from.at("figures"));
     }

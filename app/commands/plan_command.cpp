@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_study.h"
+#include "core/project/grids.h"
 #include "core/project/report.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
@@ -67,6 +68,22 @@ void print_warnings(const project::Plan& plan) {
     }
 }
 
+/// Where nothing better than the uniform grid was found: its figures are those of that.
+void print_kept(const project::Plan& plan) {
+    std::vector<std::string_view> kept;
+    for (const project::GridMethod method : project::every_grid_method) {
+        const auto& evaluation = plan.evaluation(method);
+        if (method != project::GridMethod::uniform && evaluation &&
+            project::keeps_grid(*evaluation, *plan.uniform)) {
+            kept.push_back(project::row_of(project::grid_methods(), method).id);
+        }
+    }
+    if (!kept.empty()) {
+        fmt::print("no gain: {}: nothing better than the uniform grid was found, which is kept\n",
+                   fmt::join(kept, ", "));
+    }
+}
+
 void print_summary(const project::Plan& plan, const project::Project& project) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "grid",
@@ -86,6 +103,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
     if (project::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
+    print_kept(plan);
     const project::Evaluation& chosen = *plan.program_path(project);
     if (project.toolpath.strategy != project::StrategyInput::zigzag) {
         fmt::print("strategy: {}\n", project::strategy_text(project));

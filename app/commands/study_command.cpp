@@ -142,7 +142,7 @@ void print(const StudyRow& row) {
                    row.note);
         return;
     }
-    fmt::print("{:<9} {:<20} {:>3} {:<15} {:>9} {:>9} {:>8} {:>8}\n",
+    fmt::print("{:<9} {:<20} {:>3} {:<15} {:>9} {:>9} {:>8} {:>8}{}\n",
                row.of.surface,
                row.of.machine,
                row.of.points,
@@ -150,7 +150,8 @@ void print(const StudyRow& row) {
                fixed(row.figures->error.max, 4),
                fixed(row.figures->error.mean, 4),
                fixed(to_degrees(row.figures->error.axis_max), 2),
-               fixed(row.figures->track_gap, 3));
+               fixed(row.figures->track_gap, 3),
+               row.no_gain ? "  no gain" : "");
 }
 
 /// The tables first: where mpirun stops a study, it may leave no time for pictures.
@@ -200,6 +201,9 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
         done += of_case.empty() ? 0 : 1;
     }
     write(options.out, rows);
+    if (std::ranges::any_of(rows, &StudyRow::no_gain)) {
+        fmt::print("no gain: nothing better was found than what the method starts from, which is kept\n");
+    }
     if (found.stopped) {
         fmt::print(stderr, "stopped after {} of {} cases, which are written\n", done, cases.size());
         throw Cancelled();

@@ -115,6 +115,9 @@ int set_up(const Options& options) {
                settings.goal == SetUpGoal::error ? "mean mm" : "travel mm");
     print("start", study.search.start);
     print("best", study.search.best);
+    if (!(study.search.best.cost < study.search.start.cost)) {
+        fmt::print("no gain: no better place than the start was found\n");
+    }
     if (!options.accepted.empty()) {
         project::write_project(project::with_set_up(opened.project, study.search.best.place),
                                options.accepted);

@@ -344,6 +344,10 @@ Evaluation improved_evaluation(GridMethod method,
     return kept;
 }
 
+bool keeps_grid(const Evaluation& found, const Evaluation& start) {
+    return found.outcome.grid == start.outcome.grid;
+}
+
 bool is_worse(const Evaluation& found, const Evaluation& start, const kinematics::MachineModel& machine) {
     constexpr double rounding = 1e-9; // of figures that are sums over many moves
     const bool turns = !machine.rotary_axes().empty();

@@ -81,6 +81,9 @@ void expect_memory(GridMethod method, const GridInput& input);
                                              Effort effort,
                                              const Progress& progress);
 
+/// Whether nothing better than the grid of `start` was found, which was kept.
+[[nodiscard]] bool keeps_grid(const Evaluation& found, const Evaluation& start);
+
 /// Whether `found` is worse than `start` in the mean or largest distance to the surface, or in the largest
 /// angle between tool axis and normal; that one counts on machines that can turn the tool only.
 [[nodiscard]] bool

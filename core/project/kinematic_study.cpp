@@ -63,9 +63,10 @@ public:
     }
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
-        return row_of(method,
-                      improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress),
-                      progress);
+        return row_of_grid(
+            method,
+            improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress),
+            progress);
     }
     /// The chain's grid, and the same with its branches and turns chosen for the least error of the path.
     [[nodiscard]] std::array<StudyRow, 2>
@@ -73,7 +74,8 @@ public:
         constexpr double making = 0.9; // share of the chain
         const Evaluation found = improved_evaluation(
             GridMethod::chain, input_, workpiece_, uniform_, Effort::full, progress.part(0.0, making));
-        return {row_of(chain, found, progress), sequenced_row(sequenced, found, progress.part(making, 1.0))};
+        return {row_of_grid(chain, found, progress),
+                sequenced_row(sequenced, found, progress.part(making, 1.0))};
     }
 
 private:
@@ -87,11 +89,19 @@ private:
         }
         StudyRow kept = row_of(method, nearest, progress);
         kept.note = "No sequence is better in every figure than the nearest branch; it is kept.";
+        kept.no_gain = true;
         return kept;
     }
     [[nodiscard]] StudyRow
     row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
         return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
+    }
+
+    [[nodiscard]] StudyRow
+    row_of_grid(StudyMethod method, const Evaluation& found, const Progress& progress) const {
+        StudyRow row = row_of(method, found, progress);
+        row.no_gain = keeps_grid(found, uniform_);
+        return row;
     }
 
     StudyCase of_;

@@ -62,6 +62,7 @@ struct StudyRow {
     StudyMethod method = StudyMethod::uniform;
     std::optional<StudyFigures> figures; ///< nothing where the path cannot be run
     std::string note;                    ///< why, or what the method says of itself
+    bool no_gain = false; ///< nothing better than what the method starts from was found, which is kept
 };
 
 /// One row a method, in their order. Only `folders.assets` matters. Throws Error if surface or machine are
@@ -72,7 +73,8 @@ studied(const StudyCase& of, const Folders& folders, const Progress& progress);
 /// Comma-separated, one line a row.
 [[nodiscard]] std::string study_csv(std::span<const StudyRow> rows);
 [[nodiscard]] std::string study_json(std::span<const StudyRow> rows);
-/// One table a surface and machine: largest / mean error and the largest axis deviation.
+/// One table a surface and machine: largest / mean error and the largest axis deviation, and where a method
+/// gained nothing.
 [[nodiscard]] std::string study_markdown(std::span<const StudyRow> rows);
 
 } // namespace millwright::project

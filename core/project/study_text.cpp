@@ -42,10 +42,11 @@ bool same_table(const StudyRow& a, const StudyRow& b) {
 }
 
 std::string cell(const StudyRow& row) {
-    return row.figures ? fmt::format("{} / {} / {}",
+    return row.figures ? fmt::format("{} / {} / {}{}",
                                      fixed(row.figures->error.max, 3),
                                      fixed(row.figures->error.mean, 4),
-                                     fixed(to_degrees(row.figures->error.axis_max), 1))
+                                     fixed(to_degrees(row.figures->error.axis_max), 1),
+                                     row.no_gain ? " (no gain)" : "")
                        : "out of reach";
 }
 
@@ -117,6 +118,7 @@ std::string study_json(std::span<const StudyRow> rows) {
         entry["tracks"] = row.of.tracks;
         entry["method"] = label(row.method);
         entry["figures"] = row.figures ? json_of(*row.figures) : Json();
+        entry["no_gain"] = row.no_gain;
         entry["note"] = row.note;
         json["rows"].push_back(std::move(entry));
     }
@@ -127,7 +129,10 @@ std::string study_markdown(std::span<const StudyRow> rows) {
     std::string text =
         "# Kinematic error by method\n\n"
         "Each cell: largest / mean distance of the true tool tip from the surface, mm / largest angle\n"
-        "between tool axis and surface normal, deg; over the moves inside the tracks.\n";
+        "between tool axis and surface normal, deg; over the moves inside the tracks. No gain: nothing "
+        "better\n"
+        "was found than what the method starts from, which is kept: the uniform grid of the set-up, for a\n"
+        "sequence the chain by the nearest branches.\n";
     for (std::size_t from = 0; from < rows.size();) {
         std::size_t to = from;
         while (to < rows.size() && same_table(rows[from], rows[to])) {

@@ -36,6 +36,12 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
                              scratch / "out"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(scratch / "out/dome-rotary-tilt-listing.png"), StartsWith("\x89PNG"));
+    const auto study = nlohmann::json::parse(content_of(scratch / "out/kinematic-error.json"));
+    EXPECT_EQ(study.at("rows")[2].at("method"), "elliptic");
+    EXPECT_TRUE(study.at("rows")[2].at("no_gain"));
+    EXPECT_THAT(content_of(scratch / "out/kinematic-error.md"), HasSubstr(" (no gain) | "));
+    EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
+    EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
 }
 
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {

@@ -40,6 +40,7 @@ TEST(SolverCoordinates, GoThereAndBackWithExactEnds) {
     EXPECT_NEAR(back.at(3, 4).y(), 4.0 / 11.0, 1e-15);
 }
 
+// T16.
 TEST(ErrorDensity, OfAnErrorKappaHSquaredIsKappaWhateverTheSteps) {
     // 5 x 5 nodes: h^2 in solver coordinates is 16 times that in parameters.
     const SpikeErrorModel model({.background = 32.0, .height = 0.0, .limit = 1e12});

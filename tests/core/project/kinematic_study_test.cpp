@@ -1,6 +1,7 @@
 #include "core/project/kinematic_study.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/project/internal/sentences.h"
 
 #include <gmock/gmock.h>
@@ -44,6 +45,11 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
         EXPECT_LT(mean(StudyMethod::tracks), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::chain), mean(StudyMethod::uniform)) << machine;
         EXPECT_LE(mean(StudyMethod::sequencing), rounded_up * mean(StudyMethod::chain)) << machine;
+        EXPECT_FALSE(row_of(rows, StudyMethod::chain).no_gain) << machine;
+        for (const StudyMethod method : {StudyMethod::elliptic, StudyMethod::harmonic, StudyMethod::tracks}) {
+            const bool same = exactly_equal(mean(method), mean(StudyMethod::uniform));
+            EXPECT_EQ(row_of(rows, method).no_gain, same) << machine << ", " << label(method);
+        }
         EXPECT_LT(mean(StudyMethod::set_up_chain), mean(StudyMethod::set_up)) << machine;
         EXPECT_LE(mean(StudyMethod::everything), rounded_up * mean(StudyMethod::set_up_chain)) << machine;
         EXPECT_EQ(row_of(rows, StudyMethod::set_up).figures->offset,
@@ -78,6 +84,7 @@ std::vector<StudyRow> two_rows() {
     for (const StudyMethod method : every_study_method) {
         rows.push_back({of, method, figures, {}});
     }
+    rows[1].no_gain = true;
     rows.back().figures.reset();
     rows.back().note = "a \"pose\", out of reach";
     return rows;
@@ -99,6 +106,8 @@ TEST(KinematicStudyText, ForProgramsIsJson) {
     ASSERT_EQ(json.at("rows").size(), every_study_method.size());
     EXPECT_EQ(json.at("rows")[0].at("figures").at("max_mm"), 1.5);
     EXPECT_TRUE(json.at("rows")[0].at("figures").at("time_s").is_null());
+    EXPECT_FALSE(json.at("rows")[0].at("no_gain"));
+    EXPECT_TRUE(json.at("rows")[1].at("no_gain"));
     EXPECT_TRUE(json.at("rows").back().at("figures").is_null());
 }
 
@@ -109,7 +118,7 @@ TEST(KinematicStudyText, ForPeopleIsATableASurfaceAndMachine) {
                 HasSubstr("| points | uniform | 1-D shares | elliptic | harmonic map | tracks | chain | "
                           "chain + sequence | set-up | set-up + chain | all three "
                           "|\n|---|---|"));
-    EXPECT_THAT(text, HasSubstr("\n| 15 | 1.500 / 0.2500 / 5.7 | 1.500"));
+    EXPECT_THAT(text, HasSubstr("\n| 15 | 1.500 / 0.2500 / 5.7 | 1.500 / 0.2500 / 5.7 (no gain) | 1.500"));
     EXPECT_THAT(text, HasSubstr("| out of reach |\n"));
 }
 
