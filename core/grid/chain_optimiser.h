@@ -22,7 +22,9 @@ struct ChainSettings {
     double widest_gap = 1.125;   ///< the same, 1 to 2
     int first_descent = 300;     ///< iterations at the exponent of `tracks`, at most, 0 to 100 000
     int later_descents = 150;    ///< the same at each later exponent
-    std::vector<double> exponents{4.0, 8.0, 16.0, 32.0}; ///< of the error, one descent each
+    /// Of the error, one descent each. Without the 6 the two bells at 40 nodes end at a largest error of
+    /// 0.178 instead of 0.148 mm, the dome at 10 at a mean of 0.643 instead of 0.640 mm.
+    std::vector<double> exponents{4.0, 6.0, 8.0, 16.0, 32.0};
     double least_jacobian = 0.015; ///< of a corner triangle in a grid that is accepted, 1 on a uniform grid
 };
 

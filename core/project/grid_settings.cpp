@@ -198,7 +198,7 @@ constexpr std::array<NumberSetting<ChainInput>, 3> of_chain{{
     {"later_iterations",
      "Later iterations",
      "",
-     "The same at each of the exponents 4, 8, 16 and 32, which lower the worst moves; 0 leaves them out",
+     "The same at each of the exponents 4, 6, 8, 16 and 32, which lower the worst moves; 0 leaves them out",
      0,
      10000,
      0,

@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(OfTwoBells,
                          ChainGain,
                          ::testing::Values(Row{15, 12.37, 1.302, 1.01, 0.441},
                                            Row{20, 11.13, 0.827, 0.548, 0.269},
-                                           Row{40, 7.046, 0.232, 0.179, 0.079}));
+                                           Row{40, 7.046, 0.232, 0.155, 0.078}));
 
 /// Few nodes: the tracks that are best for the tip turn the axis further than the uniform grid does.
 TEST(ChainGainOfTheDome, PaysTheAxisAtTenNodesWithNextToNothingOfTheMean) {
@@ -63,8 +63,8 @@ TEST(ChainGainOfTheDome, PaysTheAxisAtTenNodesWithNextToNothingOfTheMean) {
     const grid::ImproverState state = run(chain, {});
     EXPECT_NEAR(state.start.max, 15.76, 0.005);
     EXPECT_NEAR(state.start.mean, 1.594, 0.0005);
-    EXPECT_LE(state.of_best.max, 1.08); // the prototype, which let the axis be: 1.21 and 0.640
-    EXPECT_LE(state.of_best.mean, 0.655);
+    EXPECT_LE(state.of_best.max, 1.08); // a prototype, which let the axis be, reached 1.21 and 0.640
+    EXPECT_LE(state.of_best.mean, 0.645);
     EXPECT_LE(state.of_best.axis_max, state.start.axis_max);
 }
 
