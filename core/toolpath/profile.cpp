@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
+#include "core/toolpath/internal/body_height.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,14 @@ BodyNear near(const Profile& body, const geometry::ToolPose& pose, const Vec3& p
 
 double
 height_over(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, const Vec3& direction) {
+    return height_below(body, pose, point, direction, std::numeric_limits<double>::infinity());
+}
+
+double height_below(const Profile& body,
+                    const geometry::ToolPose& pose,
+                    const Vec3& point,
+                    const Vec3& direction,
+                    double enough) {
     constexpr int most_steps = 100;
     constexpr double exact = 1e-11; // mm
     const ProfileShape& shape = body.shape();
@@ -165,9 +174,11 @@ height_over(const Profile& body, const geometry::ToolPose& pose, const Vec3& poi
     // point outside, or up again from below the whole body.
     double height = inside ? -2.0 * (shape.top - shape.bottom + 2.0 * shape.radius) : 0.0;
     for (int n = 0; n < most_steps; ++n) {
-        const BodyNear seen = near(body, pose, point + height * direction);
-        const double slope = seen.normal.dot(direction);
-        if (seen.distance <= exact) {
+        const Section section = section_of(pose, point + height * direction);
+        const Profile::Near seen = body.near(section.at);
+        const Vec3 normal = seen.normal.x() * section.outwards + seen.normal.y() * pose.axis;
+        const double slope = normal.dot(direction);
+        if (seen.distance <= exact || height >= enough) {
             return height;
         }
         if (!(slope < 0.0)) {

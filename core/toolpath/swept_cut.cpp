@@ -1,10 +1,12 @@
 #include "core/toolpath/swept_cut.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "core/toolpath/body_clearance.h"
+#include "core/toolpath/internal/body_height.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,27 +110,62 @@ struct Lowest {
     geometry::ToolPose pose;
 };
 
+/// Whether `point` is farther than `limit` from the body: by the cylinder around it, rounded below as its
+/// corner is. Cheap, exact for a ball, and never wrong where it says so.
+bool is_far(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, double limit) {
+    constexpr double rounding = 1e-6; // mm
+    const ProfileShape& shape = body.shape();
+    const double margin = limit + shape.corner + rounding;
+    const Vec3 from_tip = point - pose.tip;
+    const double z = from_tip.dot(pose.axis);
+    const double above = std::max({shape.bottom + shape.corner - z, z - shape.top, 0.0});
+    const double rho = std::sqrt(std::max(from_tip.squaredNorm() - square(z), 0.0));
+    const double beside = std::max(rho - (shape.radius - shape.corner), 0.0);
+    return square(above) + square(beside) > square(margin);
+}
+
+/// How far a point of the body is at most in one pose from where it is in the other.
+double displacement(const Profile& body, const geometry::ToolPose& a, const geometry::ToolPose& b) {
+    const ProfileShape& shape = body.shape();
+    const double reach = std::hypot(std::max(std::abs(shape.bottom), std::abs(shape.top)), shape.radius);
+    return (a.tip - b.tip).norm() + reach * (a.axis - b.axis).norm();
+}
+
 /// One move against the surface.
 class Sweep {
 public:
-    Sweep(const std::vector<Tile>& tiles, const Tool& tool, double highest, std::size_t raster)
-        : tiles_(tiles), tool_(tool), highest_(highest), heights_(raster, highest) {}
+    Sweep(const std::vector<Tile>& tiles, const Tool& tool, double highest)
+        : tiles_(tiles), tool_(tool), highest_(highest), heights_(tiles.size()) {}
 
-    void look(const geometry::ToolPose& pose) {
-        for (const Tile& tile : tiles_) {
-            if (distance(*tool_.cutter, pose, tile.middle) - tile.radius < highest_) {
-                cut(pose, tile);
+    /// At a few poses that follow each other.
+    void look(std::span<const geometry::ToolPose> poses) {
+        for (const std::size_t tile : tiles_near(*tool_.cutter, poses, highest_)) {
+            for (const geometry::ToolPose& pose : poses) {
+                if (within(*tool_.cutter, pose, tiles_[tile], highest_)) {
+                    cut(pose, tile);
+                }
             }
-            if (tool_.holder && distance(*tool_.holder, pose, tile.middle) - tile.radius < 0.0) {
-                hit(pose, tile);
+        }
+        if (!tool_.holder) {
+            return;
+        }
+        for (const std::size_t tile : tiles_near(*tool_.holder, poses, 0.0)) {
+            for (const geometry::ToolPose& pose : poses) {
+                if (within(*tool_.holder, pose, tiles_[tile], 0.0)) {
+                    hit(pose, tiles_[tile]);
+                }
             }
         }
     }
 
     [[nodiscard]] Found found(const geometry::BezierPatch& patch) const {
         Found result;
-        for (const std::size_t index : touched_) {
-            result.left.push_back({index, heights_[index]});
+        for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+            for (std::size_t n = 0; n < heights_[tile].size(); ++n) {
+                if (heights_[tile][n] < highest_) {
+                    result.left.push_back({tiles_[tile].points[n].index, heights_[tile][n]});
+                }
+            }
         }
         result.bites.cutter = sharpened(patch, *tool_.cutter, by_cutter_);
         if (tool_.holder) {
@@ -138,18 +175,42 @@ public:
     }
 
 private:
-    void cut(const geometry::ToolPose& pose, const Tile& tile) {
-        for (const SurfacePoint& point : tile.points) {
-            double& least = heights_[point.index];
-            if (distance(*tool_.cutter, pose, point.position) >= std::max(least, 0.0)) {
-                continue; // the height is not below the distance
+    /// Those that the body may come nearer to than `limit` in one of the poses.
+    [[nodiscard]] std::vector<std::size_t>
+    tiles_near(const Profile& body, std::span<const geometry::ToolPose> poses, double limit) const {
+        const geometry::ToolPose& middle = poses[poses.size() / 2];
+        double farthest = 0.0;
+        for (const geometry::ToolPose& pose : poses) {
+            farthest = std::max(farthest, displacement(body, pose, middle));
+        }
+        std::vector<std::size_t> found;
+        for (std::size_t n = 0; n < tiles_.size(); ++n) {
+            if (!is_far(body, middle, tiles_[n].middle, limit + tiles_[n].radius + farthest)) {
+                found.push_back(n);
             }
-            const double height = height_over(*tool_.cutter, pose, point.position, point.normal);
-            if (height < least) {
-                if (least >= highest_) {
-                    touched_.push_back(point.index);
-                }
-                least = height;
+        }
+        return found;
+    }
+
+    static bool within(const Profile& body, const geometry::ToolPose& pose, const Tile& tile, double limit) {
+        return !is_far(body, pose, tile.middle, limit + tile.radius) &&
+               distance(body, pose, tile.middle) - tile.radius < limit;
+    }
+
+    void cut(const geometry::ToolPose& pose, std::size_t tile) {
+        const std::vector<SurfacePoint>& points = tiles_[tile].points;
+        std::vector<double>& heights = heights_[tile];
+        heights.resize(points.size(), highest_);
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            const SurfacePoint& point = points[n];
+            const double nearer = std::max(heights[n], 0.0); // the height is not below the distance
+            if (is_far(*tool_.cutter, pose, point.position, nearer) ||
+                distance(*tool_.cutter, pose, point.position) >= nearer) {
+                continue;
+            }
+            const double height = height_below(*tool_.cutter, pose, point.position, point.normal, heights[n]);
+            if (height < heights[n]) {
+                heights[n] = height;
                 note(by_cutter_, height, point, pose);
             }
         }
@@ -157,7 +218,8 @@ private:
 
     void hit(const geometry::ToolPose& pose, const Tile& tile) {
         for (const SurfacePoint& point : tile.points) {
-            if (distance(*tool_.holder, pose, point.position) < 0.0) {
+            if (!is_far(*tool_.holder, pose, point.position, 0.0) &&
+                distance(*tool_.holder, pose, point.position) < 0.0) {
                 note(by_holder_, height_over(*tool_.holder, pose, point.position, point.normal), point, pose);
             }
         }
@@ -186,10 +248,26 @@ private:
     const std::vector<Tile>& tiles_;
     const Tool& tool_;
     double highest_ = 0.0;
-    std::vector<double> heights_; // of the raster
-    std::vector<std::size_t> touched_;
+    std::vector<std::vector<double>> heights_; // of the points of each tile; none where it was never near
     Lowest by_cutter_, by_holder_;
 };
+
+void look_along(Sweep& sweep,
+                const kinematics::MachineModel& machine,
+                const SweptMove& move,
+                int looks,
+                const Progress& progress) {
+    constexpr std::size_t at_once = 16; // so few that they are near to each other
+    std::vector<geometry::ToolPose> poses;
+    for (int k = 0; k <= looks; ++k) {
+        poses.push_back(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));
+        if (poses.size() == at_once || k == looks) {
+            progress.check();
+            sweep.look(poses);
+            poses.clear();
+        }
+    }
+}
 
 } // namespace
 
@@ -214,15 +292,11 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
         std::vector<Found> found(static_cast<std::size_t>(count));
         parallel_for(count, 1, [&](std::ptrdiff_t n) {
             const SweptMove& move = moves[static_cast<std::size_t>(first + n)];
-            Sweep sweep(tiles, tool, settings.highest, cut.heights.size());
+            Sweep sweep(tiles, tool, settings.highest);
             constexpr double hits_only =
                 4.0; // a hit is not missed by coarser steps, a scallop would be wrong
             const double step = move.cuts ? settings.step : hits_only * settings.step;
-            const int looks = looks_at(machine, move, step);
-            for (int k = 0; k <= looks; ++k) {
-                progress.check();
-                sweep.look(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));
-            }
+            look_along(sweep, machine, move, looks_at(machine, move, step), progress);
             found[static_cast<std::size_t>(n)] = sweep.found(patch);
         });
         for (std::ptrdiff_t n = 0; n < count; ++n) {

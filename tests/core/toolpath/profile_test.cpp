@@ -1,6 +1,7 @@
 #include "core/toolpath/profile.h"
 
 #include "core/base/error.h"
+#include "core/toolpath/internal/body_height.h"
 #include "tests/support/cutters.h"
 #include "tests/support/machines.h"
 
@@ -124,6 +125,13 @@ TEST(Profile, ABodyBeginsOverAPointWhereALineMeetsIt) {
             const Vec3 point = pose.tip + test::random_point(random, 8.0);
             const Vec3 up = test::random_upward(random);
             const double found = height_over(body, pose, point, up);
+            for (const double enough : {-2.0, 0.5, 3.0}) {
+                const double quick = height_below(body, pose, point, up, enough);
+                EXPECT_GE(quick, std::min(found, enough));
+                if (found < enough) {
+                    EXPECT_EQ(quick, found);
+                }
+            }
             const bool inside = distance(body, pose, point) < 0.0;
             constexpr double step = 0.01;
             double height = 0.0;
