@@ -9,6 +9,7 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
@@ -42,9 +43,10 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                fixed(chosen.closest.max, 4),
                fixed(chosen.closest.mean, 4),
                fixed(to_degrees(chosen.closest.axis_max), 2));
-    fmt::print("left on the surface: at most {} mm, {} mm on average; {} % not cut\n",
+    fmt::print("left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; {} % not cut\n",
                fixed(study.scallops.max, 4),
                fixed(study.scallops.mean, 4),
+               shortest(project.tool.scallop_mm),
                fixed(100.0 * study.scallops.not_cut, 2));
     fmt::print("tracks: {}; a scallop of {} mm asks for {}\n",
                chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"
@@ -54,6 +56,12 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
     fmt::print("deepest cut below the surface: {} mm; estimated time {}\n",
                fixed(study.deepest, 4),
                clock_time(plan.trajectory->duration()));
+}
+
+void print_why_higher(const project::Project& project, const project::Plan& plan) {
+    if (const std::string why = project::why_higher(project, plan); !why.empty()) {
+        fmt::print(stderr, "warning: {}\n", why);
+    }
 }
 
 /// A few by name, the rest by their number: all of them are in cut.json.
@@ -112,6 +120,7 @@ int cut(const Options& options) {
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     print_summary(plan, project);
+    print_why_higher(project, plan);
     print_bites(*plan.cut);
     return 0;
 }

@@ -6,6 +6,7 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/grids.h"
 #include "core/project/report.h"
@@ -170,11 +171,18 @@ void print_sequencing(const project::Plan& plan,
     print_path(project::row_of(project::sequencing_goals(), project.sequencing.goal).id, workpiece, chosen);
 }
 
-void print_cut(const project::CutStudy& cut) {
-    fmt::print("left on the surface: at most {} mm, {} mm on average; deepest cut below it: {} mm\n",
-               fixed(cut.scallops.max, 4),
-               fixed(cut.scallops.mean, 4),
-               fixed(cut.deepest, 4));
+void print_cut(const project::Project& project, const project::Plan& plan) {
+    const project::CutStudy& cut = *plan.cut;
+    fmt::print(
+        "left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; deepest cut below it: "
+        "{} mm\n",
+        fixed(cut.scallops.max, 4),
+        fixed(cut.scallops.mean, 4),
+        shortest(project.tool.scallop_mm),
+        fixed(cut.deepest, 4));
+    if (const std::string why = project::why_higher(project, plan); !why.empty()) {
+        fmt::print(stderr, "warning: {}\n", why);
+    }
     std::vector<std::string> found;
     if (!cut.bites.empty()) {
         found.push_back(fmt::format("{} blocks bring the tool into the part", cut.bites.size()));
@@ -209,7 +217,7 @@ int plan(const Options& options) {
     print_summary(plan, opened.project);
     print_sequencing(plan, opened.project, interrupt.token());
     if (plan.cut) {
-        print_cut(*plan.cut);
+        print_cut(opened.project, plan);
     }
     return 0;
 }

@@ -1,5 +1,6 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
@@ -64,10 +65,13 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     json["error_mm"]["p95"] = rounded(evaluation.closest.p95);
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
+    json["scallop_mm"]["wanted"] = rounded(project.tool.scallop_mm);
     json["scallop_mm"]["max"] = rounded(study.scallops.max);
     json["scallop_mm"]["mean"] = rounded(study.scallops.mean);
     json["scallop_mm"]["p95"] = rounded(study.scallops.p95);
     json["scallop_mm"]["by_formula"] = rounded(study.scallops.by_formula);
+    const std::string why = why_higher(project, plan);
+    json["scallop_mm"]["why_higher"] = why.empty() ? Json() : Json(why);
     json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
     json["step_over_mm"] = std::isfinite(study.step_over) ? Json(rounded(study.step_over)) : Json();
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);

@@ -2,8 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/project/assets.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/tool_settings.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -113,6 +115,26 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     }
     EXPECT_EQ(count, found.swept.nu * found.swept.nv);
     EXPECT_NEAR(found.scallops.not_cut, static_cast<double>(empty) / count, 1e-12);
+}
+
+TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
+    Project project = plane(5, 11);
+    project.toolpath.strategy = StrategyInput::constant_scallop;
+    ToolInput tool = ball;
+    tool.scallop_mm = 0.1;
+    const Plan flat = studied(project, tool);
+    project.tool = tool;
+    EXPECT_LT(flat.cut->scallops.max, 1.01 * tool.scallop_mm);
+    EXPECT_EQ(why_higher(project, flat), "");
+    EXPECT_TRUE(
+        nlohmann::json::parse(cut_report_text(project, flat)).at("scallop_mm").at("why_higher").is_null());
+
+    project.surface = project_from_preset("two-bell").surface;
+    const Plan bent = studied(project, tool); // moves of 20 mm over the bells
+    EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points a track are too few, about "));
+    const auto report = nlohmann::json::parse(cut_report_text(project, bent));
+    EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
+    EXPECT_EQ(report.at("scallop_mm").at("why_higher"), why_higher(project, bent));
 }
 
 TEST(CutStudy, OfAPointIsNone) {
