@@ -111,16 +111,17 @@ struct Lowest {
 };
 
 /// Whether `point` is farther than `limit` from the body: by the cylinder around it, rounded below as its
-/// corner is. Cheap, exact for a ball, and never wrong where it says so.
+/// corner is (not around a flank, which may leave the rounding). Cheap, and never wrong where it says so.
 bool is_far(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, double limit) {
     constexpr double rounding = 1e-6; // mm
     const ProfileShape& shape = body.shape();
-    const double margin = limit + shape.corner + rounding;
+    const double corner = shape.half_angle > 0.0 ? 0.0 : shape.corner;
+    const double margin = limit + corner + rounding;
     const Vec3 from_tip = point - pose.tip;
     const double z = from_tip.dot(pose.axis);
-    const double above = std::max({shape.bottom + shape.corner - z, z - shape.top, 0.0});
+    const double above = std::max({shape.bottom + corner - z, z - shape.top, 0.0});
     const double rho = std::sqrt(std::max(from_tip.squaredNorm() - square(z), 0.0));
-    const double beside = std::max(rho - (shape.radius - shape.corner), 0.0);
+    const double beside = std::max(rho - (shape.radius - corner), 0.0);
     return square(above) + square(beside) > square(margin);
 }
 
@@ -139,18 +140,16 @@ public:
 
     /// At a few poses that follow each other.
     void look(std::span<const geometry::ToolPose> poses) {
-        for (const std::size_t tile : tiles_near(*tool_.cutter, poses, highest_)) {
-            for (const geometry::ToolPose& pose : poses) {
+        const std::vector<std::size_t> to_cut = tiles_near(*tool_.cutter, poses, highest_);
+        const std::vector<std::size_t> to_hit =
+            tool_.holder ? tiles_near(*tool_.holder, poses, 0.0) : std::vector<std::size_t>{};
+        for (const geometry::ToolPose& pose : poses) {
+            for (const std::size_t tile : to_cut) {
                 if (within(*tool_.cutter, pose, tiles_[tile], highest_)) {
                     cut(pose, tile);
                 }
             }
-        }
-        if (!tool_.holder) {
-            return;
-        }
-        for (const std::size_t tile : tiles_near(*tool_.holder, poses, 0.0)) {
-            for (const geometry::ToolPose& pose : poses) {
+            for (const std::size_t tile : to_hit) {
                 if (within(*tool_.holder, pose, tiles_[tile], 0.0)) {
                     hit(pose, tiles_[tile]);
                 }
@@ -257,7 +256,7 @@ void look_along(Sweep& sweep,
                 const SweptMove& move,
                 int looks,
                 const Progress& progress) {
-    constexpr std::size_t at_once = 16; // so few that they are near to each other
+    constexpr std::size_t at_once = 16; // poses that share a look at all tiles: near to each other
     std::vector<geometry::ToolPose> poses;
     for (int k = 0; k <= looks; ++k) {
         poses.push_back(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));

@@ -2,8 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/units.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
+#include "core/toolpath/actual_trajectory.h"
 #include "core/toolpath/contact_shape.h"
 #include "core/toolpath/sequencing.h"
 #include "core/toolpath/tool_poses.h"
@@ -54,6 +56,60 @@ cut_of(const geometry::BezierPatch& patch, const Tool& tool, int tracks, const S
     const Toolpath path = with_tool(
         patch, machine, tool, zigzag(patch, Grid::uniform(20, tracks), TrackDirection::along_u, false));
     return swept_cut(patch, false, machine, tool, moves_of(machine, path), settings);
+}
+
+/// The plain form: every point at every look of the moves, without tiles, bounds or descents.
+struct PlainSweep {
+    std::vector<double> heights; ///< as of SweptCut
+    double lowest_of_holder = 0.0;
+};
+
+int looks_at(const kinematics::MachineModel& machine, const SweptMove& move, double step) {
+    double way = 0.0;
+    double turn = 0.0;
+    const auto poses = actual_poses(machine, move.from, move.to, 9);
+    for (std::size_t n = 1; n < poses.size(); ++n) {
+        way += (poses[n].tip - poses[n - 1].tip).norm();
+        turn += angle_between(poses[n].axis, poses[n - 1].axis);
+    }
+    return static_cast<int>(std::max({std::ceil(way / step), std::ceil(turn / from_degrees(1.0)), 1.0}));
+}
+
+void look(PlainSweep& found,
+          const Tool& tool,
+          const geometry::ToolPose& pose,
+          const geometry::BezierPatch& patch,
+          const SweepSettings& raster) {
+    for (int i = 0; i < raster.nu; ++i) {
+        for (int j = 0; j < raster.nv; ++j) {
+            const Vec2 uv(static_cast<double>(i) / (raster.nu - 1), static_cast<double>(j) / (raster.nv - 1));
+            const Vec3 point = patch.position(uv.x(), uv.y());
+            const Vec3 normal = patch.unit_normal(uv.x(), uv.y()).value();
+            double& least = found.heights[static_cast<std::size_t>(i * raster.nv + j)];
+            if (const double height = height_over(*tool.cutter, pose, point, normal);
+                height < raster.highest) {
+                least = std::min(least, height);
+            }
+            found.lowest_of_holder =
+                std::min(found.lowest_of_holder, height_over(*tool.holder, pose, point, normal));
+        }
+    }
+}
+
+PlainSweep plain_sweep(const geometry::BezierPatch& patch,
+                       const kinematics::MachineModel& machine,
+                       const Tool& tool,
+                       const SweptMove& move,
+                       const SweepSettings& settings) {
+    PlainSweep found;
+    found.heights.assign(static_cast<std::size_t>(settings.nu * settings.nv),
+                         std::numeric_limits<double>::infinity());
+    const int looks = looks_at(machine, move, settings.step);
+    for (int k = 0; k <= looks; ++k) {
+        const auto pose = actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks);
+        look(found, tool, pose, patch, settings);
+    }
+    return found;
 }
 
 double highest(const SweptCut& cut) {
@@ -123,6 +179,46 @@ TEST(SweptCut, IsWhatBruteForceFinds) {
         }
     }
     EXPECT_GT(cut_points, 20);
+}
+
+/// Tracks that touch the surface, and the same moves so deep in it that flank, shank or holder cut too.
+TEST(SweptCut, IsToTheBitWhatEveryPointAtEveryLookGives) {
+    std::vector<CutterShape> cutters = test::every_cutter;
+    cutters.push_back({.kind = CutterKind::cone, // a flank so short that it ends below the tip's middle
+                       .diameter = 6.0,
+                       .corner_radius = 3.4,
+                       .half_angle = from_degrees(30.0),
+                       .length = 20.0});
+    const auto patch = test::patch("two-bell");
+    const auto machine = test::machine("ac-table");
+    const SweepSettings settings{.nu = 25, .nv = 28, .step = 0.9, .highest = 3.0};
+    int cut_points = 0;
+    int hits = 0;
+    for (const CutterShape& shape : cutters) {
+        const Tool tool{.cutter = test::body(shape),
+                        .holder = body_of(HolderShape{.diameter = 60.0, .length = 40.0}, shape.length),
+                        .lean = {.lead = 0.2}};
+        const Toolpath path = with_tool(
+            patch, machine, tool, zigzag(patch, Grid::uniform(5, 6), TrackDirection::along_v, false));
+        std::vector<SweptMove> moves = moves_of(machine, path);
+        moves = {moves.begin() + 6, moves.begin() + 11}; // one track
+        for (const double deeper : {0.0, 4.0, 28.0}) {
+            for (SweptMove move : moves) {
+                move.from.z() -= deeper;
+                move.to.z() -= deeper;
+                const SweptCut cut = swept_cut(patch, false, machine, tool, {&move, 1}, settings);
+                const PlainSweep plain = plain_sweep(patch, machine, tool, move, settings);
+                EXPECT_EQ(cut.heights, plain.heights) << "corner " << shape.corner_radius;
+                EXPECT_GE(cut.moves[0].holder.depth, -plain.lowest_of_holder);
+                EXPECT_EQ(cut.moves[0].holder.depth > 0.0, plain.lowest_of_holder < 0.0);
+                cut_points += static_cast<int>(std::count_if(
+                    plain.heights.begin(), plain.heights.end(), [](double h) { return std::isfinite(h); }));
+                hits += plain.lowest_of_holder < 0.0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(cut_points, 1000);
+    EXPECT_GT(hits, 3);
 }
 
 /// In a valley of a smaller radius than its own a ball that touches the bottom cuts into the sides.
