@@ -84,11 +84,14 @@ private:
         Workpiece sequenced = workpiece_;
         sequenced.sequencing.goal = toolpath::SequencingGoal::error;
         const Evaluation found = evaluate(sequenced, nearest.outcome, report_samples, progress);
-        if (!is_worse(found, nearest, workpiece_.machine)) {
+        const bool worse = is_worse(found, nearest, workpiece_.machine);
+        const bool better = is_worse(nearest, found, workpiece_.machine);
+        if (better && !worse) {
             return row_of(method, found, progress);
         }
         StudyRow kept = row_of(method, nearest, progress);
-        kept.note = "No sequence is better in every figure than the nearest branch; it is kept.";
+        kept.note = worse ? "No sequence is better in every figure than the nearest branch; it is kept."
+                          : "No sequence is better in any figure than the nearest branch; it is kept.";
         kept.no_gain = true;
         return kept;
     }
@@ -96,7 +99,6 @@ private:
     row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
         return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
     }
-
     [[nodiscard]] StudyRow
     row_of_grid(StudyMethod method, const Evaluation& found, const Progress& progress) const {
         StudyRow row = row_of(method, found, progress);

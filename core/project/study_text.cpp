@@ -129,10 +129,9 @@ std::string study_markdown(std::span<const StudyRow> rows) {
     std::string text =
         "# Kinematic error by method\n\n"
         "Each cell: largest / mean distance of the true tool tip from the surface, mm / largest angle\n"
-        "between tool axis and surface normal, deg; over the moves inside the tracks. No gain: nothing "
-        "better\n"
-        "was found than what the method starts from, which is kept: the uniform grid of the set-up, for a\n"
-        "sequence the chain by the nearest branches.\n";
+        "between tool axis and surface normal, deg; over the moves inside the tracks. No gain: nothing\n"
+        "better was found than what the method starts from, which is kept: the uniform grid of the set-up,\n"
+        "for a sequence the chain by the nearest branches.\n";
     for (std::size_t from = 0; from < rows.size();) {
         std::size_t to = from;
         while (to < rows.size() && same_table(rows[from], rows[to])) {

@@ -50,6 +50,8 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
             const bool same = exactly_equal(mean(method), mean(StudyMethod::uniform));
             EXPECT_EQ(row_of(rows, method).no_gain, same) << machine << ", " << label(method);
         }
+        const bool nearest = exactly_equal(mean(StudyMethod::sequencing), mean(StudyMethod::chain));
+        EXPECT_EQ(row_of(rows, StudyMethod::sequencing).no_gain, nearest) << machine;
         EXPECT_LT(mean(StudyMethod::set_up_chain), mean(StudyMethod::set_up)) << machine;
         EXPECT_LE(mean(StudyMethod::everything), rounded_up * mean(StudyMethod::set_up_chain)) << machine;
         EXPECT_EQ(row_of(rows, StudyMethod::set_up).figures->offset,
