@@ -33,9 +33,10 @@ std::string why_higher(const Project& project, const Plan& plan) {
     const Evaluation& path = *plan.program_path(project);
     const double off = path.closest.max;
     if (off < (much - 1.0) * wanted) {
-        return fmt::format("{} mm are left where {} mm are wanted: look at surface.csv for the places",
-                           fixed(left, 4),
-                           shortest(wanted));
+        return fmt::format(
+            "{} mm are left where {} mm are wanted: surface.csv of 'millwright cutter' tells the places",
+            fixed(left, 4),
+            shortest(wanted));
     }
     const int points = path.outcome.grid.nodes_per_track(plan.workpiece->direction);
     return fmt::format(
