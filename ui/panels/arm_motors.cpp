@@ -24,7 +24,7 @@ double shown(const ArmJoint& joint, double value) {
     return joint.kind == kinematics::JointKind::revolute ? to_degrees(value) : value;
 }
 
-/// The columns' unit is the degree; what slides has its own with it.
+/// The columns' unit is the degree; what slides has its own with it, and fewer decimals, so that both fit.
 std::string number(const ArmJoint& joint,
                    std::optional<double> value,
                    int decimals,
@@ -33,7 +33,7 @@ std::string number(const ArmJoint& joint,
         return nothing;
     }
     const bool slides = joint.kind == kinematics::JointKind::prismatic;
-    return fixed(shown(joint, *value), decimals) + (slides ? of_slides : "");
+    return fixed(shown(joint, *value), slides ? decimals / 2 : decimals) + (slides ? of_slides : "");
 }
 
 /// One joint as its file has it and, where a controller drives it, as that tells.
@@ -56,7 +56,6 @@ public:
 
     [[nodiscard]] std::string cell(int column) const {
         constexpr int volt_decimals = 3;
-        constexpr const char* per_second = " mm/s";
         const auto volts = [](std::optional<double> value) {
             return value ? fixed(*value, volt_decimals) : nothing;
         };
@@ -68,16 +67,13 @@ public:
         case 2:
             return travel();
         case 3:
-            return number(joint_, velocity_, 3, per_second);
+            return number(joint_, velocity_, 3);
         case 4:
-            return number(joint_, limits_.jog_speed, 1, per_second);
+            return number(joint_, limits_.jog_speed, 1);
         case 5:
-            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1, per_second);
+            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1);
         case 6:
-            return number(joint_,
-                          limits_.acceleration ? limits_.acceleration : joint_.max_acceleration,
-                          0,
-                          " mm/s\u00b2");
+            return number(joint_, limits_.acceleration ? limits_.acceleration : joint_.max_acceleration, 0);
         case 7:
             return volts(motor_ ? std::optional(motor_->output_V) : std::nullopt);
         case 8:

@@ -268,6 +268,12 @@ TEST(ArmWorkspace, EveryArmThatShipsCanBeLookedAt) {
         bench.person.frames(4);
         EXPECT_NEAR(bench.person.place("view/tip").x, tip.x, 0.5) << name;
         EXPECT_NEAR(bench.person.place("view/tip").y, tip.y, 0.5) << name;
+        bench.person.click("inspector/goal/from_tool");
+        bench.person.frames(4);
+        EXPECT_TRUE(bench.person.sees("inspector/goal/solutions/solution_1")) << name;
+        for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
+            ADD_FAILURE() << name << ": " << cut;
+        }
         bench.person.keep(std::string("arm-") + name);
     }
 }
