@@ -212,10 +212,15 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
         (void)widgets::banner(ui, "reason", {widgets::Severity::warning, as_sentence(bench.reason()), {}});
         return;
     }
-    constexpr std::array<widgets::Column, 3> columns{
-        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}, {"Slide", "mm", 1.0F, true}}};
+    // Of any joint from where it stands.
+    constexpr std::array<widgets::Column, 2> turning{
+        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}}};
+    constexpr std::array<widgets::Column, 3> sliding{
+        {{"Solution", {}, 1.0F}, {"Turn", "\u00b0", 1.0F, true}, {"Slide", "mm", 1.0F, true}}};
+    const bool with_slide = slides(bench.arm());
     widgets::TableView view;
-    view.columns = std::span(columns).first(slides(bench.arm()) ? 3 : 2);
+    view.columns =
+        with_slide ? std::span<const widgets::Column>(sliding) : std::span<const widgets::Column>(turning);
     view.rows = std::ssize(bench.solutions());
     view.chosen = bench.chosen();
     view.cell = [&](std::ptrdiff_t row, int column) {
