@@ -10,8 +10,10 @@ namespace millwright::machine::pmac {
 
 namespace {
 
-constexpr char report_sum = '\x0E', forget_all = '\x18', cr = '\r', ack = '\x06', bell = '\a';
-constexpr double quiet = 0.05; // s after which nothing more comes
+constexpr char report_sum = '\x0E', forget_all = '\x18', cr = '\r', ack = '\x06', bell = '\a',
+               line_feed = '\n';
+constexpr double quiet = 0.05;       // s after which nothing more comes
+constexpr double longest_gap = 0.25; // s within an answer
 constexpr std::size_t longest_answer = 300;
 
 int error_number(std::string_view text) {
@@ -33,9 +35,10 @@ char checksum(std::string_view text) {
     return static_cast<char>(sum & 0xFFU);
 }
 
-void GuardedLine::send(std::string line, double now) {
+void GuardedLine::send(std::string line, bool repeats, double now) {
     expects(idle(), "one line after the other");
     line_ = std::move(line);
+    repeats_ = repeats;
     reply_ = {};
     begun_ = now;
     put_line(now);
@@ -50,6 +53,10 @@ void GuardedLine::put_line(double now) {
 
 void GuardedLine::again(double now) {
     output_ += forget_all;
+    if (!repeats_) {
+        end(Outcome::unsent);
+        return;
+    }
     step_ = Step::clearing;
     since_ = last_byte_ = now;
 }
@@ -98,7 +105,9 @@ void GuardedLine::receive(std::string_view bytes, double now) {
 
 void GuardedLine::read_answer() {
     while (step_ == Step::waiting && !input_.empty()) {
-        if (input_.front() == bell) {
+        if (input_.front() == line_feed) { // the hand-shake of a card that was reset: no time is to be lost
+            end(Outcome::lost);
+        } else if (input_.front() == bell) {
             step_ = Step::refusing;
         } else if (input_.front() == ack) {
             if (input_.size() < 2) {
@@ -143,7 +152,8 @@ GuardedLine::Reply GuardedLine::poll(double now) {
         reply_.error = error_number(input_);
         output_ += forget_all;
         end(Outcome::refused);
-    } else if (step_ == Step::waiting && now - since_ > patience_) {
+    } else if (step_ == Step::waiting &&
+               (now - since_ > patience_ || (!input_.empty() && now - last_byte_ > longest_gap))) {
         end(Outcome::lost);
     }
     if (step_ != Step::ended) {

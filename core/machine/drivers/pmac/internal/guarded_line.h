@@ -18,6 +18,7 @@ public:
         none,     ///< still on its way, or nothing was sent
         answered, ///< accepted; `lines` is what it said
         refused,  ///< `error` is the card's number, 0 if it told none
+        unsent,   ///< the card was told to forget it: it did not come as it was sent
         lost      ///< nobody knows whether the card has done it
     };
     struct Reply {
@@ -31,8 +32,9 @@ public:
     explicit GuardedLine(double patience) : patience_(patience) {}
 
     [[nodiscard]] bool idle() const { return step_ == Step::idle; }
-    /// Throws Defect unless idle. `line` has no CR.
-    void send(std::string line, double now);
+    /// Throws Defect unless idle. `line` has no CR. `repeats`: it is sent again as long as it does not come
+    /// as it is; else the one who asks has to look first whether the card is still the same.
+    void send(std::string line, bool repeats, double now);
     void receive(std::string_view bytes, double now);
     /// What became of the line, once.
     [[nodiscard]] Reply poll(double now);
@@ -51,6 +53,7 @@ private:
 
     double patience_;
     Step step_ = Step::idle;
+    bool repeats_ = true;
     std::string line_, input_, output_;
     Reply reply_;
     double begun_ = 0.0, since_ = 0.0, last_byte_ = 0.0;

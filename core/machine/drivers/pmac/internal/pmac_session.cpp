@@ -16,6 +16,7 @@ namespace {
 
 constexpr double poll_interval = 0.02;    // s
 constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
+constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
 constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
 
 bool starts_with_word(const std::string& line, std::string_view word) {
@@ -38,7 +39,7 @@ void PmacSession::opened(double now) {
     greet_step_ = 0;
     greet_at_ = opened_at_ = now;
     own_pause_.begin(now);
-    buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = false;
+    buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
@@ -80,6 +81,12 @@ void PmacSession::tell(bool sent, ConsoleKind kind, std::string text) {
 bool PmacSession::is_ours(Kind kind) {
     return kind == Kind::poll || kind == Kind::reading || kind == Kind::rating || kind == Kind::address ||
            kind == Kind::watch || kind == Kind::jog_speeds || kind == Kind::greet;
+}
+
+/// What moves nothing, and lines of a buffer, which a card that was reset refuses.
+bool PmacSession::may_repeat(Kind kind) const {
+    return buffer_open_ || stage_ == Stage::greeting ||
+           !(kind == Kind::step || kind == Kind::run || kind == Kind::command);
 }
 
 void PmacSession::receive(std::string_view bytes, double now) {
@@ -165,6 +172,11 @@ void PmacSession::ask_something(double now) {
     // A command and the question for its addresses belong together; else the report comes first, but not
     // twice where the line is so slow that the next one is due when it comes.
     const bool turn = queue_.empty() || (queue_.front().kind == Kind::command && !asked_poll_);
+    if (look_first_ && polled_ && !buffer_open_) {
+        look_first_ = false;
+        next_poll_ = now;
+        queue_.push_front({poll_line(), Kind::poll, 0});
+    }
     const bool may_poll = turn && polled_ && !buffer_open_ && stage_ != Stage::greeting;
     if (may_poll && now >= next_poll_) {
         sent_ = Request{poll_line(), Kind::poll, 0};
@@ -188,6 +200,7 @@ void PmacSession::ask_something(double now) {
     talk_.send(addressed ? sign_of_life + addresses_ + sent_->line
                : lively  ? std::string(sign_of_life) + " " + sent_->line
                          : sent_->line,
+               may_repeat(sent_->kind),
                now);
 }
 
@@ -206,6 +219,14 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
     case GuardedLine::Outcome::refused:
         refused(request, reply.error);
         break;
+    case GuardedLine::Outcome::unsent:
+        if (request.tries < most_tries) {
+            queue_.push_front(request);
+            ++queue_.front().tries;
+            look_first_ = true;
+            break;
+        }
+        [[fallthrough]];
     default:
         if (stage_ == Stage::greeting) {
             queue_.clear();

@@ -90,6 +90,7 @@ private:
         std::string line;
         Kind kind = Kind::step;
         std::size_t axis = 0; ///< of a rating
+        int tries = 0;        ///< in which it did not come as it was sent
     };
     struct MotorState {
         double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
@@ -121,6 +122,7 @@ private:
     void arm();
     void tell(bool sent, ConsoleKind kind, std::string text);
     [[nodiscard]] static bool is_ours(Kind kind);
+    [[nodiscard]] bool may_repeat(Kind kind) const;
 
     // pmac_watch.cpp: what the card tells
     void read_poll(const std::vector<std::string>& lines, double now);
@@ -196,6 +198,7 @@ private:
     bool buffer_open_ = false; ///< nothing may be asked meanwhile
     bool polled_ = false;
     bool asked_poll_ = false; ///< by the last line
+    bool look_first_ = false; ///< before anything is sent again that moves: the card may have been reset
 
     MotorReadings readings_;
     std::vector<MotorState> motors_;

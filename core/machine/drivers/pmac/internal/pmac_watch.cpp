@@ -471,7 +471,7 @@ void PmacSession::fail(std::string why) {
     kill();
     queue_.clear();
     command_lines_.clear();
-    buffer_open_ = false;
+    buffer_open_ = look_first_ = false;
     tell(false, ConsoleKind::fault, why);
     finish(Stage::alarm, std::move(why));
     ask("CLOSE");

@@ -1,10 +1,12 @@
 // Motors that cannot go where they are sent, or have lost or get no power: F2, in computed time.
 #include "core/machine/drivers/pmac/internal/following_watch.h"
+#include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "tests/core/machine/drivers/pmac/pmac_wire.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace millwright::machine::pmac {
@@ -133,6 +135,64 @@ TEST(PmacPowerF2, ACardThatWasSwitchedOffAndOnIsNotToldAsSilent) {
     deaf.go_deaf();
     ASSERT_TRUE(deaf.run_until([&] { return deaf.state() == DriverState::alarm; }, 3.0));
     EXPECT_THAT(deaf.session.status().message, HasSubstr("the card did not answer"));
+}
+
+TEST(PmacGuardedLine, ThatMovesIsNotSentAgainUnasked) {
+    GuardedLine moving(0.5), asking(0.5);
+    moving.send("#1J=784", false, 0.0);
+    asking.send("#1P", true, 0.0);
+    (void)moving.take_output();
+    (void)asking.take_output();
+    std::string of_moving, of_asking;
+    GuardedLine::Outcome outcome = GuardedLine::Outcome::none;
+    for (double now = 0.01; now < 0.4; now += 0.01) { // the card is silent
+        if (const auto reply = moving.poll(now); reply.outcome != GuardedLine::Outcome::none) {
+            outcome = reply.outcome;
+        }
+        (void)asking.poll(now);
+        of_moving += moving.take_output();
+        of_asking += asking.take_output();
+    }
+    EXPECT_EQ(outcome, GuardedLine::Outcome::unsent);
+    EXPECT_EQ(of_moving, "\x18");
+    EXPECT_THAT(of_asking, HasSubstr("#1P"));
+}
+
+TEST(PmacGuardedLine, AnAnswerOfACardThatWasResetIsLostAtOnce) {
+    for (const std::string answer : {"\n", "12"}) {
+        GuardedLine line(3.0);
+        line.send("#1J=784", false, 0.0);
+        line.receive(std::string(1, checksum("#1J=784")), 0.001);
+        line.receive(answer, 0.002);
+        double now = 0.002;
+        while (now < 3.0 && line.poll(now).outcome == GuardedLine::Outcome::none) {
+            now += 0.01;
+        }
+        EXPECT_LT(now, answer == "\n" ? 0.01 : 0.3);
+    }
+}
+
+// It counts from its new zero: a jog that is sent again, or renewed, would be one to somewhere else.
+TEST(PmacPowerF2, ACardThatWasResetDuringAHeldJogTakesNoneOfItsLines) {
+    for (int phase = 0; phase < 40; ++phase) {
+        PmacWire wire;
+        const Jog jog = jog_of(0, 5.0, 5.0, 0.1);
+        ASSERT_EQ(held_until_alarm(wire, jog, 0.5), -1.0);
+        for (int n = 0; n < phase; ++n) {
+            wire.step(0.001);
+        }
+        wire.card.power_cycle();
+        const double begin = wire.card.time(), from = wire.card.position(1);
+        while (wire.card.time() - begin < 1.0 && wire.state() != DriverState::alarm) {
+            wire.session.jog(jog, wire.now);
+            wire.pass(0.016);
+            EXPECT_FALSE(wire.powered() && wire.card.time() - begin > 0.1) << phase;
+        }
+        EXPECT_EQ(wire.state(), DriverState::alarm) << phase;
+        wire.pass(1.0);
+        EXPECT_FALSE(wire.powered()) << phase;
+        EXPECT_LT(std::abs(wire.card.position(1) - from), 120.0) << phase; // coasting, a degree
+    }
 }
 
 } // namespace
