@@ -7,6 +7,7 @@
 #include "core/project/assets.h"
 #include "core/project/fewest_points_study.h"
 #include "core/toolpath/kinematic_error.h"
+#include "tests/support/inner_tracks.h"
 
 #include <benchmark/benchmark.h>
 
@@ -51,22 +52,10 @@ void run_chain(benchmark::State& state,
     }
 }
 
-/// 20 tracks, v = 0.02 ... 0.98.
-grid::Grid inner_tracks(int nodes) {
-    constexpr int tracks = 20;
-    grid::NodeArray array(nodes, tracks);
-    for (int i = 0; i < nodes; ++i) {
-        for (int j = 0; j < tracks; ++j) {
-            array.at(i, j) = {static_cast<double>(i) / (nodes - 1), 0.02 + 0.96 * j / (tracks - 1)};
-        }
-    }
-    return grid::Grid(array);
-}
-
 void two_bells(benchmark::State& state) {
     run_chain(state,
               {patch("two-bell"), machine("ac-table"), false},
-              inner_tracks(static_cast<int>(state.range(0))),
+              test::inner_tracks(static_cast<int>(state.range(0))),
               {{15, {1.01, 0.441}},
                {20, {0.548, 0.269}},
                {30, {0.349, 0.140}},

@@ -1,6 +1,7 @@
 // What the whole chain is for, on real machines: figures of a prototype that it must reach.
 #include "core/grid/chain_optimiser.h"
 #include "core/grid/fewest_nodes.h"
+#include "tests/support/inner_tracks.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -11,18 +12,6 @@ namespace millwright::toolpath {
 namespace {
 
 using grid::TrackDirection;
-
-/// 20 tracks, v = 0.02 ... 0.98.
-grid::Grid inner_tracks(int nodes) {
-    constexpr int tracks = 20;
-    grid::NodeArray array(nodes, tracks);
-    for (int i = 0; i < nodes; ++i) {
-        for (int j = 0; j < tracks; ++j) {
-            array.at(i, j) = {static_cast<double>(i) / (nodes - 1), 0.02 + 0.96 * j / (tracks - 1)};
-        }
-    }
-    return grid::Grid(array);
-}
 
 struct Row {
     int nodes;
@@ -36,7 +25,7 @@ class ChainGain : public ::testing::TestWithParam<Row> {};
 // T17.
 TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
     const KinematicError error = test::two_bell_error();
-    const grid::Grid start = inner_tracks(GetParam().nodes);
+    const grid::Grid start = test::inner_tracks(GetParam().nodes);
     grid::ChainOptimiser chain(error, start, TrackDirection::along_u, {});
     const grid::ImproverState state = run(chain, {});
     EXPECT_NEAR(state.start.max, GetParam().uniform_max, 0.005);
