@@ -32,7 +32,8 @@ function(millwright_test name)
         set(main millwright_trapping_test_main)
     endif()
     add_executable(${name}_test ${ARG_SOURCES})
-    target_link_libraries(${name}_test PRIVATE millwright_options ${ARG_LINK} ${main} GTest::gmock)
+    target_link_libraries(${name}_test PRIVATE millwright_options ${ARG_LINK} ${main})
+    target_precompile_headers(${name}_test REUSE_FROM millwright_test_main)
     set_target_properties(${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     set(discovery
         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}

@@ -6,11 +6,13 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
-# ccache shares its results between checkouts: paths are made relative, the build folder is not hashed.
+# ccache shares its results between checkouts: paths are made relative, the build folder is not hashed. What is
+# precompiled needs its leave to be looked at by content.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER
-        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+            CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 set(MILLWRIGHT_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them; empty for none")
@@ -24,6 +26,9 @@ target_compile_options(millwright_options INTERFACE
     -ffp-contract=off
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
     -Wdouble-promotion -Wnull-dereference -Wformat=2 -Wcast-align -Wfloat-equal -Wundef -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(millwright_options INTERFACE -fpch-preprocess) # or ccache gives up where headers are precompiled
+endif()
 if(MILLWRIGHT_SANITIZE)
     target_compile_options(millwright_options INTERFACE
         -fsanitize=${MILLWRIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
