@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::cordic {
@@ -30,7 +31,7 @@ std::string output_of(const std::string& program) {
 std::vector<std::string> builds() {
     std::vector<std::string> found;
     std::string one;
-    for (const char c : std::string(MILLWRIGHT_SAME_BITS) + ":") {
+    for (const char c : std::string_view(MILLWRIGHT_SAME_BITS ":")) {
         if (c == ':') {
             found.push_back(one);
             one.clear();
