@@ -67,7 +67,7 @@ TEST(GcodeWriter, KeepsListingAndBlocksInStep) {
     Block note;
     note.kind = BlockKind::comment;
     note.target = program.start;
-    note.text = std::string(150, 'x') + " end";
+    note.text = std::string(150, 'x').append(" end");
     program.blocks.insert(program.blocks.begin(), note);
     const Listing listing = write_gcode(program, {});
     EXPECT_EQ(listing.line_of_block, (std::vector<int>{1, 5, 6, 7, 8}));

@@ -97,7 +97,7 @@ TEST(ThesisPlots, PlotListingHasItsLengths) {
 // The head of AutoCAD's driver for the HP 7475, with its escape sequences full of semicolons.
 TEST(ThesisPlots, HeadOfAutocadIsPassedOverAndItsPenKept) {
     const Plot plot =
-        read_hpgl(test::autocad_head() + "PU;PA893,692;PD;PA893,800;PU;PA0,0;SP;", "thesis.plt");
+        read_hpgl(test::autocad_head().append("PU;PA893,692;PD;PA893,800;PU;PA0,0;SP;"), "thesis.plt");
     EXPECT_TRUE(plot.diagnostics.empty());
     EXPECT_TRUE(plot.left_out.empty());
     ASSERT_EQ(plot.strokes.size(), 1U);

@@ -75,13 +75,13 @@ TEST(StreamEmulator, TakesNothingWithoutAHeading) {
 
 TEST(StreamEmulator, StandsAfterAnAlarmUntilTheNextHeading) {
     StreamEmulator machine;
-    machine.receive(std::string(heading) + "0 0\n1 1\n2 2\n");
+    machine.receive(std::string(heading).append("0 0\n1 1\n2 2\n"));
     machine.advance(0.011);
     machine.raise_alarm();
     machine.receive("3 3\n");
     machine.advance(1.0);
     EXPECT_THAT(machine.position(), ElementsAre(1.0, 1.0));
-    machine.receive(std::string(heading) + "1 1\n");
+    machine.receive(std::string(heading).append("1 1\n"));
     machine.power_cycle();
     EXPECT_TRUE(machine.axes().empty());
 }
