@@ -1,5 +1,6 @@
 #include "app/held_story.h"
 
+#include "core/base/sentences.h"
 #include "core/machine/way_on.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ std::string how_it_goes_on(const JobStory& story) {
                ? fmt::format("Line {} comes next{}.",
                              way.line,
                              way.needs_clearance ? "; --clearance Z belongs to it" : "")
-               : fmt::format("It runs again from its beginning alone: {}.", way.why_the_beginning);
+               : with_full_stop("It runs again from its beginning alone: " + way.why_the_beginning);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "app/given_options.h"
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/machine/way_on.h"
 #include "core/project/recent_files.h"
 
@@ -54,7 +55,7 @@ void say_how_it_goes_on(const machine::JobStory& story) {
     fmt::print("    Look at the machine and the part. {}\n"
                "    millwright {} {} --driver {}{}{}{}{}\n",
                from_line ? "To go on before the first line that is not certain:"
-                         : fmt::format("It runs again from its beginning alone: {}.", way.why_the_beginning),
+                         : with_full_stop("It runs again from its beginning alone: " + way.why_the_beginning),
                start.project.ends_with(".json") ? "run" : "send",
                shell_word(start.project),
                start.driver,

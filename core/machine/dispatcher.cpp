@@ -1,6 +1,7 @@
 #include "core/machine/dispatcher.h"
 
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/machine/internal/reach.h"
 #include "core/machine/internal/shared_log.h"
@@ -54,7 +55,7 @@ std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, dou
     const std::string why = status.state == DriverState::disconnected ? "the link was lost"
                             : status.message.empty()                  ? "the program did not get to its end"
                                                                       : status.message;
-    return fmt::format("Fault: {}; {}.", why, executed);
+    return with_clause("Fault: " + why, executed + ".");
 }
 
 } // namespace
@@ -136,7 +137,7 @@ public:
             remember(dispatcher_.driver_.status());
             LogRecord end = record(LogEvent::end, elapsed(), last_);
             end.end = JobEnd::fault;
-            end.text = "The job was broken off: " + why + ".";
+            end.text = with_full_stop("The job was broken off: " + why);
             log_->write(end);
         } catch (const std::exception&) {
             // The failure itself is on its way to the user, and a log without an end promises nothing.

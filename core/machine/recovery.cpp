@@ -1,6 +1,7 @@
 #include "core/machine/recovery.h"
 
 #include "core/base/files.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 
 #include <fmt/format.h>
@@ -28,12 +29,10 @@ std::string sentence_of(const JobStory& story, const std::string& fault) {
             "running: {} of {} blocks were executed for certain.", story.executed_blocks, blocks);
     }
     if (!story.broken_off()) {
-        return fmt::format("{} after {}: {}{} of {} blocks were executed for certain.",
-                           to_text(*story.end),
-                           short_time(story.time),
-                           fault.empty() ? "" : fault + "; ",
-                           story.executed_blocks,
-                           blocks);
+        const std::string executed =
+            fmt::format("{} of {} blocks were executed for certain.", story.executed_blocks, blocks);
+        return fmt::format(
+            "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, executed));
     }
     if (story.executed_blocks == blocks) {
         return fmt::format("Millwright ended before it could write the end: all {} blocks were executed.",

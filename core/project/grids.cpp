@@ -2,12 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/sentences.h"
 #include "core/grid/chain_optimiser.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/grid/expression_weight.h"
 #include "core/grid/redistribution.h"
 #include "core/grid/track_optimiser.h"
-#include "core/project/internal/sentences.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "core/project/kinematic_study.h"
 
 #include "core/base/error.h"
-#include "core/project/internal/sentences.h"
+#include "core/base/sentences.h"
 #include "core/project/set_up_study.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "core/project/plan.h"
 
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/posts/release.h"
@@ -229,7 +230,7 @@ std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
     }
     for (const GridMethod method : methods) {
         if (const std::string sentence = memory_sentence(method, project.grid); !sentence.empty()) {
-            sentences.push_back(sentence + ".");
+            sentences.push_back(with_full_stop(sentence));
         }
     }
     return sentences;

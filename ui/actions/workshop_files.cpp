@@ -1,6 +1,7 @@
 // The part of the workshop that deals with whole files: opening, saving, leaving, recovering.
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/sentences.h"
 #include "core/machine/way_on.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
@@ -237,7 +238,7 @@ void Workshop::cancel_work() {
         const bool planned = pipeline_->activity().busy;
         tell(session_,
              widgets::Severity::info,
-             "Cancelled" + (ended.text.empty() ? "" : ": " + ended.text) + "." +
+             with_full_stop("Cancelled" + (ended.text.empty() ? "" : ": " + ended.text)) +
                  (planned ? " What is missing is made with the next change of the project." : ""));
     }
     pipeline_->cancel();

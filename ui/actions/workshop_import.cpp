@@ -1,5 +1,6 @@
 // The part of the workshop that deals with surfaces of other programs.
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/exchange/surface_file.h"
 #include "core/project/plan.h"
 #include "ui/actions/import_bench.h"
@@ -54,7 +55,7 @@ void Workshop::take_import() {
     edit(title, [&](project::Project& draft) { draft.surface = now->surface->surface; }, {});
     (void)import_->take(before); // only now: a surface that is refused stays on the bench
     for (const std::string& note : now->surface->notes) {
-        tell(session_, widgets::Severity::info, note + ".", now->file.filename().string());
+        tell(session_, widgets::Severity::info, with_full_stop(note), now->file.filename().string());
     }
     session_.selected.clear();
     session_.fit_wanted = true;

@@ -1,6 +1,7 @@
 // The part of the workshop that deals with jobs that wait: their programs are read again after a restart, or
 // for another machine than the one that they were added for.
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/workshop.h"
 
@@ -52,7 +53,8 @@ void Workshop::follow_queue() {
     if (const auto failure = queue_.take_failure()) {
         tell(session_,
              widgets::Severity::danger,
-             "The queue could not be written: " + failure->message + ". The job's log tells how it ended.",
+             with_sentence("The queue could not be written: " + failure->message,
+                           "The job's log tells how it ended."),
              failure->place.file.string());
     }
     const Workbench now = look();

@@ -1,6 +1,7 @@
 #include "ui/panels/arm_jog_panel.h"
 
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_rates.h"
 #include "ui/actions/arm_bench.h"
@@ -197,7 +198,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         wish.tell();
         draw_speed(ui, now, ask);
         if (!refusal_.empty()) {
-            ui.note("Not done: " + refusal_ + ".");
+            ui.note(with_full_stop("Not done: " + refusal_));
         }
     }
     connection_.draw_messages(ui, now, ask);

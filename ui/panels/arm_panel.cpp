@@ -1,5 +1,6 @@
 #include "ui/panels/arm_panel.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
@@ -37,17 +38,6 @@ double shown(const ArmJoint& joint, double position) {
 
 double from_shown(const ArmJoint& joint, double value) {
     return turns(joint) ? from_degrees(value) : value;
-}
-
-std::string capitalised(std::string text) {
-    if (!text.empty()) {
-        text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    }
-    return text;
-}
-
-std::string as_sentence(const std::string& text) {
-    return capitalised(text) + (text.ends_with('.') ? "" : ".");
 }
 
 widgets::Permission by_hand(const Workbench& now) {

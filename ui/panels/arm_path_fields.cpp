@@ -1,5 +1,6 @@
 #include "ui/panels/arm_path_fields.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "ui/actions/arm_bench.h"
@@ -86,7 +87,7 @@ void holes_text(Ui& ui, const kinematics::ArmReach& reach) {
 
 void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     if (!path.track) {
-        (void)widgets::banner(ui, "why", {widgets::Severity::warning, path.why + ".", {}});
+        (void)widgets::banner(ui, "why", {widgets::Severity::warning, with_full_stop(path.why), {}});
         return;
     }
     const kinematics::ArmReach& reach = path.reach;
@@ -100,7 +101,7 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
         const kinematics::ArmHole& hole = reach.holes[n];
         const std::string place = hole.first_line == 0 ? "" : fmt::format("Line {}: ", hole.first_line);
-        ui.note(fmt::format("{}{} mm, {}.", place, fixed(hole.length, 1), hole.why));
+        ui.note(fmt::format("{}{} mm, {}", place, fixed(hole.length, 1), with_full_stop(hole.why)));
     }
     if (reach.holes.size() > most_shown) {
         ui.note(fmt::format("{} more stretches out of reach.", reach.holes.size() - most_shown));

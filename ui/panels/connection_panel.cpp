@@ -1,5 +1,6 @@
 #include "ui/panels/connection_panel.h"
 
+#include "core/base/sentences.h"
 #include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/links/serial_ports.h"
 #include "ui/panels/internal/fields.h"
@@ -38,15 +39,6 @@ std::string kind_text(DriverKind kind) {
            : kind == DriverKind::stream        ? "coordinate stream"
            : kind == DriverKind::records       ? "table by records"
                                                : std::string(kinds[static_cast<std::size_t>(kind)].label);
-}
-
-/// Drivers begin their messages small, as parts of longer ones; an address such as tcp:HOST stays as it is.
-std::string as_sentence(std::string text) {
-    const bool is_address = text.substr(0, text.find(' ')).find(':') != std::string::npos;
-    if (!is_address && !text.empty() && text.front() >= 'a' && text.front() <= 'z') {
-        text.front() = static_cast<char>(text.front() - 'a' + 'A');
-    }
-    return text;
 }
 
 /// Changes one thing of what was chosen.
@@ -118,7 +110,8 @@ std::string alarm_text(const Workbench& now) {
     if (!now.controller.connected() || status.state != DriverState::alarm) {
         return "";
     }
-    return (status.message.empty() ? "There is an alarm" : as_sentence(status.message)) + ". " + advice(now);
+    return with_sentence(status.message.empty() ? "There is an alarm" : capitalised(status.message),
+                         advice(now));
 }
 
 void ConnectionPanel::look_for_ports() {
@@ -302,13 +295,13 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (machine.failure && is_of_it) {
         const std::string hint = machine.failure->hint.empty() ? "" : " (" + machine.failure->hint + ")";
         (void)widgets::banner(
-            ui, "failure", {widgets::Severity::warning, as_sentence(machine.failure->message) + hint, {}});
+            ui, "failure", {widgets::Severity::warning, capitalised(machine.failure->message) + hint, {}});
     }
     if (!machine.connected()) {
         action_button(ui, now, ask, catalogue_, "machine.connect", Rank::primary);
         return;
     }
-    ui.value("state", as_sentence(kind_text(machine.choice.kind)), state_text(machine.status));
+    ui.value("state", capitalised(kind_text(machine.choice.kind)), state_text(machine.status));
     ui.value("position_known", "Position", position_text(machine.status));
     constexpr float address_label = 0.12F; // addresses are long
     const auto labels = ui.label_share(address_label);

@@ -1,6 +1,7 @@
 #include "ui/panels/grid_panel.h"
 
 #include "core/base/memory.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/expression_weight.h"
 #include "core/project/grids.h"
@@ -48,7 +49,7 @@ void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
 
 /// What it takes; where that is much, whether it is made all the same.
 void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::GridInput& input) {
-    ui.note(project::memory_sentence(method, input) + ".");
+    ui.note(with_full_stop(project::memory_sentence(method, input)));
     if (input.elliptic.any_memory || project::memory_fault(method, input, free_memory())) {
         if (const auto on = ui.toggle("any_memory",
                                       "Take the memory",

@@ -1,6 +1,7 @@
 #include "ui/panels/import_panel.h"
 
 #include "core/base/numbers.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/exchange/patch_fit.h"
 #include "ui/actions/import_bench.h"
@@ -192,7 +193,7 @@ void draw_found(Ui& ui, const ImportResult& found) {
         ui.value("rms", "RMS deviation", fixed(fit->deviation.rms, 4), "mm");
     }
     for (const std::string& note : found.surface->notes) {
-        ui.note(note + ".");
+        ui.note(with_full_stop(note));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "ui/panels/motion_program_panel.h"
 
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/text_area.h"
@@ -43,7 +44,7 @@ void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const Diagnostic& first = faults.front();
         const std::string more = faults.size() > 1 ? fmt::format(" (and {} more)", faults.size() - 1) : "";
         const std::string place = first.place.line > 0 ? fmt::format("Line {}: ", first.place.line) : "";
-        ui.words(place + first.message + more + ".", widgets::Tone::danger);
+        ui.words(with_full_stop(place + first.message + more), widgets::Tone::danger);
     } else {
         ui.words("The card's language: LINEAR, ABS, TM500, X10 Y-5 \u2026 in degrees; ; begins a comment.",
                  widgets::Tone::muted);

@@ -1,5 +1,6 @@
 #include "ui/panels/set_up_fields.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "ui/panels/internal/fields.h"
@@ -154,7 +155,8 @@ std::string cost_text(double cost) {
 
 void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
     if (found.failure) {
-        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, found.failure->message + ".", {}});
+        (void)widgets::banner(
+            ui, "failure", {widgets::Severity::warning, with_full_stop(found.failure->message), {}});
         return;
     }
     map_field(ui, now, ask, found);

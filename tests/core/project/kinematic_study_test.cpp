@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/project/internal/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,13 +20,6 @@ constexpr double rounded_up = 1.0 + 1e-9; // of sums whose order differs
 
 const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
     return *std::ranges::find(rows, method, &StudyRow::method);
-}
-
-TEST(Sentences, StandApart) {
-    EXPECT_EQ(with_sentence("", "Second."), "Second.");
-    EXPECT_EQ(with_sentence("All nodes at once, iteration 150", "Second."),
-              "All nodes at once, iteration 150. Second.");
-    EXPECT_EQ(with_sentence("First.", "Second."), "First. Second.");
 }
 
 TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
