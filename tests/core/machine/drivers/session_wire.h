@@ -8,6 +8,7 @@
 #include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/links/faults.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -17,7 +18,8 @@ template <class Session, class Emulated> class SessionWire {
 public:
     Session session;
     double now = 1000.0;
-    std::string sent; ///< by the session, since it was last cleared
+    std::string sent;                                     ///< by the session, since it was last cleared
+    std::function<void(std::string& bytes)> on_the_way{}; ///< may change what the session has sent
 
     /// One small step of time for both ends.
     void step() { step(step_time_); }
@@ -35,8 +37,11 @@ public:
         happen();
         session.tick(now);
         ask_ahead();
-        const std::string bytes = session.take_output();
+        std::string bytes = session.take_output();
         sent += bytes;
+        if (on_the_way) {
+            on_the_way(bytes);
+        }
         if (!broken() && !deaf_) {
             to_controller_.send(bytes, now);
             emulated().receive(to_controller_.arrived(now));

@@ -142,6 +142,7 @@ private:
     void watch_zone();
     void watch_rest();
     [[nodiscard]] std::vector<double> axes_deg() const;
+    [[nodiscard]] std::string astray_sentence() const;
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
     [[nodiscard]] std::string unheard() const;

@@ -289,7 +289,7 @@ void PmacSession::watch_stage() {
         std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
     astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
     if (astray_polls_ > patient_polls) {
-        fail("a motor with power is not where it was sent");
+        fail(astray_sentence());
         return;
     }
     quiet_polls_ = standing() && in_place && queue_.empty() ? quiet_polls_ + 1 : 0;
@@ -327,6 +327,24 @@ void PmacSession::watch_stage() {
     default:
         break;
     }
+}
+
+/// Of the first motor that stands with power and is not in its place; by the following error that the card
+/// told last.
+std::string PmacSession::astray_sentence() const {
+    const auto astray =
+        std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.in_place(); });
+    const auto n = static_cast<std::size_t>(astray - motors_.begin());
+    const double at = axes_deg()[n];
+    const std::vector<MotorReading>& readings = readings_.motors();
+    return fmt::format(
+        "{} has power and is not where it was sent: it stands at {:.2f} degrees{}; has its "
+        "amplifier power, is its brake off and the way free?",
+        name_of(n),
+        at,
+        readings.size() == motors_.size()
+            ? fmt::format(" and was sent to {:.2f}", at + to_degrees(readings[n].following_error))
+            : "");
 }
 
 bool PmacSession::at_limit(std::size_t n) const {

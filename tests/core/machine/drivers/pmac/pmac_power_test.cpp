@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <functional>
 #include <string>
 
 namespace millwright::machine::pmac {
@@ -87,6 +87,17 @@ TEST(PmacPowerF2, AHeldJogOfAmplifiersWithoutPowerEndsInAlarm) {
         wire.pass(0.5);
         EXPECT_FALSE(wire.powered());
     }
+}
+
+TEST(PmacPowerF2, AStepThatIsNotMadeNamesItsJointAndWhereItWasSent) {
+    PmacWire wire;
+    wire.pass(0.2); // following errors are told
+    wire.card.emergency_stop();
+    wire.session.jog(jog_of(1, 0.1, 5.0), wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 3.0));
+    EXPECT_THAT(wire.session.status().message,
+                testing::StartsWith("Y has power and is not where it was sent: it stands at 0.00 degrees and "
+                                    "was sent to 0.10;"));
 }
 
 TEST(PmacPowerF2, MotorsThatTakeNoPowerSaySo) {
@@ -172,27 +183,44 @@ TEST(PmacGuardedLine, AnAnswerOfACardThatWasResetIsLostAtOnce) {
     }
 }
 
-// It counts from its new zero: a jog that is sent again, or renewed, would be one to somewhere else.
-TEST(PmacPowerF2, ACardThatWasResetDuringAHeldJogTakesNoneOfItsLines) {
-    for (int phase = 0; phase < 40; ++phase) {
-        PmacWire wire;
-        const Jog jog = jog_of(0, 5.0, 5.0, 0.1);
-        ASSERT_EQ(held_until_alarm(wire, jog, 0.5), -1.0);
-        for (int n = 0; n < phase; ++n) {
-            wire.step(0.001);
+/// Does something with the next jog's line on its way. What the session has sent from then on is in `sent`.
+void with_next_jog(PmacWire& wire, const std::function<void(std::string& line)>& happens) {
+    wire.on_the_way = [&wire, happens, done = false](std::string& bytes) mutable {
+        if (!done && bytes.find("#1J=") != std::string::npos) {
+            done = true;
+            wire.sent.clear();
+            happens(bytes);
         }
+    };
+}
+
+TEST(PmacPowerF2, AJogThatDidNotComeAsItWasSentIsSentAgainAfterALookAtTheCard) {
+    PmacWire wire;
+    with_next_jog(wire, [](std::string& line) { line[line.find("J=") + 2] = '9'; }); // 940 for 240
+    wire.session.jog(jog_of(0, 2.0, 5.0), wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+    EXPECT_NEAR(wire.degrees(0), 2.0, 0.1);
+    const std::size_t look = wire.sent.find("#1?P"), again = wire.sent.find("#1J=240");
+    ASSERT_NE(again, std::string::npos);
+    EXPECT_LT(look, again);
+}
+
+// It counts from its new zero, and moves at its own speed.
+TEST(PmacPowerF2, ACardThatWasResetWhileAJogsLineWasLostDoesNotGetItAgain) {
+    PmacWire wire;
+    with_next_jog(wire, [&wire](std::string& line) {
+        line.clear();
         wire.card.power_cycle();
-        const double begin = wire.card.time(), from = wire.card.position(1);
-        while (wire.card.time() - begin < 1.0 && wire.state() != DriverState::alarm) {
-            wire.session.jog(jog, wire.now);
-            wire.pass(0.016);
-            EXPECT_FALSE(wire.powered() && wire.card.time() - begin > 0.1) << phase;
-        }
-        EXPECT_EQ(wire.state(), DriverState::alarm) << phase;
-        wire.pass(1.0);
-        EXPECT_FALSE(wire.powered()) << phase;
-        EXPECT_LT(std::abs(wire.card.position(1) - from), 120.0) << phase; // coasting, a degree
-    }
+    });
+    wire.session.jog(jog_of(0, 2.0, 5.0), wire.now);
+    const bool alarm = wire.run_until([&] { return wire.state() == DriverState::alarm; }, 3.0);
+    EXPECT_TRUE(alarm);
+    EXPECT_EQ(wire.sent.find("J="), std::string::npos);
+    EXPECT_FALSE(wire.powered());
+    wire.pass(1.0);
+    EXPECT_EQ(wire.sent.find("J="), std::string::npos);
+    EXPECT_FALSE(wire.powered());
+    EXPECT_TRUE(wire.standing());
 }
 
 } // namespace
