@@ -3,6 +3,7 @@
 #include "app/arm_choice.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/arm_ways.h"
@@ -86,6 +87,7 @@ Frame frame_of(const std::vector<double>& v) {
 /// A plot's lines are no G-code, and its first one would be told as wrong.
 void refuse_plots(const std::string& file) {
     if (project::is_plot_file(file)) {
+        (void)read_file(file); // that it is missing is told first
         throw Error("a plot is no program yet",
                     file,
                     fmt::format("'millwright plot toolpath {} --out program.ngc' makes one of it", file));

@@ -10,7 +10,9 @@
 namespace millwright::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 nlohmann::json answer_to(const std::vector<std::string>& words) {
     const Ended ended = run(words);
@@ -131,6 +133,8 @@ TEST(Arm, RefusesProgramsThatItCannotRead) {
     write_content((scratch / "five.ngc").string(), "G21 G90 F600\nG1 X1 A10\nM2\n");
     EXPECT_THAT(run({"arm", "reach", "assets/samples/plot/hatched-sign.plt"}).err,
                 HasSubstr("hatched-sign.plt: a plot is no program yet"));
+    EXPECT_THAT(run({"arm", "reach", (scratch / "nofile.plt").string()}).err,
+                AllOf(HasSubstr("nofile.plt: cannot read: No such file"), Not(HasSubstr("no program yet"))));
     const Ended rotary = run({"arm", "reach", (scratch / "five.ngc").string()});
     EXPECT_EQ(rotary.exit_code, 1);
     EXPECT_THAT(rotary.err, HasSubstr("five.ngc:2"));
