@@ -79,8 +79,13 @@ Linkage linkage(const JsonValue& value) {
 DriveLimits drive_limits(const JsonValue& value) {
     value.expect_only({"third_minus_second", "roll_plus_fourth_above", "roll_below", "roll_turn", "watched"});
     const auto lead = value.at("third_minus_second").items(2);
-    return {.below_second = lead[0].number(-most_counts, most_counts),
-            .above_second = lead[1].number(-most_counts, most_counts),
+    const double least = lead[0].number(-most_counts, most_counts);
+    const double most = lead[1].number(-most_counts, most_counts);
+    if (!(least < most)) {
+        value.at("third_minus_second").fail("the lower limit is not below the upper one");
+    }
+    return {.below_second = least,
+            .above_second = most,
             .roll_low = value.at("roll_plus_fourth_above").number(-most_counts, most_counts),
             .roll_high = value.at("roll_below").number(-most_counts, most_counts),
             .roll_turn = value.at("roll_turn").number(1.0, most_counts)};

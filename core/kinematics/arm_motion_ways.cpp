@@ -60,7 +60,14 @@ Way arc(const ArmBlock& block, const std::filesystem::path& file) {
     }
     // Counter-clockwise as seen from above; of a plane on edge, from its positive side.
     Vec3 normal = from.cross(to);
-    normal = normal.norm() > 1e-9 * radius * radius ? normal.normalized() : Vec3(Vec3::UnitZ());
+    const bool in_line = !(normal.norm() > 1e-9 * radius * radius);
+    if (in_line && std::abs(from.z()) > radius_tolerance) {
+        fail(file,
+             block.line,
+             "start, end and center are on a line that leaves the XY plane: nothing tells the plane of the "
+             "arc");
+    }
+    normal = in_line ? Vec3(Vec3::UnitZ()) : normal.normalized();
     const double above = std::abs(normal.z()) > 1e-9 ? normal.z() : normal.x() + normal.y();
     normal = above < 0.0 ? Vec3(-normal) : normal;
     normal = block.motion == ArmMotion::clockwise ? Vec3(-normal) : normal;

@@ -13,9 +13,9 @@ namespace millwright::kinematics {
 inline constexpr double default_arm_feed = 10.0;
 
 /// One way a block, from where the joints `start` bring the tool on, to a billionth of a millimetre; blocks
-/// that do not move the tip have no length. Arcs lie in the plane of start, end and center, in the XY plane
-/// where those are on a line. A new tool axis is reached evenly along its block. Throws Error with file and
-/// line for arcs that are none.
+/// that do not move the tip have no length. Arcs lie in the plane of start, end and center; where those are
+/// on a line, in the XY plane, which the line must not leave then. A new tool axis is reached evenly along
+/// its block. Throws Error with file and line for arcs that are none.
 [[nodiscard]] std::vector<ArmWay> ways_of(const ArmModel& arm,
                                           const std::vector<ArmBlock>& blocks,
                                           const JointPositions& start,

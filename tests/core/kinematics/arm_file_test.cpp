@@ -46,6 +46,7 @@ TEST_F(ArmFileTest, SaysWhereAWrongFileIsWrong) {
     EXPECT_THAT(reason("\"a\": 650", "\"a\": \"long\""), HasSubstr("arm.json:"));
     EXPECT_THAT(reason("\"a\": 650", "\"b\": 650"), HasSubstr("arm.json:"));
     EXPECT_THAT(reason("[-200, 60]", "[60, -200]"), HasSubstr("lower limit is not below"));
+    EXPECT_THAT(reason("[-10000, 3000]", "[3000, -10000]"), HasSubstr("lower limit is not below"));
     EXPECT_THAT(reason("millwright-arm", "something"), HasSubstr("not an arm file"));
     EXPECT_THAT(reason("\"name\": \"2\"", "\"name\": \"1\""), HasSubstr("another joint is called so"));
     EXPECT_THAT(reason("revolute", "round"), HasSubstr("neither \"revolute\" nor \"prismatic\""));

@@ -113,6 +113,10 @@ TEST(ArmSimulation, RefusesWhatTheArmCannotDo) {
     EXPECT_THAT(why("X100 ;\nX2000 ;"), HasSubstr("a.mot:2: the arm does not reach"));
     EXPECT_THAT(why("G2 X50 I10 ;"), HasSubstr("a.mot:1: the end is 40.0000 mm from the center"));
     EXPECT_THAT(why("G2 X50 R10 ;"), HasSubstr("shorter than half the way"));
+    for (const char* off_the_plane : {"G2 K50 ;", "G2 I10 K50 ;", "G3 Z100 K50 ;", "G2 X10 Z100 I5 K50 ;"}) {
+        EXPECT_THAT(why(off_the_plane), HasSubstr("a.mot:1: start, end and center are on a line that leaves"))
+            << off_the_plane;
+    }
     EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("across the plane"));
 }
 
