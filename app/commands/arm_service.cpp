@@ -97,6 +97,12 @@ int amplifier(const Options& options) {
         throw Error(fmt::format(
             "the peak current of the amplifier, {} A, is less than what the motor may have", options.peak));
     }
+    if (options.nominal > 0.5 * options.peak && options.nominal > 0.0) {
+        throw Error(fmt::format("an amplifier of {} A peak gives {} A for long, without RIN: less than {} A",
+                                options.peak,
+                                0.5 * options.peak,
+                                options.nominal));
+    }
     if (options.max_rpm > 0.0) {
         print_speed(options);
     }
@@ -117,6 +123,13 @@ int amplifier(const Options& options) {
     return 0;
 }
 
+/// Of the pins of `motor`, or of all of them, 0.
+std::string trust_text(const machine::PmacPin& pin, int motor) {
+    const bool differs = motor == 0 && trust_of(pin, 4) != pin.trust;
+    return std::string(name_of(motor == 0 ? pin.trust : trust_of(pin, motor))) +
+           (differs ? " of motor 1" : "");
+}
+
 int wiring(const Options& options) {
     for (const machine::PmacPin& pin : machine::pmac_pins()) {
         std::string numbers;
@@ -126,7 +139,7 @@ int wiring(const Options& options) {
                 numbers += number > 0 ? fmt::format("{:>5}", number) : "    -";
             }
         }
-        fmt::print("{:<11}{}  {:<21}{}\n", pin.signal, numbers, name_of(pin.trust), pin.note);
+        fmt::print("{:<11}{}  {:<21} {}\n", pin.signal, numbers, trust_text(pin, options.motor), pin.note);
     }
     fmt::print("\n");
     for (const machine::PmacJumper& jumper : machine::pmac_jumpers()) {

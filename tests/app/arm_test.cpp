@@ -160,10 +160,13 @@ TEST(Arm, HelpsWithSettingUp) {
     EXPECT_THAT(resistors.out, HasSubstr("model 8/16: 18.00 kOhm"));
     EXPECT_THAT(resistors.out, HasSubstr("6.60 kOhm"));
     EXPECT_THAT(run({"arm", "amplifier", "--peak", "7", "--nominal", "16"}).err, HasSubstr("7 A, is less"));
+    EXPECT_THAT(run({"arm", "amplifier", "--peak", "16", "--nominal", "9"}).err, HasSubstr("less than 9 A"));
     EXPECT_EQ(run({"arm", "amplifier"}).exit_code, 2);
     EXPECT_EQ(run({"arm", "amplifier", "--nominal", "7"}).exit_code, 2);
     const Ended pins = run({"arm", "wiring", "2"});
     EXPECT_THAT(pins.out, HasSubstr("check before wiring"));
+    EXPECT_THAT(pins.out, testing::ContainsRegex("DAC +44  thesis only"));
+    EXPECT_THAT(run({"arm", "wiring"}).out, testing::ContainsRegex("DAC .* confirmed of motor 1"));
     EXPECT_EQ(run({"arm", "wiring", "5"}).exit_code, 2);
 }
 

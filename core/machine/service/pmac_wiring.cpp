@@ -52,6 +52,11 @@ std::span<const PmacPin> pmac_pins() {
     return pins;
 }
 
+PinTrust trust_of(const PmacPin& pin, int motor) {
+    const bool of_first = pin.of_motor[static_cast<std::size_t>(motor - 1)] == pin.of_motor[0];
+    return pin.trust == confirmed && !of_first ? thesis : pin.trust;
+}
+
 std::span<const PmacJumper> pmac_jumpers() {
     return jumpers;
 }

@@ -10,7 +10,7 @@
 namespace millwright::machine {
 
 enum class PinTrust {
-    confirmed, ///< by a manual of Delta Tau for the same connector, of motor 1
+    confirmed, ///< by a manual of Delta Tau for the same connector; pins of motor 1 and those of all motors
     thesis,    ///< by the thesis alone
     conflict   ///< another source says otherwise: check before wiring
 };
@@ -23,6 +23,9 @@ struct PmacPin {
 };
 
 [[nodiscard]] std::span<const PmacPin> pmac_pins();
+
+/// Of the pin of one motor, 1 to 4: what the manual confirms of motor 1 is the thesis's alone of the others.
+[[nodiscard]] PinTrust trust_of(const PmacPin& pin, int motor);
 
 struct PmacJumper {
     std::string_view jumper;

@@ -35,6 +35,17 @@ TEST(PmacWiringC5, MarksWhatSourcesDisagreeAbout) {
     }));
 }
 
+TEST(PmacWiringC5, TrustsTheThesisAloneOfTheOtherMotors) {
+    const auto trust = [](std::string_view signal, int motor) {
+        return trust_of(*std::ranges::find(pmac_pins(), signal, &PmacPin::signal), motor);
+    };
+    EXPECT_EQ(trust("DAC", 1), PinTrust::confirmed);
+    EXPECT_EQ(trust("DAC", 2), PinTrust::thesis);
+    EXPECT_EQ(trust("CHC/", 4), PinTrust::thesis);
+    EXPECT_EQ(trust("AGND", 3), PinTrust::confirmed); // one pin for all
+    EXPECT_EQ(trust("+5 V", 3), PinTrust::conflict);
+}
+
 TEST(PmacWiringC5, LimitInputsStopTheOtherDirection) {
     const auto plus = std::ranges::find(pmac_pins(), "+LIM", &PmacPin::signal);
     ASSERT_NE(plus, pmac_pins().end());

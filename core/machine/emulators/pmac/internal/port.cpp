@@ -169,7 +169,7 @@ void Port::control(char character) {
         }
         break;
     case 'I':
-        line_ = last_line_;
+        enter(std::string(last_line_)); // a line that is half typed stays
         break;
     case 'K':
         card_.kill_all();

@@ -79,7 +79,13 @@ TEST(PmacHandshakeP2, TakesControlCharactersInTheMiddleOfALine) {
     pmac.card.receive("P1=77\b\b8\r"); // ^H takes characters back
     (void)pmac.card.take_output();
     EXPECT_EQ(pmac.ask("P1"), "8");
-    pmac.card.receive("P2=\x18P3=4\r"); // ^X forgets the line
+    pmac.card.receive("P1=P1+1\rP2=\t"); // ^I repeats the last line at once
+    (void)pmac.card.take_output();
+    pmac.card.receive("3\r");
+    (void)pmac.card.take_output();
+    EXPECT_EQ(pmac.ask("P1"), "10");
+    EXPECT_EQ(pmac.ask("P2"), "3");
+    pmac.card.receive("P2=0\rP2=\x18P3=4\r"); // ^X forgets the line
     (void)pmac.card.take_output();
     EXPECT_EQ(pmac.ask("P2"), "0");
     EXPECT_EQ(pmac.ask("P3"), "4");
