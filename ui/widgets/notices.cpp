@@ -3,6 +3,7 @@
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/internal/imgui_inside.h"
+#include "ui/widgets/internal/wrap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,10 +63,11 @@ Layout layout(const Ui& ui, const Notice& notice, float width, bool can_close) {
     const float text_x = ui.px(36.0F);
     const float text_width = std::max(ui.px(40.0F), width - text_x - ui.px(can_close ? 34.0F : 12.0F));
     const auto height_of = [&](const ImFont* with, const std::string& text) {
+        const std::string lines = broken_at_blanks(with, text, text_width);
         return text.empty()
                    ? 0.0F
                    : with->CalcTextSizeA(
-                             with->FontSize, 1e9F, text_width, text.data(), text.data() + text.size())
+                             with->FontSize, 1e9F, text_width, lines.data(), lines.data() + lines.size())
                          .y;
     };
     const float text = height_of(font, notice.text);
@@ -75,12 +77,13 @@ Layout layout(const Ui& ui, const Notice& notice, float width, bool can_close) {
 
 void add_wrapped(const ImFont* font, float x, float y, Colour colour, const std::string& text, float width) {
     if (!text.empty()) {
+        const std::string lines = broken_at_blanks(font, text, width);
         ImGui::GetWindowDrawList()->AddText(font,
                                             font->FontSize,
                                             {std::round(x), std::round(y)},
                                             colour,
-                                            text.data(),
-                                            text.data() + text.size(),
+                                            lines.data(),
+                                            lines.data() + lines.size(),
                                             width);
     }
 }

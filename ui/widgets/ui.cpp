@@ -4,6 +4,7 @@
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
+#include "ui/widgets/internal/wrap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +97,9 @@ Rect box_place(const Ui& ui, const Ui::State& state, const Rect& own, float w, f
 Rect draw_box(const Ui& ui, const Ui::State& state, const Note& note) {
     const ImFont* font = ui.look().fonts.text;
     const float wrap = ui.px(tip_width_px);
-    const char* begin = note.text.data();
-    const char* end = begin + note.text.size();
+    const std::string text = broken_at_blanks(font, note.text, wrap);
+    const char* begin = text.data();
+    const char* end = begin + text.size();
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9F, wrap, begin, end);
     const float pad = ui.px(8.0F);
     const Rect box = box_place(ui, state, note.widget, size.x + 2.0F * pad, size.y + 2.0F * pad);

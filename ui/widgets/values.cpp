@@ -2,6 +2,7 @@
 #include "core/base/text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/wrap.h"
 #include "ui/widgets/ui.h"
 
 #include <algorithm>
@@ -16,7 +17,9 @@ void wrapped(const Ui& ui, std::string_view text, Colour colour) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::PushTextWrapPos(0.0F);
     if (!text.empty()) {
-        ImGui::TextUnformatted(text.data(), text.data() + text.size());
+        const std::string broken =
+            broken_at_blanks(ui.look().fonts.text, text, ImGui::GetContentRegionAvail().x);
+        ImGui::TextUnformatted(broken.data(), broken.data() + broken.size());
     }
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
