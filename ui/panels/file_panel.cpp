@@ -6,11 +6,13 @@
 #include "ui/actions/workshop.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
+#include "ui/widgets/typed_text.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <utility>
 
 namespace millwright::panels {
 
@@ -182,6 +184,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 void FilePanel::begin(const Workbench& now) {
     asked_ = now.session.question;
     source_ = Source::folder;
+    named_.clear();
     enter(starting_folder(now));
     name_ = !about(asked_).first.empty() ? std::string(about(asked_).first)
             : now.document.file.empty()  ? now.project.name + std::string(extension)
@@ -338,33 +341,55 @@ void FilePanel::open(ActionQueue& ask, const fs::path& file) const {
     }
 }
 
-fs::path FilePanel::file_to_save() const {
-    fs::path file = folder_ / name_;
+fs::path FilePanel::file_to_save(std::string_view name) const {
+    fs::path file = folder_ / name;
     return file.has_extension() ? file : file.replace_extension(about(asked_).ending);
+}
+
+/// Whether saving to `file` destroys something: not where the project that is open lies already.
+bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
+    std::error_code unreadable;
+    const bool is_own = asked_ == FileQuestion::save_as && same_file(file, now.document.file);
+    return fs::exists(file, unreadable) && !is_own;
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto typed = ui.text_field("name", "File name", name_, ending_tip(asked_))) {
         name_ = *typed;
     }
-    const fs::path file = file_to_save();
+    const std::string name = widgets::typed_text(ui, "name").value_or(name_);
+    const fs::path file = file_to_save(name);
     std::error_code unreadable;
-    const bool replaces =
-        !name_.empty() && fs::exists(file, unreadable) && !same_file(file, now.document.file);
-    ui.note(replaces ? file.filename().string() + " is there already and would be replaced." : " ");
+    const Permission allowed = name.empty() ? Permission::refused("Type a file name first.")
+                               : fs::is_directory(file, unreadable)
+                                   ? Permission::refused(file.filename().string() + " is a folder.")
+                                   : Permission{};
+    const fs::path replaced = allowed.allowed && replaces(file, now) ? file : fs::path();
+    ui.note(replaced.empty() ? " " : file.filename().string() + " is there already and would be replaced.");
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
-    const auto allowed = name_.empty() ? Permission::refused("Type a file name first.") : Permission{};
-    if (ui.button("save",
-                  replaces ? "Replace" : "Save",
-                  allowed,
-                  {icons::save, replaces ? Rank::danger : Rank::primary, -1.0F, {}})) {
+    if (draw_save_button(ui, allowed, replaced)) {
         if (const auto answer = about(asked_).answer) {
             ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
         } else {
             ask.save_file(file);
         }
     }
+}
+
+/// Whether `replaced` (empty: nothing) and what else there is may be written. A click counts for the file
+/// that the button named before the mouse went down: one that came to be meanwhile, of another program or
+/// since the name was changed, makes it another button.
+bool FilePanel::draw_save_button(Ui& ui, const Permission& allowed, const fs::path& replaced) {
+    const bool is_news = std::exchange(named_, replaced) != replaced;
+    if (is_news) {
+        ui.change_in(0.0);
+    }
+    const std::string_view id = is_news ? "changing" : replaced.empty() ? "save" : "replace";
+    return ui.button(id,
+                     replaced.empty() ? "Save" : "Replace",
+                     allowed,
+                     {icons::save, replaced.empty() ? Rank::primary : Rank::danger, -1.0F, {}});
 }
 
 void FilePanel::draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::panels {
@@ -30,8 +31,10 @@ private:
     void open(ActionQueue& ask, const std::filesystem::path& file) const;
     void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_save(Ui& ui, const Workbench& now, ActionQueue& ask);
+    bool draw_save_button(Ui& ui, const widgets::Permission& allowed, const std::filesystem::path& replaced);
     void draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    [[nodiscard]] std::filesystem::path file_to_save() const;
+    [[nodiscard]] std::filesystem::path file_to_save(std::string_view name) const;
+    [[nodiscard]] bool replaces(const std::filesystem::path& file, const Workbench& now) const;
 
     actions::FileQuestion asked_ = actions::FileQuestion::none;
     Source source_ = Source::folder;
@@ -41,6 +44,7 @@ private:
     std::string fault_;                          ///< why the folder cannot be read
     std::filesystem::path chosen_;               ///< of the entries; empty: none
     std::string name_;                           ///< typed for saving
+    std::filesystem::path named_;                ///< by the button as one that it replaces; empty: none
     ProjectPreview preview_;
 };
 

@@ -1,4 +1,5 @@
 #include "tests/ui/stage/stage.h"
+#include "ui/widgets/typed_text.h"
 
 #include <gtest/gtest.h>
 
@@ -223,6 +224,7 @@ class ExpressionField : public testing::Test {
 protected:
     std::string weight = "1+u";
     std::string name = "Dome";
+    std::optional<std::string> typed; ///< into it
     Stage stage{[this](Ui& ui) {
         const auto pane = ui.pane("grid", {0.0F, 0.0F, 400.0F, 300.0F});
         const auto check = [](std::string_view text) {
@@ -234,6 +236,7 @@ protected:
         if (const auto now = ui.text_field("name", "Name", name)) {
             name = *now;
         }
+        typed = typed_text(ui, "name");
     }};
 
     void SetUp() override { stage.frames(2); }
@@ -243,6 +246,16 @@ TEST_F(ExpressionField, CommitsWhatItsCheckAllows) {
     stage.fill_in("grid/weight", "1+u*v");
     stage.key(Key::enter);
     EXPECT_EQ(weight, "1+u*v");
+}
+
+TEST_F(ExpressionField, WhatIsTypedIsKnownBeforeItIsCommitted) {
+    EXPECT_EQ(typed, std::nullopt);
+    stage.fill_in("grid/name", "Cap");
+    EXPECT_EQ(typed, "Cap");
+    EXPECT_EQ(name, "Dome");
+    stage.key(Key::enter);
+    EXPECT_EQ(typed, std::nullopt);
+    EXPECT_EQ(name, "Cap");
 }
 
 TEST_F(ExpressionField, RefusedTextStaysUntilItIsMended) {

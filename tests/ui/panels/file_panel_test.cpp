@@ -1,0 +1,187 @@
+// Files as a person chooses and names them: real mouse and keys, real files.
+#include "ui/panels/file_panel.h"
+
+#include "core/base/files.h"
+#include "core/project/project_file.h"
+#include "tests/ui/panels/person.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::Person;
+
+/// A copy of the dome, mine.json, is open; it lies in the person's own folder.
+class FileDialog : public testing::Test {
+protected:
+    FileDialog() {
+        fs::copy_file("assets/projects/dome.json", person_.folder() / "mine.json");
+        person_.open(person_.folder() / "mine.json");
+    }
+
+    void write(const std::string& name, const std::string& text) {
+        write_file(person_.folder() / name, text);
+    }
+    [[nodiscard]] std::string text_of(const std::string& name) { return read_file(person_.folder() / name); }
+    /// Into the name, without leaving it.
+    void type_name(const std::string& name) {
+        person_.click("dialogs/files/name");
+        person_.press_key(render::Key::a, true);
+        person_.type(name);
+        person_.frames();
+    }
+    /// The button of the dialog that writes.
+    [[nodiscard]] std::string button() {
+        return person_.sees("dialogs/files/replace") ? "replace"
+               : person_.sees("dialogs/files/save")  ? "save"
+                                                     : "";
+    }
+    /// The mouse goes down and up where it is.
+    void press() {
+        person_.hold_button(true);
+        person_.frames();
+        person_.hold_button(false);
+        person_.frames();
+    }
+
+    Person person_;
+};
+
+TEST_F(FileDialog, OpensWhatIsClickedTwiceAndShowsItBefore) {
+    fs::copy_file("assets/projects/two-bell.json", person_.folder() / "bells.json");
+    person_.press_key(render::Key::o, true);
+    const render::Picture before = person_.picture();
+    person_.click("dialogs/files/entries/bells.json");
+    EXPECT_NE(before, person_.picture());
+    EXPECT_EQ(person_.workshop().look().document.file.filename(), "mine.json");
+    person_.click("dialogs/files/entries/bells.json");
+    person_.frames();
+    EXPECT_EQ(person_.workshop().look().document.file.filename(), "bells.json");
+    EXPECT_FALSE(person_.sees("dialogs/files/entries"));
+}
+
+TEST_F(FileDialog, KeepsItsRowsInPlaceWhateverIsClicked) {
+    write_file(person_.folder() / "square.ngc", "G21 G90\nG1 F600 X10\nM2\n");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    const std::string row = "dialogs/files/entries/square.ngc";
+    const float before = person_.place(row).y;
+    person_.click(row);
+    person_.frames(2);
+    EXPECT_EQ(person_.place(row).y, before) << "the second click of two would miss it";
+    person_.keep("file-dialog-gcode");
+    person_.click(row);
+    person_.frames(2);
+    EXPECT_FALSE(person_.sees("dialogs/files/entries"));
+    ASSERT_TRUE(person_.workshop().look().opened);
+    EXPECT_EQ(person_.workshop().look().opened->file.filename(), "square.ngc");
+}
+
+TEST_F(FileDialog, TakesAPlaceThatIsTyped) {
+    fs::create_directory(person_.folder() / "deep");
+    fs::copy_file("assets/projects/two-bell.json", person_.folder() / "deep" / "bells.json");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    person_.fill_in("dialogs/files/path", (person_.folder() / "deep").string());
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/bells.json"));
+    person_.fill_in("dialogs/files/path", (person_.folder() / "nowhere").string());
+    person_.frames(2);
+    EXPECT_FALSE(person_.sees("dialogs/files/entries/bells.json"));
+    person_.fill_in("dialogs/files/path", (person_.folder() / "deep" / "bells.json").string());
+    person_.frames(2);
+    EXPECT_FALSE(person_.sees("dialogs/files/entries"));
+    EXPECT_EQ(person_.workshop().look().document.file.filename(), "bells.json");
+}
+
+TEST_F(FileDialog, DoesNotReplaceAFileWithoutSayingSo) {
+    write_file(person_.folder() / "other.json", "not mine");
+    person_.press_key(render::Key::s, true, true);
+    person_.fill_in("dialogs/files/name", "other");
+    person_.frames();
+    EXPECT_EQ(read_file(person_.folder() / "other.json"), "not mine");
+    person_.press_key(render::Key::escape);
+    person_.press_key(render::Key::escape);
+    EXPECT_FALSE(person_.workshop().look().asks());
+    EXPECT_EQ(read_file(person_.folder() / "other.json"), "not mine");
+}
+
+TEST_F(FileDialog, SaysThatAFileWouldBeReplacedWhileItsNameIsTyped) {
+    write("other.json", "not mine");
+    person_.press_key(render::Key::s, true, true);
+    EXPECT_EQ(button(), "save") << "it is the project's own file";
+    type_name("other.json");
+    person_.keep("save-dialog-typed-replaces");
+    EXPECT_EQ(button(), "replace");
+    type_name("another.json");
+    EXPECT_EQ(button(), "save");
+    type_name("other");
+    EXPECT_EQ(button(), "replace");
+    person_.click("dialogs/files/replace");
+    EXPECT_EQ(project::read_project(person_.folder() / "other.json"), person_.project());
+}
+
+TEST_F(FileDialog, NamesTheFileThatAnExportReplacesWhileItIsTyped) {
+    write("surface.step", "the first");
+    write("w.glb", "the third");
+    person_.workshop().run("file.export");
+    person_.frames();
+    EXPECT_EQ(button(), "replace") << "surface.step, as it is asked for";
+    type_name("zz.glb");
+    EXPECT_EQ(button(), "save");
+    person_.keep("export-dialog-typed-new");
+    type_name("w.glb");
+    EXPECT_EQ(button(), "replace");
+    person_.keep("export-dialog-typed-replaces");
+    type_name("zz.glb");
+    person_.click("dialogs/files/save");
+    person_.wait_idle();
+    EXPECT_TRUE(fs::exists(person_.folder() / "zz.glb"));
+    EXPECT_EQ(text_of("surface.step"), "the first");
+    EXPECT_EQ(text_of("w.glb"), "the third");
+}
+
+TEST_F(FileDialog, AClickOnSaveDoesNotReplaceAFileThatCameToBeMeanwhile) {
+    person_.press_key(render::Key::s, true, true);
+    type_name("new.json");
+    ASSERT_EQ(button(), "save");
+    person_.hover(person_.place("dialogs/files/save").centre());
+    write("new.json", "of another program"); // the picture is older
+    press();
+    EXPECT_EQ(text_of("new.json"), "of another program");
+    EXPECT_EQ(button(), "replace");
+    fs::remove(person_.folder() / "new.json");
+    person_.frames();
+    person_.hold_button(true);
+    person_.frames();
+    write("new.json", "of another program"); // while the mouse is down
+    person_.hold_button(false);
+    person_.frames();
+    EXPECT_EQ(text_of("new.json"), "of another program");
+    press();
+    EXPECT_EQ(project::read_project(person_.folder() / "new.json"), person_.project());
+}
+
+TEST_F(FileDialog, NothingElseIsWrittenOverTheOpenProjectWithoutAWord) {
+    person_.workshop().session().workspace = actions::Workspace::arm;
+    person_.workshop().session().question = actions::FileQuestion::save_points;
+    person_.frames();
+    type_name("mine");
+    EXPECT_EQ(button(), "replace");
+}
+
+TEST_F(FileDialog, AFolderIsNotTakenForAFileToReplace) {
+    fs::create_directory(person_.folder() / "deep.json");
+    person_.press_key(render::Key::s, true, true);
+    type_name("deep.json");
+    EXPECT_EQ(button(), "save");
+    EXPECT_EQ(person_.refusal("dialogs/files/save"), "deep.json is a folder.");
+}
+
+} // namespace
+} // namespace millwright::panels
