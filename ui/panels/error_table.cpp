@@ -5,12 +5,15 @@
 #include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/table_height.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace millwright::panels {
 
@@ -19,7 +22,7 @@ namespace {
 using project::Evaluation;
 using project::GridMethod;
 
-constexpr std::array<widgets::Column, 10> columns{{{"Grid", "", 1.9F, false},
+constexpr std::array<widgets::Column, 11> columns{{{"Grid", "", 1.9F, false},
                                                    {"max", "mm", 1.0F, true},
                                                    {"mean", "mm", 1.0F, true},
                                                    {"mean/length", "mm", 1.2F, true},
@@ -28,7 +31,8 @@ constexpr std::array<widgets::Column, 10> columns{{{"Grid", "", 1.9F, false},
                                                    {"axis max", "deg", 1.0F, true},
                                                    {"track gap", "mm", 1.1F, true},
                                                    {"points", "", 0.9F, true},
-                                                   {"length", "mm", 1.1F, true}}};
+                                                   {"length", "mm", 1.1F, true},
+                                                   {"time", "s", 1.0F, true}}};
 
 std::string cell_of(const Evaluation* evaluation, int column) {
     if (evaluation == nullptr) {
@@ -57,30 +61,48 @@ std::string cell_of(const Evaluation* evaluation, int column) {
     }
 }
 
+ErrorRow
+row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
+    ErrorRow row{std::move(id), {std::move(name)}};
+    for (int column = 1; column < static_cast<int>(columns.size()) - 1; ++column) {
+        row.cells.push_back(cell_of(evaluation, column));
+    }
+    row.cells.push_back(seconds ? fixed(*seconds, 1) : "-");
+    return row;
+}
+
 } // namespace
 
+std::vector<ErrorRow> error_rows(const Workbench& now) {
+    std::vector<ErrorRow> rows;
+    for (const GridMethod method : project::every_grid_method) {
+        const auto& grid = project::row_of(project::grid_methods(), method);
+        rows.push_back(row_of(std::string(grid.id),
+                              std::string(grid.label),
+                              now.evaluation(method).get(),
+                              now.plan ? now.plan->plan.estimated_time(method) : std::nullopt));
+    }
+    if (project::has_own_path(now.project)) {
+        rows.push_back(row_of("path",
+                              project::strategy_text(now.project),
+                              now.program_path().get(),
+                              now.plan ? now.plan->plan.path_time : std::nullopt));
+    }
+    return rows;
+}
+
 void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue& ask) {
+    const std::vector<ErrorRow> rows = error_rows(now);
+    const std::ptrdiff_t grids = std::ssize(project::every_grid_method);
     widgets::TableView view;
     view.columns = columns;
-    const std::ptrdiff_t grids = std::ssize(project::every_grid_method);
-    const bool has_path = project::has_own_path(now.project);
-    const auto method_of = [](std::ptrdiff_t row) {
-        return project::every_grid_method[static_cast<std::size_t>(row)];
-    };
-    view.rows = has_path ? grids + 1 : grids; // the path of the strategy is the last
+    view.rows = std::ssize(rows);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        if (row == grids) {
-            return column == 0 ? project::strategy_text(now.project)
-                               : cell_of(now.program_path().get(), column);
-        }
-        return column == 0 ? std::string(project::row_of(project::grid_methods(), method_of(row)).label)
-                           : cell_of(now.evaluation(method_of(row)).get(), column);
+        return rows[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column)];
     };
-    view.row_id = [&](std::ptrdiff_t row) {
-        return row == grids ? "path"
-                            : std::string(project::row_of(project::grid_methods(), method_of(row)).id);
-    };
+    view.row_id = [&](std::ptrdiff_t row) { return rows[static_cast<std::size_t>(row)].id; };
     view.chosen = now.shows_own_path() ? grids : static_cast<std::ptrdiff_t>(actions::shown_grid(now));
+    view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, id, view)) {
         if (*row == grids) {
             ask.show([](actions::Session& session) { session.own_path_shown = true; });

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/project/cut_study.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/table_height.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
     };
     view.when_empty = "No block brings the cutter deeper than the gouge limit, or the holder into the part.";
     const auto trajectory = now.trajectory();
+    view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.follows_job()) {
         const int block = cut->bites[static_cast<std::size_t>(*row)].block;
         ask.show([time = trajectory->start_of(block)](actions::Session& session) {

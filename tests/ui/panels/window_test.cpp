@@ -2,9 +2,13 @@
 #include "ui/panels/window.h"
 
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/project/project_file.h"
+#include "core/project/strategy_path.h"
 #include "tests/ui/panels/person.h"
+#include "ui/panels/error_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,6 +87,32 @@ TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
     EXPECT_TRUE(person.sees("lower/motion"));
     person.press_key(render::Key::f2);
     EXPECT_TRUE(person.sees("lower/compare"));
+}
+
+TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
+    Person person({1600, 1000});
+    person.open(dome);
+    person.press_key(render::Key::f4);
+    person.click("lower/tabs/compare");
+    person.frames();
+    person.keep("side-by-side");
+    EXPECT_LE(person.place("lower/compare").bottom(), person.place("lower").bottom());
+    EXPECT_GE(person.place("lower/compare").h, 100.0F);
+    EXPECT_THAT(person.desktop().ui().cut_texts(), ::testing::IsEmpty());
+}
+
+TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
+    Person person;
+    person.open(dome);
+    const auto now = person.workshop().look();
+    ASSERT_TRUE(now.trajectory());
+    const auto program = static_cast<std::size_t>(project::program_grid(now.project));
+    const std::vector<ErrorRow> rows = error_rows(now);
+    EXPECT_EQ(rows[program].cells.back(), fixed(now.trajectory()->duration(), 1));
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const auto& time = now.plan->plan.estimated_times[n];
+        EXPECT_EQ(rows[n].cells.back(), time ? fixed(*time, 1) : "-");
+    }
 }
 
 TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
