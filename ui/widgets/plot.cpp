@@ -130,7 +130,7 @@ TextTicks y_ticks(const Mapping& mapping, int at_most) {
     if (mapping.y_is_log) {
         return log_ticks(mapping, at_most);
     }
-    const Ticks found = ticks(mapping.y_low, mapping.y_high, at_most);
+    const Ticks found = scale_ticks(mapping.y_low, mapping.y_high, at_most);
     TextTicks texts;
     for (const double value : found.values) {
         texts.emplace_back(value, tick_text(value, found));

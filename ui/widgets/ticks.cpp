@@ -55,6 +55,15 @@ Ticks ticks(double low, double high, int at_most) {
     return {};
 }
 
+Ticks scale_ticks(double low, double high, int at_most) {
+    constexpr int surely_two = 5; // of five at most, two lie in any range
+    Ticks found = ticks(low, high, at_most);
+    for (int more = at_most + 1; found.values.size() < 2 && more <= surely_two; ++more) {
+        found = ticks(low, high, more);
+    }
+    return found;
+}
+
 std::string tick_text(double value, const Ticks& of) {
     const bool plain = of.decimals <= most_decimals && std::abs(value) < longest_number;
     return plain ? fixed(value, of.decimals) : fmt::format("{:.3g}", value);

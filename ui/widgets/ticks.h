@@ -15,6 +15,9 @@ struct Ticks {
 /// above low by at least 1e-9 of their size: no ticks.
 [[nodiscard]] Ticks ticks(double low, double high, int at_most);
 
+/// The same for an axis that is read: where that would be one tick, which tells no scale, a few more.
+[[nodiscard]] Ticks scale_ticks(double low, double high, int at_most);
+
 /// The value as a tick of these writes it; very large and very small ones as 1.2e-07.
 [[nodiscard]] std::string tick_text(double value, const Ticks& of);
 

@@ -47,6 +47,21 @@ TEST(Ticks, AnyRangeHasAtMostAsManyAsAskedEvenlySpaced) {
     }
 }
 
+TEST(Ticks, OneAloneIsNotLeftOnAnAxis) {
+    constexpr double error_mm = 0.0435; // in a low pane; the only tick was 0.00
+    const Ticks found = scale_ticks(0.0, error_mm, 2);
+    EXPECT_EQ(found.values, (std::vector<double>{0.0, 0.02, 0.04}));
+    EXPECT_EQ(tick_text(found.values[1], found), "0.02");
+    for (int i = 1; i < 400; ++i) {
+        for (const double low : {0.0, 0.37, -1.9}) {
+            const double span = std::pow(10.0, -4.0 + 0.02 * i);
+            ASSERT_GE(std::ssize(scale_ticks(low, low + span, 2).values), 2) << low << " " << span;
+        }
+    }
+    EXPECT_EQ(scale_ticks(0.0, 1.0, 6).values, ticks(0.0, 1.0, 6).values);
+    EXPECT_TRUE(scale_ticks(1.0, 1.0, 2).values.empty());
+}
+
 TEST(Ticks, NoRangeHasNoTicks) {
     const double inf = std::numeric_limits<double>::infinity();
     const double nan = std::numeric_limits<double>::quiet_NaN();
