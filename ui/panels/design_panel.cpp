@@ -1,14 +1,18 @@
 #include "ui/panels/design_panel.h"
 
+#include "core/base/text.h"
 #include "core/geometry/presets.h"
 #include "ui/actions/import_bench.h"
 #include "ui/panels/import_panel.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/viewport/symmetric_points.h"
+#include "ui/widgets/icons.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace millwright::panels {
@@ -98,6 +102,31 @@ int preset_index(const std::string& id) {
 
 void set_preset(project::Project& draft, const geometry::SurfacePreset& preset) {
     draft.surface = project::project_from_preset(preset.id).surface;
+}
+
+constexpr int weight_column = 3; // of the choices above the table of the net
+
+double number_of(const ControlNet& net, int i, int j, int coordinate) {
+    return coordinate == weight_column ? net.weight(i, j) : net.point(i, j)[coordinate];
+}
+
+int decimals_of(int coordinate) {
+    return coordinate == weight_column ? 3 : 2;
+}
+
+/// As many as have room for their longest number: all of them in a net of usual degrees.
+int columns_shown(const Ui& ui, const ControlNet& net, int coordinate) {
+    constexpr float digit_px = 9.0F;
+    constexpr float border_px = 22.0F; // of a field, and between two
+    std::size_t digits = 1;
+    for (int i = 0; i < net.rows; ++i) {
+        for (int j = 0; j < net.columns; ++j) {
+            digits =
+                std::max(digits, fixed(number_of(net, i, j, coordinate), decimals_of(coordinate)).size());
+        }
+    }
+    const float field = ui.px(digit_px * static_cast<float>(digits) + border_px);
+    return std::clamp(static_cast<int>(ui.rest().w / field), 1, net.columns);
 }
 
 } // namespace
@@ -198,6 +227,64 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
     action_button(ui, now, ask, catalogue_, "edit.smooth");
 }
 
+/// Which columns are shown, where not all are: by hand, and that of a point that is selected.
+void DesignPanel::draw_columns(Ui& ui, const Workbench& now, const ControlNet& net, int shown) {
+    const auto selected =
+        now.session.selected.empty() ? std::nullopt : std::optional(now.session.selected.front());
+    if (std::exchange(followed_, selected) != selected && selected) {
+        first_column_ = std::clamp(first_column_, selected->j - shown + 1, selected->j);
+    }
+    const int last_first = net.columns - shown;
+    first_column_ = std::clamp(first_column_, 0, last_first);
+    if (last_first == 0) {
+        return;
+    }
+    const auto before = first_column_ > 0 ? widgets::Permission{}
+                                          : widgets::Permission::refused("These are the first columns.");
+    if (ui.icon_button("columns_back", widgets::icons::back, "The columns before", before)) {
+        first_column_ = std::max(0, first_column_ - shown);
+    }
+    ui.beside();
+    const auto after = first_column_ < last_first
+                           ? widgets::Permission{}
+                           : widgets::Permission::refused("These are the last columns.");
+    if (ui.icon_button("columns_on", widgets::icons::forward, "The columns behind", after)) {
+        first_column_ = std::min(last_first, first_column_ + shown);
+    }
+    ui.beside();
+    ui.words(
+        fmt::format("columns {} to {} of 0 to {}", first_column_, first_column_ + shown - 1, net.columns - 1),
+        widgets::Tone::muted);
+}
+
+void DesignPanel::draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, int row, int columns) {
+    const int patch = edited_patch(now);
+    const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(patch)];
+    const bool weights = shown_coordinate_ == weight_column;
+    const auto scope = ui.scope(fmt::format("row{}", row));
+    const auto line = ui.row(columns);
+    for (int j = first_column_; j < first_column_ + columns; ++j) {
+        const std::string id = fmt::format("column{}", j);
+        const widgets::FieldInfo info{id,
+                                      "",
+                                      "",
+                                      weights ? "Rational weight" : "mm; rows follow u, columns v",
+                                      weights ? 1e-6 : -farthest,
+                                      weights ? 1e6 : farthest,
+                                      std::numeric_limits<double>::quiet_NaN(),
+                                      decimals_of(shown_coordinate_)};
+        const double value = number_of(net, row, j, shown_coordinate_);
+        if (const auto changed = ui.number(value, info)) {
+            const std::vector<ControlPointId> cell{{static_cast<geometry::PatchId>(patch), row, j}};
+            if (weights) {
+                set_weights(now, ask, cell, *changed);
+            } else {
+                move_points(now, ask, cell, (*changed - value) * Vec3::Unit(shown_coordinate_));
+            }
+        }
+    }
+}
+
 void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto section = ui.section("net", "Control net");
     if (!section) {
@@ -207,32 +294,11 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.segmented("coordinate", "", shown_coordinate_, coordinates)) {
         shown_coordinate_ = *chosen;
     }
-    const int patch = edited_patch(now);
-    const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(patch)];
-    const bool weights = shown_coordinate_ == 3;
+    const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(edited_patch(now))];
+    const int shown = columns_shown(ui, net, shown_coordinate_);
+    draw_columns(ui, now, net, shown);
     for (int i = 0; i < net.rows; ++i) {
-        const auto scope = ui.scope(fmt::format("row{}", i));
-        const auto line = ui.row(net.columns);
-        for (int j = 0; j < net.columns; ++j) {
-            const std::string id = fmt::format("column{}", j);
-            const widgets::FieldInfo info{id,
-                                          "",
-                                          "",
-                                          weights ? "Rational weight" : "mm; rows follow u, columns v",
-                                          weights ? 1e-6 : -farthest,
-                                          weights ? 1e6 : farthest,
-                                          std::numeric_limits<double>::quiet_NaN(),
-                                          weights ? 3 : 2};
-            const double value = weights ? net.weight(i, j) : net.point(i, j)[shown_coordinate_];
-            if (const auto changed = ui.number(value, info)) {
-                const std::vector<ControlPointId> cell{{static_cast<geometry::PatchId>(patch), i, j}};
-                if (weights) {
-                    set_weights(now, ask, cell, *changed);
-                } else {
-                    move_points(now, ask, cell, (*changed - value) * Vec3::Unit(shown_coordinate_));
-                }
-            }
-        }
+        draw_net_row(ui, now, ask, i, shown);
     }
     ui.note("X, Y, Z in mm. Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2");
 }

@@ -5,6 +5,8 @@
 #include "ui/panels/panel.h"
 #include "ui/panels/patch_fields.h"
 
+#include <optional>
+
 namespace millwright::panels {
 
 class DesignPanel final : public Panel {
@@ -16,10 +18,14 @@ private:
     void draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_point(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_net(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, int row, int columns);
+    void draw_columns(Ui& ui, const Workbench& now, const geometry::ControlNet& net, int shown);
 
     const actions::Catalogue& catalogue_;
     PatchFields patch_;
     int shown_coordinate_ = 2; ///< x, y, z or weight in the table of the net
+    int first_column_ = 0;     ///< of the table, where the net has more than have room
+    std::optional<viewport::ControlPointId> followed_; ///< the selected point whose column was brought there
 };
 
 } // namespace millwright::panels

@@ -47,10 +47,7 @@ bool is_listed(const Workbench& now, GridMethod method) {
 std::vector<Row> rows_of(const Workbench& now) {
     const auto& net = now.project.surface.patches.front();
     std::vector<Row> rows{
-        {"surface",
-         "Surface",
-         fmt::format("degree {}, {}", net.rows - 1, net.columns - 1),
-         Workspace::design},
+        {"surface", "Surface", fmt::format("degree {},{}", net.rows - 1, net.columns - 1), Workspace::design},
         {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
     };
     constexpr std::array<std::string_view, project::every_grid_method.size()> names{

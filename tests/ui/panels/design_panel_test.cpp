@@ -1,8 +1,13 @@
 // The inspector of the Design workspace: symmetric editing, degrees and splitting by real mouse and keys.
+#include "core/geometry/patch_refinement.h"
 #include "core/project/plan.h"
 #include "tests/ui/panels/person.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
 
 namespace millwright::panels {
 namespace {
@@ -77,6 +82,52 @@ TEST(DesignPanel, TheDegreeIsElevatedAndThePatchSplitWithoutAChangeOfShape) {
     person.press_key(render::Key::z, true);
     person.press_key(render::Key::z, true);
     EXPECT_EQ(person.project().surface, start);
+}
+
+/// To degree `u` of the rows and `v` of the columns, of the same shape.
+void elevate(Person& person, int u, int v) {
+    person.workshop().edit("Elevate",
+                           [u, v](project::Project& draft) {
+                               const geometry::Surface now = project::surface_of(draft.surface);
+                               draft.surface.patches = {
+                                   geometry::elevated(now.patches().front(), u, v).net()};
+                               draft.surface.preset.clear();
+                           },
+                           {});
+    person.wait_idle();
+}
+
+TEST(DesignPanel, TheNumbersOfAnyNetAreWhole) {
+    Person person({1600, 1000});
+    person.open("assets/projects/sine.json");
+    for (const int degree : {3, 4, 5, 8, 12}) {
+        elevate(person, std::max(degree, 3), std::max(degree, 3));
+        for (const char* coordinate : {"x", "y", "z", "w"}) {
+            person.click(std::string("inspector/net/coordinate/") + coordinate);
+            person.frames();
+            EXPECT_THAT(person.desktop().ui().cut_texts(), ::testing::IsEmpty())
+                << degree << " " << coordinate;
+        }
+    }
+    person.click("inspector/net/coordinate/x");
+    person.frames();
+    person.keep("net-of-degree-12");
+}
+
+TEST(DesignPanel, AllColumnsOfALargeNetAreReached) {
+    Person person({1600, 1000});
+    person.open("assets/projects/sine.json");
+    elevate(person, 3, 12);
+    EXPECT_TRUE(person.sees("inspector/net/row3/column0"));
+    EXPECT_FALSE(person.sees("inspector/net/row3/column12"));
+    for (int n = 0; n < 12 && person.refusal("inspector/net/columns_on").empty(); ++n) {
+        person.click("inspector/net/columns_on");
+    }
+    person.fill_in("inspector/net/row3/column12", "7");
+    EXPECT_EQ(net(person).point(3, 12).z(), 7.0);
+    person.workshop().session().selected = {{geometry::PatchId(0), 1, 0}};
+    person.frames();
+    EXPECT_TRUE(person.sees("inspector/net/row1/column0")) << "the column of the point that is selected";
 }
 
 } // namespace
