@@ -29,6 +29,29 @@ void drop_lost_selection(Session& session, const project::Project& project) {
     std::erase_if(session.selected, lost);
 }
 
+Box3 box_of(const project::SurfaceInput& surface) {
+    Box3 box;
+    for (const geometry::ControlNet& net : surface.patches) {
+        for (const Vec3& point : net.points) {
+            box.extend(point);
+        }
+    }
+    return box;
+}
+
+/// So much larger, smaller or away from `before` that a view of that does not show `now`: another body, not a
+/// point that was dragged.
+bool is_elsewhere(const project::SurfaceInput& before, const project::SurfaceInput& now) {
+    constexpr double growth = 1.5;
+    constexpr double way = 0.25; // of the size
+    const Box3 a = box_of(before);
+    const Box3 b = box_of(now);
+    const double old_size = a.diagonal().norm();
+    const double new_size = b.diagonal().norm();
+    return new_size > growth * old_size || old_size > growth * new_size ||
+           (a.center() - b.center()).norm() > way * new_size;
+}
+
 project::Activity activity_of(const SurfaceExport& work) {
     Progress::Report now = work.progress();
     return {true, now.fraction, "Writing the surface" + (now.text.empty() ? "" : ": " + now.text)};
@@ -154,6 +177,7 @@ void Workshop::run(std::string_view id) {
     if (history_.project_number() != number_before) { // undo and redo go from file to file, too
         look_at_another();
     } else if (!(before == history_.current())) {
+        session_.fit_wanted = session_.fit_wanted || is_elsewhere(before.surface, history_.current().surface);
         follow_project();
     }
 }

@@ -211,6 +211,28 @@ TEST_F(Import, ASideThatTheMeshDoesNotHaveStaysOnTheBench) {
     person_.keep("import-side");
 }
 
+TEST_F(Import, UndoShowsTheSurfaceThatComesBack) {
+    const auto corner = [&] { return person_.place("view/control_point(0,0)").centre(); };
+    const auto before = corner();
+    drop(written("away.obj",
+                 std::string("v 900 900 0\nv 1300 900 0\nv 1300 1300 0\nv 900 1300 0\nf 1 2 3 4\n")));
+    person_.click("inspector/import/import_take");
+    person_.wait_idle();
+    person_.press_key(render::Key::z, true);
+    person_.wait_idle();
+    person_.keep("import-undone");
+    constexpr float near = 3.0F; // pixels
+    EXPECT_NEAR(corner().x, before.x, near);
+    EXPECT_NEAR(corner().y, before.y, near);
+    const auto taken_back = corner();
+    person_.workshop().edit(
+        "Move a point", [](project::Project& p) { p.surface.patches.front().point(0, 0).z() += 5.0; }, {});
+    person_.wait_idle();
+    person_.press_key(render::Key::z, true);
+    person_.wait_idle();
+    EXPECT_FLOAT_EQ(corner().y, taken_back.y) << "a point that goes back leaves the view alone";
+}
+
 TEST_F(Import, TheUnitOfAMeshIsChosen) {
     drop(written("plate.obj", std::string("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n")));
     person_.click("inspector/import/patch/unit/inch");
