@@ -1,16 +1,15 @@
 #include "ui/panels/file_panel.h"
 
 #include "core/base/error.h"
-#include "core/exchange/surface_file.h"
 #include "core/project/imported_surface.h"
 #include "ui/actions/workshop.h"
+#include "ui/panels/asked_file.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
 #include "ui/widgets/typed_text.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <utility>
 
@@ -25,111 +24,12 @@ using actions::FileQuestion;
 using widgets::Permission;
 using widgets::Rank;
 
-constexpr std::string_view extension = ".json";
-
-constexpr std::array<std::string_view, 8> gcode_extensions{
-    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
-
-bool is_gcode(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(
-        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
-}
-
-/// What "Open" can make something of.
-bool is_opened(const fs::path& file) {
-    return file.extension() == extension || is_gcode(file) || project::is_importable(file) ||
-           project::is_plot_file(file);
-}
-
-/// What is asked for, and what becomes of the file.
-struct Question {
-    FileQuestion question;
-    std::string_view title;
-    bool opens;
-    std::string_view ending; ///< of what is listed and saved; empty: every file
-    std::string_view first;  ///< name to save to; empty: the project's
-    void (*answer)(actions::Workshop&, const fs::path&);
-    bool (*lists)(const fs::path&) = nullptr; ///< in place of the ending; null: that
-};
-
-constexpr std::array<Question, 10> questions{
-    {{FileQuestion::open,
-      "Open a project, G-code, a surface, a plot or a picture",
-      true,
-      extension,
-      "",
-      nullptr,
-      is_opened},
-     {FileQuestion::save_as, "Save the project as", false, extension, "", nullptr},
-     {FileQuestion::import_surface,
-      "Import a surface",
-      true,
-      "",
-      "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.open(file); },
-      project::is_importable},
-     {FileQuestion::export_surface,
-      "Export the surface as",
-      false,
-      ".step",
-      "surface.step",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.export_surface(file); },
-      exchange::is_surface_file},
-     {FileQuestion::open_points,
-      "Open taught points",
-      true,
-      extension,
-      "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_points(file); }},
-     {FileQuestion::save_points,
-      "Save the taught points as",
-      false,
-      extension,
-      "points.json",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_points(file); }},
-     {FileQuestion::open_motion_program,
-      "Open a motion program",
-      true,
-      "",
-      "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_motion_program(file); }},
-     {FileQuestion::save_motion_program,
-      "Save the motion program as",
-      false,
-      ".pmc",
-      "program.pmc",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_motion_program(file); }},
-     {FileQuestion::play_motion_file,
-      "Play a motion file",
-      true,
-      "",
-      "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.play_motion_file(file); }},
-     {FileQuestion::load_card_settings,
-      "Load settings of the card",
-      true,
-      "",
-      "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.load_card_settings(file); }}}};
-
-const Question& about(FileQuestion question) {
-    const auto* const found = std::ranges::find(questions, question, &Question::question);
-    expects(found != questions.end(), "a question about a file");
-    return *found;
-}
 constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
 
 struct Listed {
     std::vector<fs::path> folders, files;
     std::string fault;
 };
-
-bool is_listed(const Question& question, const fs::path& file) {
-    return question.lists != nullptr ? question.lists(file)
-                                     : question.ending.empty() || file.extension() == question.ending;
-}
 
 /// Folders and the files of `question` by name; hidden ones left out.
 Listed listed(const fs::path& folder, FileQuestion question) {
@@ -152,13 +52,15 @@ Listed listed(const fs::path& folder, FileQuestion question) {
     return result;
 }
 
-std::string ending_tip(FileQuestion question) {
-    return question == FileQuestion::export_surface
-               ? "Ends in .step, .glb, .stl, .obj or .ply: that is the kind of file"
-               : "Ends in " + std::string(about(question).ending);
-}
-
-fs::path starting_folder(const Workbench& now) {
+/// The project's; for a surface that of the last one, which mostly comes from elsewhere.
+fs::path starting_folder(const Workbench& now, FileQuestion question) {
+    if (question == FileQuestion::import_surface) {
+        const auto last = std::ranges::find_if(now.recent, project::is_importable);
+        std::error_code gone;
+        if (last != now.recent.end() && fs::is_directory(last->parent_path(), gone)) {
+            return last->parent_path();
+        }
+    }
     return now.document.file.empty() ? fs::current_path() : fs::absolute(now.document.file).parent_path();
 }
 
@@ -185,9 +87,9 @@ void FilePanel::begin(const Workbench& now) {
     asked_ = now.session.question;
     source_ = Source::folder;
     named_.clear();
-    enter(starting_folder(now));
+    enter(starting_folder(now, asked_));
     name_ = !about(asked_).first.empty() ? std::string(about(asked_).first)
-            : now.document.file.empty()  ? now.project.name + std::string(extension)
+            : now.document.file.empty()  ? now.project.name + ".json"
                                          : now.document.file.filename().string();
 }
 
@@ -294,7 +196,9 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
     const auto chosen = std::find(entries_.begin(), entries_.end(), chosen_);
     view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
     view.height = ui.px(212.0F);
-    view.when_empty = fault_.empty() ? "No such files here." : std::string_view(fault_);
+    const std::string_view none =
+        source_ == Source::recent ? "Nothing was opened or saved before." : about(asked_).none;
+    view.when_empty = fault_.empty() ? none : std::string_view(fault_);
     const auto row = widgets::table(ui, "entries", view);
     if (!row) {
         return;
@@ -354,7 +258,7 @@ bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (const auto typed = ui.text_field("name", "File name", name_, ending_tip(asked_))) {
+    if (const auto typed = ui.text_field("name", "File name", name_, ending_text(about(asked_)))) {
         name_ = *typed;
     }
     const std::string name = widgets::typed_text(ui, "name").value_or(name_);
@@ -365,7 +269,8 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                    ? Permission::refused(file.filename().string() + " is a folder.")
                                    : Permission{};
     const fs::path replaced = allowed.allowed && replaces(file, now) ? file : fs::path();
-    ui.note(replaced.empty() ? " " : file.filename().string() + " is there already and would be replaced.");
+    ui.note(replaced.empty() ? ending_text(about(asked_))
+                             : file.filename().string() + " is there already and would be replaced.");
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
     if (draw_save_button(ui, allowed, replaced)) {

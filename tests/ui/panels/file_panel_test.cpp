@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "core/project/project_file.h"
 #include "tests/ui/panels/person.h"
+#include "ui/panels/asked_file.h"
 
 #include <gtest/gtest.h>
 
@@ -173,6 +174,35 @@ TEST_F(FileDialog, NothingElseIsWrittenOverTheOpenProjectWithoutAWord) {
     person_.frames();
     type_name("mine");
     EXPECT_EQ(button(), "replace");
+}
+
+TEST_F(FileDialog, ImportBeginsWhereTheLastSurfaceCameFrom) {
+    const std::string mesh = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n";
+    fs::create_directory(person_.folder() / "scans");
+    write("scans/first.obj", mesh);
+    write("scans/second.obj", mesh);
+    person_.press_key(render::Key::i, true);
+    person_.keep("import-dialog-empty");
+    person_.click("dialogs/files/entries/scans");
+    person_.click("dialogs/files/entries/first.obj");
+    person_.click("dialogs/files/open");
+    person_.wait_idle();
+    person_.click("inspector/import/import_give_up");
+    person_.press_key(render::Key::i, true);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/second.obj"));
+    person_.press_key(render::Key::escape);
+    person_.press_key(render::Key::o, true);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/mine.json")) << "the project's folder";
+}
+
+TEST(AskedFile, SaysWhichKindsThereAre) {
+    EXPECT_EQ(about(actions::FileQuestion::import_surface).none,
+              "No STEP, IGES, STL, OBJ or PLY files here.");
+    const std::string kinds = ending_text(about(actions::FileQuestion::export_surface));
+    for (const char* ending : {".step", ".glb", ".stl", ".obj", ".ply"}) {
+        EXPECT_NE(kinds.find(ending), std::string::npos) << ending;
+    }
+    EXPECT_EQ(ending_text(about(actions::FileQuestion::save_as)), "Ends in .json.");
 }
 
 TEST_F(FileDialog, AFolderIsNotTakenForAFileToReplace) {

@@ -1,0 +1,132 @@
+#include "ui/panels/asked_file.h"
+
+#include "core/base/error.h"
+#include "core/exchange/surface_file.h"
+#include "core/project/imported_surface.h"
+#include "core/project/plot_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace millwright::panels {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using actions::FileQuestion;
+
+constexpr std::string_view extension = ".json";
+
+constexpr std::array<std::string_view, 8> gcode_extensions{
+    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
+
+/// What "Open" can make something of.
+bool is_opened(const fs::path& file) {
+    return file.extension() == extension || is_gcode(file) || project::is_importable(file) ||
+           project::is_plot_file(file);
+}
+
+constexpr std::array<AskedFile, 10> questions{
+    {{FileQuestion::open,
+      "Open a project, G-code, a surface, a plot or a picture",
+      true,
+      extension,
+      "",
+      nullptr,
+      "No projects, G-code, surfaces, plots or pictures here.",
+      is_opened},
+     {FileQuestion::save_as,
+      "Save the project as",
+      false,
+      extension,
+      "",
+      nullptr,
+      "No projects (.json) here."},
+     {FileQuestion::import_surface,
+      "Import a surface",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open(file); },
+      "No STEP, IGES, STL, OBJ or PLY files here.",
+      project::is_importable},
+     {FileQuestion::export_surface,
+      "Export the surface as",
+      false,
+      ".step",
+      "surface.step",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.export_surface(file); },
+      "No STEP, glb, STL, OBJ or PLY files here.",
+      exchange::is_surface_file},
+     {FileQuestion::open_points,
+      "Open taught points",
+      true,
+      extension,
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_points(file); },
+      "No points (.json) here."},
+     {FileQuestion::save_points,
+      "Save the taught points as",
+      false,
+      extension,
+      "points.json",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_points(file); },
+      "No points (.json) here."},
+     {FileQuestion::open_motion_program,
+      "Open a motion program",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_motion_program(file); },
+      "No files here."},
+     {FileQuestion::save_motion_program,
+      "Save the motion program as",
+      false,
+      ".pmc",
+      "program.pmc",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_motion_program(file); },
+      "No motion programs (.pmc) here."},
+     {FileQuestion::play_motion_file,
+      "Play a motion file",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.play_motion_file(file); },
+      "No files here."},
+     {FileQuestion::load_card_settings,
+      "Load settings of the card",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.load_card_settings(file); },
+      "No files here."}}};
+
+} // namespace
+
+const AskedFile& about(FileQuestion question) {
+    const auto* const found = std::ranges::find(questions, question, &AskedFile::question);
+    expects(found != questions.end(), "a question about a file");
+    return *found;
+}
+
+bool is_gcode(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(
+        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
+}
+
+bool is_listed(const AskedFile& asked, const fs::path& file) {
+    return asked.lists != nullptr ? asked.lists(file)
+                                  : asked.ending.empty() || file.extension() == asked.ending;
+}
+
+std::string ending_text(const AskedFile& asked) {
+    return asked.question == FileQuestion::export_surface
+               ? "The kind of file is by the end of its name: .step, .glb, .stl, .obj or .ply."
+               : "Ends in " + std::string(asked.ending) + ".";
+}
+
+} // namespace millwright::panels
