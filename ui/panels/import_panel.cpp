@@ -7,6 +7,7 @@
 #include "ui/actions/import_bench.h"
 #include "ui/actions/workshop.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/table.h"
 
@@ -188,9 +189,9 @@ void draw_found(Ui& ui, const ImportResult& found) {
     }
     ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
     if (const auto& fit = found.surface->fit) {
-        ui.value("max", "Largest deviation", fixed(fit->deviation.max, 4), "mm");
-        ui.value("mean", "Mean deviation", fixed(fit->deviation.mean, 4), "mm");
-        ui.value("rms", "RMS deviation", fixed(fit->deviation.rms, 4), "mm");
+        ui.value("max", "Largest deviation", deviation_text(fit->deviation.max), "mm");
+        ui.value("mean", "Mean deviation", deviation_text(fit->deviation.mean), "mm");
+        ui.value("rms", "RMS deviation", deviation_text(fit->deviation.rms), "mm");
     }
     for (const std::string& note : found.surface->notes) {
         ui.note(with_full_stop(note));
@@ -235,8 +236,8 @@ void import_panel(Ui& ui, const Workbench& now, ActionQueue& ask, const actions:
         ui.value("name", "File", now.import.file().filename().string());
     }
     ui.gap();
-    if (const project::Activity activity = now.import.activity(); activity.busy) {
-        if (ui.progress("work", activity.text, activity.fraction)) {
+    if (now.activity.busy && now.import.activity().busy) { // told as the status bar tells it
+        if (ui.progress("work", now.activity.text, now.activity.fraction)) {
             ask.run("work.cancel");
         }
         ui.gap();

@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -13,6 +14,17 @@ namespace millwright::panels {
 std::string length_text(double mm) {
     constexpr double small = 0.1;
     return std::isfinite(mm) ? fixed(mm, std::abs(mm) < small ? 4 : 3) : "-";
+}
+
+std::string deviation_text(double mm) {
+    constexpr int least = 4;
+    constexpr int most = 9;
+    if (!std::isfinite(mm)) {
+        return "-";
+    }
+    const bool is_zero = !(std::abs(mm) >= std::pow(10.0, -most));
+    const int wanted = is_zero ? least : 1 + static_cast<int>(std::ceil(-std::log10(std::abs(mm))));
+    return fixed(mm, std::clamp(wanted, least, most));
 }
 
 std::string angle_text(double rad) {

@@ -8,6 +8,8 @@ namespace millwright::panels {
 
 /// mm with three decimals, four below 0.1; "-" where there is no number.
 [[nodiscard]] std::string length_text(double mm);
+/// mm with four decimals, more where they are needed for two digits; "-" where there is no number.
+[[nodiscard]] std::string deviation_text(double mm);
 /// Degrees with two decimals, from radians.
 [[nodiscard]] std::string angle_text(double rad);
 /// "2026-11-21 05:12" in local time, from s since 1970-01-01 UTC; "-" where there is no such time.

@@ -16,6 +16,16 @@ TEST(NumbersText, ShowsTheDigitsThatMatter) {
     EXPECT_EQ(length_text(std::numeric_limits<double>::infinity()), "-");
 }
 
+TEST(NumbersText, ADeviationThatIsSmallIsNotToldAsNone) {
+    EXPECT_EQ(deviation_text(1.25), "1.2500");
+    EXPECT_EQ(deviation_text(0.0092), "0.0092");
+    EXPECT_EQ(deviation_text(0.0000213), "0.000021");
+    EXPECT_EQ(deviation_text(-0.0000213), "-0.000021");
+    EXPECT_EQ(deviation_text(0.0), "0.0000");
+    EXPECT_EQ(deviation_text(1e-14), "0.0000");
+    EXPECT_EQ(deviation_text(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
 TEST(NumbersText, NamesAChangeWithItsSign) {
     EXPECT_EQ(change_text(2.0, 1.0), "-50.0 %");
     EXPECT_EQ(change_text(2.0, 3.0), "+50.0 %");
