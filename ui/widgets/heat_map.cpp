@@ -116,7 +116,7 @@ void draw_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float l
               Align::right);
 }
 
-/// What the ends of the colours mean, at the right of the line above the map.
+/// What the ends of the colours mean, at the right of the line above the map; below, what goes upwards.
 void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes& range) {
     const ImFont* font = ui.look().fonts.small;
     const float bar = ui.px(60.0F);
@@ -136,8 +136,9 @@ void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes&
     }
     x -= gap + low_width;
     draw_text(ui, font, {x, line.y, low_width, line.h}, ui.colours().text, low);
-    const std::string title = fmt::format("{}  ·  up: {} ({})", view.title, view.y_label, view.y_unit);
-    draw_text(ui, font, {line.x, line.y, x - gap - line.x, line.h}, ui.colours().muted, title);
+    draw_text(ui, font, {line.x, line.y, x - gap - line.x, line.h}, ui.colours().muted, view.title);
+    const std::string up = fmt::format("up: {} ({})", view.y_label, view.y_unit);
+    draw_text(ui, font, {line.x, line.bottom() + ui.px(3.0F), line.w, line.h}, ui.colours().muted, up);
 }
 
 double value_y(const Mapping& mapping, float pixel) {
@@ -199,7 +200,7 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
     const float line = ui.look().fonts.small->FontSize;
     const float left = ui.px(52.0F);
     draw_key(ui, {all.x, all.y, all.w, line}, view, range);
-    const float top = line + ui.px(6.0F);
+    const float top = 2.0F * line + ui.px(9.0F);
     const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
     fill(box, ui.colours().field, ui.px(2.0F));
     const Press now = press(ui, own, box);

@@ -13,14 +13,13 @@ namespace {
 
 using test::Stage;
 
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
-
 class HeatMap : public testing::Test {
 protected:
     std::vector<double> x{0.0, 1.0, 2.0};
     std::vector<double> y{10.0, 20.0};
     std::vector<double> values{1.0, 2.0, 3.0, 4.0, 5.0, std::numeric_limits<double>::infinity()};
     std::vector<double> asked;
+    Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
     std::optional<MapPlace> clicked;
     Stage stage{[this](Ui& ui) {
         const auto pane = ui.pane("maps", whole);
@@ -29,6 +28,10 @@ protected:
         view.y = y;
         view.values = values;
         view.height = 300.0F;
+        view.title = "mean to the curve";
+        view.unit = "mm";
+        view.x_label = view.y_label = "b";
+        view.x_unit = view.y_unit = "mm";
         view.best = MapPlace{1.0, 20.0};
         view.chosen = MapPlace{-100.0, 10.0};
         view.colours = [this](double t) {
@@ -62,6 +65,13 @@ TEST_F(HeatMap, HasTheWholeRangeOfColoursAndAHoleWhereThereIsNoNumber) {
         }
     }
     EXPECT_EQ(ends, (std::vector{0.0, 1.0, 0.0, 1.0, 0.0})) << "five cells; the key asks in between";
+}
+
+TEST_F(HeatMap, SaysInANarrowPaneWhatItIsOfAndWhatGoesUp) {
+    whole.w = 330.0F;
+    values = {0.43671, 2.0, 3.0, 4.0, 5.0, 16.25};
+    stage.frames(2);
+    EXPECT_TRUE(stage.ui().cut_texts().empty());
 }
 
 TEST_F(HeatMap, WithoutANumberSaysSo) {
