@@ -235,7 +235,9 @@ void Workshop::close_file() {
 
 void Workshop::cancel_work() {
     if (const project::Activity ended = look().activity; ended.busy) {
-        const bool planned = pipeline_->activity().busy;
+        const auto made = pipeline_->latest();
+        const bool is_whole = made && made->exact && made->project == history_.current();
+        const bool planned = pipeline_->activity().busy && !is_whole; // not a watched adaptation alone
         tell(session_,
              widgets::Severity::info,
              with_full_stop("Cancelled" + (ended.text.empty() ? "" : ": " + ended.text)) +

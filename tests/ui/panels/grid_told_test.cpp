@@ -60,8 +60,11 @@ TEST_F(GridTold, AWatchedChainThatIsCancelledIsNoProgram) {
     person_.click("inspector/watch/grid_chain");
     const auto watched = [&] { return person_.workshop().look().watched; };
     ASSERT_TRUE(person_.live_until([&] { return watched() && watched()->state; }, 60.0));
+    ASSERT_TRUE(person_.live_until([&] { return person_.workshop().look().activity.busy; }, 60.0));
     person_.workshop().run("work.cancel");
     person_.wait_idle();
+    EXPECT_TRUE(was_told("Cancelled: "));
+    EXPECT_FALSE(was_told("What is missing")) << "nothing of the project is";
     ASSERT_TRUE(watched() && watched()->state);
     EXPECT_FALSE(watched()->playing);
     EXPECT_EQ(watched()->state->status, grid::ImproverStatus::running);
