@@ -177,7 +177,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         action_button(ui, now, ask, catalogue_, "grid.reset", widgets::Rank::normal, "Reset");
     }
     if (const auto& state = now.watched->state) {
-        ui.value("rounds", "Round", fmt::format("{}", state->round));
+        ui.value("rounds", "Rounds done", fmt::format("{}", state->round));
         ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
         ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
         ui.value("before", "To curve, start", length_text(state->start.mean), "mm");

@@ -89,7 +89,7 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
     const std::vector<Row> rows = rows_of(now);
     constexpr std::array<widgets::Column, 2> columns{
-        {{"Stage", "", 1.0F, false}, {"mean error", "", 1.0F, true}}};
+        {{"Stage", "", 0.9F, false}, {"mean error", "", 1.1F, true}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(rows);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace millwright::panels {
@@ -29,10 +30,11 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
     constexpr float left = 12.0F;
     constexpr float top = 5.0F;
     constexpr float work_width = 460.0F;
+    constexpr float beside_px = 680.0F; // machine, mouse and file
     constexpr float between = 18.0F;
     ui.move_by(ui.px(left), ui.px(top));
     if (now.activity.busy) {
-        const auto width = ui.width(ui.px(work_width));
+        const auto width = ui.width(std::max(ui.px(work_width), ui.rest().w - ui.px(beside_px)));
         if (ui.progress("work", now.activity.text, now.activity.fraction)) {
             ask.run("work.cancel");
         }
