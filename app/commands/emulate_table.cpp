@@ -74,6 +74,7 @@ void add_emulate_table(CLI::App& group, Command& chosen) {
                      choice->table.takes_time,
                      "Moves at the speed that {s} says, and answers when it is there");
     command.add_option("--refuse", choice->table.refuses, "Answers this record by 'error'; 0: none");
+    command.add_option("--double", choice->table.doubles, "Answers this record twice; 0: none");
     command.callback([&chosen, choice] { chosen = [choice] { return emulate_table(*choice); }; });
 }
 

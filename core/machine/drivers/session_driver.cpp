@@ -52,10 +52,14 @@ struct SessionDriver::Body {
         send();
     }
 
+    [[nodiscard]] double patience() const {
+        const std::scoped_lock lock(mutex);
+        return session->patience(clock.now());
+    }
+
     void run(const std::stop_token& stop) {
-        constexpr double tick = 0.02;
         while (!stop.stop_requested()) {
-            link->wait(tick);
+            link->wait(patience());
             carry();
             while (ask_ahead()) {
             }

@@ -25,6 +25,11 @@ public:
     virtual void closed() = 0;
     virtual void receive(std::string_view bytes, double now) = 0;
     virtual void tick(double now) = 0;
+    /// Where nothing comes in, the next tick is no later than so many s after `now`.
+    [[nodiscard]] virtual double patience(double /*now*/) const {
+        constexpr double usual = 0.02;
+        return usual;
+    }
     /// Takes the bytes that shall be sent.
     [[nodiscard]] virtual std::string take_output() = 0;
     /// Takes what a person shall read of the conversation where bytes alone do not say it; number and time of

@@ -78,6 +78,9 @@ void TableEmulator::obey() {
         positions_.push_back(position_);
     }
     answer(format_.answer, due.number);
+    if (due.number == options_.doubles) {
+        answer(format_.answer, due.number);
+    }
 }
 
 void TableEmulator::answer(const std::string& text, std::int64_t record) {

@@ -17,6 +17,7 @@ struct TableOptions {
     int decimals = 4;
     std::int64_t silent_from = 0; ///< from this record on (counted from 1) it answers nothing; 0: never
     std::int64_t refuses = 0;     ///< this record is answered by `error`, and not obeyed; 0: none
+    std::int64_t doubles = 0;     ///< this record is answered twice; 0: none
     bool takes_time = false;      ///< moves at the speed that {s} says, and answers when it is there
     bool keep = false;            ///< every position, for tests
 };

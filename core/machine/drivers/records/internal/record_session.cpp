@@ -73,6 +73,8 @@ RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
 
 void RecordSession::opened(double /*now*/) {
     inbox_.clear();
+    pace_ = {};
+    listens_until_ = 0.0;
     path_.begin(values_of(status_.position));
     status_.link_lost = false;
     if (status_.state == DriverState::disconnected) {
@@ -92,6 +94,10 @@ void RecordSession::closed() {
     under_way_.reset();
     program_.reset();
     outbox_.clear();
+}
+
+double RecordSession::patience(double now) const {
+    return listens(now) ? listens_until_ - now : ControllerSession::patience(now);
 }
 
 std::string RecordSession::take_output() {
@@ -143,7 +149,7 @@ void RecordSession::start(const Work& work, double now) {
     trajectory_ = work.trajectory;
     ahead_.begin(work.ahead, program_->block_count());
     own_pause_.begin(now);
-    status_.block = 0;
+    status_.block = next_ = 0;
     status_.executed_blocks = status_.sent_blocks = 0;
     status_.fraction = 0.0;
     status_.planned_time = 0.0;
@@ -167,10 +173,21 @@ void RecordSession::receive(std::string_view bytes, double now) {
 void RecordSession::answered(const std::string& line, double now) {
     if (!under_way_ || !under_way_->record) {
         alarm(fmt::format("the machine said '{}' before record {} was sent", line, records_ + 1));
+        if (records_ > 0 && line == format_.answer) {
+            status_.position_doubt = "the table answers more often than it is told where to go";
+        }
     } else if (line != format_.answer) {
         alarm(fmt::format("the machine answered '{}' to record {}", line, records_));
         left_until_.reset();
+    } else if (const double after = now - under_way_->sent; !pace_.fits(under_way_->way, after)) {
+        alarm(fmt::format("the machine answered record {} after {:.2f} s, whose way takes {:.2f} s: it "
+                          "answers more often than it is told",
+                          records_,
+                          after,
+                          under_way_->way));
     } else {
+        constexpr double listening = 0.01; // as long as a few letters take at 9600 baud
+        listens_until_ = now + listening;
         land(now);
     }
 }
@@ -181,19 +198,24 @@ void RecordSession::land(double now) {
     status_.position_known = status_.position_known || (under_way_->record && !format_.relative);
     under_way_.reset();
     executed();
+    claim_executed();
     tick(now);
 }
 
 void RecordSession::executed() {
-    ++status_.executed_blocks;
-    status_.block = std::min(status_.executed_blocks, program_->block_count() - 1);
-    if (trajectory_) {
-        status_.planned_time = status_.executed_blocks < program_->block_count()
-                                   ? trajectory_->start_of(status_.executed_blocks)
-                                   : trajectory_->duration();
-    }
+    ++next_;
+    status_.block = std::min(next_, program_->block_count() - 1);
     if (single_block_ && status_.state == DriverState::running) {
         status_.state = DriverState::holding;
+    }
+}
+
+/// Blocks that the table is not told, as the spindle's, are executed with the next that it is.
+void RecordSession::claim_executed() {
+    status_.executed_blocks = next_;
+    if (trajectory_) {
+        status_.planned_time =
+            next_ < program_->block_count() ? trajectory_->start_of(next_) : trajectory_->duration();
     }
 }
 
@@ -209,12 +231,12 @@ void RecordSession::look_at_clock(double now) {
     }
 }
 
-bool RecordSession::may_begin_block() {
-    if (status_.state != DriverState::running || under_way_ ||
-        status_.executed_blocks >= program_->block_count()) {
+bool RecordSession::may_begin_block(double now) {
+    if (status_.state != DriverState::running || under_way_ || listens(now) ||
+        next_ >= program_->block_count()) {
         return false;
     }
-    return ahead_.allows(status_.executed_blocks);
+    return ahead_.allows(next_);
 }
 
 void RecordSession::tick(double now) {
@@ -229,15 +251,16 @@ void RecordSession::tick(double now) {
     if (status_.state == DriverState::stopping && !program_ && !left_until_) {
         rest(DriverState::idle);
     }
-    while (may_begin_block()) {
+    while (may_begin_block(now)) {
         begin_block(now);
     }
-    if (under_way_ || !program_) {
+    if (under_way_ || !program_ || listens(now)) {
         return;
     }
     if (status_.state == DriverState::stopping) {
         rest(DriverState::stopped);
-    } else if (status_.executed_blocks == program_->block_count()) {
+    } else if (next_ == program_->block_count()) {
+        claim_executed();
         rest(DriverState::idle);
     } else if (status_.state == DriverState::holding && !rests_) {
         rest(DriverState::holding, status_.message);
@@ -245,8 +268,8 @@ void RecordSession::tick(double now) {
 }
 
 void RecordSession::begin_block(double now) {
-    const Block& block = program_->blocks[static_cast<std::size_t>(status_.executed_blocks)];
-    status_.sent_blocks = status_.executed_blocks + 1;
+    const Block& block = program_->blocks[static_cast<std::size_t>(next_)];
+    status_.sent_blocks = next_ + 1;
     if (block.kind == BlockKind::dwell) {
         under_way_ = UnderWay{status_.position, now + block.duration, false};
         return;
@@ -258,8 +281,9 @@ void RecordSession::begin_block(double now) {
     const bool waits =
         block.kind == BlockKind::pause && (block.pause != gcode::PauseKind::optional_stop || optional_stop_);
     if (waits) {
-        std::string why = internal::reason_of_pause(*program_, listing_.get(), status_.executed_blocks);
+        std::string why = internal::reason_of_pause(*program_, listing_.get(), next_);
         executed();
+        claim_executed();
         rest(DriverState::holding, std::move(why));
         return;
     }
@@ -290,7 +314,8 @@ void RecordSession::send(const Block& block, double now) {
     outbox_ += text_.written(record) + format_.ending;
     ++records_;
     status_.feed = speed;
-    under_way_ = UnderWay{target, now + time_of(length, speed, record.acceleration), true};
+    under_way_ =
+        UnderWay{target, now + time_of(length, speed, record.acceleration), true, now, length / speed};
 }
 
 void RecordSession::hold(double /*now*/) {

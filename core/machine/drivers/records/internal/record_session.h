@@ -6,6 +6,7 @@
 #include "core/machine/drivers/internal/ahead.h"
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/own_pause.h"
+#include "core/machine/drivers/records/internal/answer_pace.h"
 #include "core/machine/drivers/records/records_driver.h"
 
 #include <memory>
@@ -33,6 +34,7 @@ public:
     void closed() override;
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
+    [[nodiscard]] double patience(double now) const override;
     [[nodiscard]] std::string take_output() override;
     [[nodiscard]] internal::Ahead* ahead() override { return &ahead_; }
 
@@ -60,16 +62,20 @@ private:
         kinematics::AxisPositions target;
         double over = 0.0;   ///< when it should be over
         bool record = false; ///< else a dwell, of which nobody answers
+        double sent = 0.0;   ///< of a record: when
+        double way = 0.0;    ///< of a record: how long its way takes at its speed
     };
 
     [[nodiscard]] bool awaits_answers() const { return !format_.answer.empty(); }
     void answered(const std::string& line, double now);
+    [[nodiscard]] bool listens(double now) const { return now < listens_until_; }
     void look_at_clock(double now);
     void land(double now);
     void begin_block(double now);
     void send(const gcode::Block& block, double now);
-    [[nodiscard]] bool may_begin_block();
+    [[nodiscard]] bool may_begin_block(double now);
     void executed();
+    void claim_executed();
     void rest(DriverState state, std::string why = {});
     void alarm(std::string why);
 
@@ -81,6 +87,7 @@ private:
     std::shared_ptr<const gcode::Program> program_;
     std::shared_ptr<const gcode::Listing> listing_;
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< for its times alone; may be null
+    int next_ = 0;                                         ///< block of the program
     internal::Ahead ahead_;
     internal::OwnPause own_pause_;
     bool optional_stop_ = false;
@@ -88,6 +95,9 @@ private:
     /// Until when the table may go on with the record that was on its way when an alarm came; its late
     /// answer, which ends it, is none to a later record.
     std::optional<double> left_until_;
+    /// Until when it is heard whether an answer comes twice, before anything else begins.
+    double listens_until_ = 0.0;
+    AnswerPace pace_;
     bool rests_ = false; ///< held, and what was under way is over
     bool single_block_ = false;
     int records_ = 0;

@@ -208,6 +208,79 @@ TEST(RecordSession, TakesARefusalForAnAlarmAndGoesOnFromThere) {
     EXPECT_EQ(table.records(), 6);
 }
 
+// The second one was taken for the answer to the next record, so that all that followed was claimed a record
+// too early, up to the end of the program.
+TEST(RecordSession, AnAnswerThatComesTwiceIsNoticedBeforeTheNextRecord) {
+    for (const bool takes_time : {false, true}) {
+        TableEmulator table = table_of(answered(), {.doubles = 4, .takes_time = takes_time});
+        Wire wire(table, answered());
+        wire.start(job_of(zigzag(20)));
+        ASSERT_TRUE(wire.run_to_end());
+        EXPECT_EQ(wire.state(), DriverState::alarm);
+        EXPECT_THAT(wire.session.status().message, HasSubstr("said 'ok' before record 5 was sent"));
+        EXPECT_EQ(wire.session.records(), 4);
+        EXPECT_EQ(table.records(), 4);
+        EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("more often than it is told"));
+        wire.session.reset(wire.now);
+        EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+    }
+}
+
+TEST(RecordSession, TheLastAnswerOfAProgramComesOnceToo) {
+    TableEmulator table = table_of(answered(), {.doubles = 3});
+    Wire wire(table, answered());
+    wire.start(job_of("G21 G90\nG0 X5 Y5\nG1 X6 F600\nX7\nM2\n"));
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+}
+
+// Each of 1 s. The table answers when it is there, so what comes after 0.1 s is no answer to this record.
+TEST(RecordSession, ASecondAnswerThatComesLateIsNoAnswerToTheNextRecord) {
+    TableEmulator table = table_of(answered(), {.takes_time = true});
+    Wire wire(table, answered());
+    std::string text = "G21 G90\nG1 X10 F600\n";
+    for (int n = 2; n < 10; ++n) {
+        text += "X" + std::to_string(10 * n) + "\n";
+    }
+    wire.start(job_of(text + "M2\n"));
+    ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 5; }, 60.0));
+    ASSERT_FALSE(wire.run_until([&] { return wire.session.records() > 5; }, 0.1));
+    wire.session.receive("ok\n", wire.now);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("record 5 after 0.1"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("whose way takes 1.00 s"));
+    EXPECT_EQ(wire.session.status().executed_blocks, 4);
+}
+
+TEST(AnswerPace, TimeTellsNothingOfATableThatAnswersWhatItHasTaken) {
+    AnswerPace buffered; // the first at once, then as places come free
+    for (const double after : {0.01, 0.01, 1.0, 1.0, 1.0, 1.0, 0.01}) {
+        EXPECT_TRUE(buffered.fits(1.0, after));
+    }
+    AnswerPace when_there;
+    for (const double after : {1.1, 0.5, 1.05}) { // by hand at twice the speed
+        EXPECT_TRUE(when_there.fits(1.0, after));
+    }
+    EXPECT_TRUE(when_there.fits(0.1, 0.01)); // too short to tell
+    EXPECT_FALSE(when_there.fits(1.0, 0.1));
+}
+
+// The spindle is a person's, and the table was told nothing of it.
+TEST(RecordSession, NothingIsExecutedBeforeTheTableHasObeyedSomething) {
+    TableEmulator table = table_of(answered(), {.refuses = 1});
+    Wire wire(table, answered());
+    const Job job = job_of("G21 G90\nM3 S10000\nG0 X5 Y5\nG1 X6 F600\nM5\nM2\n");
+    wire.start(job);
+    ASSERT_TRUE(wire.run_to_end());
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_EQ(wire.session.status().executed_blocks, 0);
+    TableEmulator obeys = table_of(answered());
+    Wire second(obeys, answered());
+    second.start(job);
+    ASSERT_TRUE(second.run_to_end());
+    EXPECT_EQ(second.session.status().executed_blocks, job.block_count());
+}
+
 TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
     TableEmulator table = table_of(answered(true), {.silent_from = 3});
     Wire wire(table, answered(true));
