@@ -33,7 +33,7 @@ public:
         }
         run_.pen.finish(plot_, size_);
         for (const Stroke& stroke : plot_.strokes) {
-            plot_.pens.try_emplace(stroke.pen);
+            plot_.pens.try_emplace(stroke.pen, run_.usual);
         }
         plot_.diagnostics = problems_.take();
         plot_.more_diagnostics = problems_.more();
@@ -57,6 +57,11 @@ private:
             return;
         }
         const bool followed = follow(*row, command);
+        if (!followed && row->name == "SP") {
+            run_.pen.put_away(); // what follows was meant for a pen that nobody knows
+        } else if (!followed && row->name == "PU") {
+            run_.pen.lift(); // wherever it was to go
+        }
         if (row->places) {
             run_.misplace(row->name, !followed);
         }

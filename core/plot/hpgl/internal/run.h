@@ -55,6 +55,7 @@ struct Run {
     UserUnits units;
     Pen pen;
     Modes modes;
+    PenUse usual; ///< of pens that nothing was said about
     bool polygon_damaged = false;
     std::string buffered_label;
     std::vector<std::string_view> misplaced; ///< commands: while there are any, nothing is drawn

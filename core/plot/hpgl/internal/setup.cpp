@@ -111,7 +111,7 @@ void select_pen(Run& run, const Given& given) {
             fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
     }
     run.pen.select(static_cast<int>(number));
-    run.plot.pens.try_emplace(static_cast<int>(number));
+    run.plot.pens.try_emplace(static_cast<int>(number), run.usual);
 }
 
 namespace {
@@ -123,7 +123,7 @@ PenUse* use_meant(Run& run, const Given& given, std::size_t n) {
         run.refuse(fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
         return nullptr;
     }
-    return &run.plot.pens[static_cast<int>(number)];
+    return &run.plot.pens.try_emplace(static_cast<int>(number), run.usual).first->second;
 }
 
 } // namespace
@@ -134,8 +134,14 @@ void pen_speed(Run& run, const Given& given) {
         return run.refuse(fmt::format("VS: a speed of {} cm/s", cm_per_s));
     }
     constexpr double mm_per_cm = 10.0;
-    if (PenUse* use = use_meant(run, given, 1)) {
-        use->speed = cm_per_s * mm_per_cm;
+    const double speed = cm_per_s * mm_per_cm;
+    if (given.count() < 2) { // all pens from here on
+        run.usual.speed = speed;
+        for (auto& [pen, use] : run.plot.pens) {
+            use.speed = speed;
+        }
+    } else if (PenUse* use = use_meant(run, given, 1)) {
+        use->speed = speed;
     }
 }
 

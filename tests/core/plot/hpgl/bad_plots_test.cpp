@@ -69,6 +69,34 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
 }
 
 // Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers.
+// What stands behind it was meant for a pen that nobody knows: it went to the one before, and was cut with
+// its depth and its tool.
+TEST(BadPlots, NothingIsDrawnBehindADamagedPenUpToTheNext) {
+    for (const char* damaged : {"SP99999999999", "SP3x", "SP1,3", "SPP", "SP300", "SP-1", "SP2.5"}) {
+        SCOPED_TRACE(damaged);
+        const std::string bad = damaged;
+        const Plot plot =
+            read_hpgl("IN;SP2;PU0,0;PD400,0;" + bad + ";PD400,400;PU;SP4;PU0,0;PD0,400;PU;SP;", "bad.plt");
+        ASSERT_EQ(plot.strokes.size(), 2U);
+        EXPECT_NEAR(draw_length(plot.strokes), 20.0, 1e-9);
+        EXPECT_EQ(plot.strokes[1].pen, 4);
+        EXPECT_GE(plot.diagnostics.size(), 1U);
+        EXPECT_TRUE(read_hpgl("IN;" + bad + ";PD400,400;PU;", "bad.plt").strokes.empty());
+    }
+}
+
+// Wherever it was to go, the pen was to be up.
+TEST(BadPlots, ADamagedPenUpLiftsThePen) {
+    for (const char* damaged : {"PU1x", "PU,", "PU3419995,4000", "PU5000000000,1", "PU1,2,3"}) {
+        SCOPED_TRACE(damaged);
+        const Plot plot =
+            read_hpgl("IN;SP2;PU0,0;PD400,0;" + std::string(damaged) + ";PA400,400;PA800,800;PD800,0;PU;SP;",
+                      "bad.plt");
+        EXPECT_NEAR(draw_length(plot.strokes), 10.0 + 20.0, 1e-9);
+        EXPECT_GE(plot.diagnostics.size(), 1U);
+    }
+}
+
 TEST(BadPlots, NothingIsCutFromADamagedToken) {
     for (const char* damage : {"PA,,;",
                                "...;",

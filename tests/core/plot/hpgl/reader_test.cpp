@@ -209,5 +209,13 @@ TEST(HpglReader, EverySampleIsReadStrictly) {
     EXPECT_GE(count, 12);
 }
 
+// VS without a pen is of all pens; that of the head, before SP1, too.
+TEST(HpglReader, ASpeedWithoutAPenIsOfAllPens) {
+    const Plot plot = read_hpgl("IN;VS36;SP1;PD400,0;PU;SP2;PD0,0;VS10,3;PU;SP3;PD0,400;PU;SP;", "speed.plt");
+    EXPECT_DOUBLE_EQ(plot.pens.at(1).speed, 360.0);
+    EXPECT_DOUBLE_EQ(plot.pens.at(2).speed, 360.0);
+    EXPECT_DOUBLE_EQ(plot.pens.at(3).speed, 100.0);
+}
+
 } // namespace
 } // namespace millwright::plot
