@@ -4,6 +4,7 @@
 #include "app/names.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot/closing.h"
 #include "core/plot/left_alone.h"
 #include "core/plot/level_text.h"
 #include "core/plot/ordering.h"
@@ -146,13 +147,14 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     add_cutting_options(command, options.cutting);
 }
 
-void cut_strokes(const Strokes& drawn,
+void cut_strokes(const Strokes& as_drawn,
                  const Vec2& end,
                  const StrokeCutting& options,
                  const std::vector<std::string>& header,
                  const Progress& progress) {
     plot::StrokePlan plan = options.plan;
     plan.hatch_angle = from_degrees(options.hatch_angle_deg);
+    const Strokes drawn = plot::outlines_for(as_drawn, plan);
     plot::ShapedStrokes shaped = plot::shaped(drawn, plan);
     if (shaped.strokes.empty()) {
         throw Error("there is nothing to cut");
@@ -164,7 +166,8 @@ void cut_strokes(const Strokes& drawn,
     Steps steps(end, options);
     steps.say("as drawn", strokes);
     if (plan.order) {
-        strokes = plot::ordered(strokes, Vec2::Zero(), end, progress.part(0.0, 0.3));
+        strokes = plot::ordered(
+            strokes, cut_settings(strokes, options), Vec2::Zero(), end, progress.part(0.0, 0.3));
         steps.say("ordered", strokes);
     }
     if (plan.link > 0.0) {

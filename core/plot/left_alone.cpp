@@ -45,12 +45,22 @@ std::string on_narrow(std::size_t parts) {
                : fmt::format("{} closed parts are too narrow for the tool: nothing is cut there", parts);
 }
 
+std::string on_links(const Strokes& drawn, const StrokePlan& plan) {
+    return plan.link > 0.0 && plan.link_inside && closed_outlines(drawn).empty()
+               ? "no stroke is closed: nothing keeps the links inside"
+               : "";
+}
+
 } // namespace
 
 std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped, const StrokePlan& plan) {
     const std::string open = on_open(drawn, shaped.open);
     const std::string narrow = on_narrow(plan.side == CutterSide::on_line ? 0 : narrow_parts(drawn, plan));
-    return open.empty() || narrow.empty() ? open + narrow : open + "; " + narrow;
+    std::string all;
+    for (const std::string& remark : {open, narrow, on_links(drawn, plan)}) {
+        all += (all.empty() || remark.empty() ? "" : "; ") + remark;
+    }
+    return all;
 }
 
 } // namespace millwright::plot

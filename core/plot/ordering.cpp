@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace millwright::plot {
@@ -280,6 +282,70 @@ Strokes ordered(const Strokes& strokes, const Vec2& start, const Vec2& end, cons
         at = found.back().points.back();
     }
     return air_length(found, start, end) < air_length(strokes, start, end) ? found : strokes;
+}
+
+namespace {
+
+/// The levels that cut something, as they are cut.
+std::vector<Level> in_order(const CutSettings& cut) {
+    std::vector<Level> levels;
+    std::ranges::copy_if(cut.levels, std::back_inserter(levels), &Level::enabled);
+    std::ranges::stable_sort(levels, {}, &Level::order);
+    return levels;
+}
+
+/// Way across in the air, as cut_path() has it.
+double air_of_levels(const Strokes& strokes, const CutSettings& cut, const Vec2& start, const Vec2& end) {
+    std::map<int, std::vector<const Stroke*>> pens;
+    for (const Stroke& stroke : strokes) {
+        pens[stroke.pen].push_back(&stroke);
+    }
+    double air = 0.0;
+    Vec2 at = start;
+    const auto go = [&](const Vec2& to) {
+        air += (to - at).norm();
+        at = to;
+    };
+    std::optional<int> tool;
+    for (const Level& level : in_order(cut)) {
+        const auto drawn = pens.find(level.pen);
+        if (drawn == pens.end()) {
+            continue;
+        }
+        if (std::exchange(tool, level.tool).value_or(level.tool) != level.tool) {
+            go(cut.change_position.head<2>());
+        }
+        for (int pass = 0; pass < level.passes; ++pass) {
+            for (const Stroke* stroke : drawn->second) {
+                go(stroke->points.front());
+                at = stroke->points.back();
+            }
+        }
+    }
+    go(end);
+    return air;
+}
+
+} // namespace
+
+Strokes ordered(const Strokes& strokes,
+                const CutSettings& cut,
+                const Vec2& start,
+                const Vec2& end,
+                const Progress& progress) {
+    std::map<int, std::size_t> turns; // of pens, by their first level
+    for (const Level& level : in_order(cut)) {
+        turns.try_emplace(level.pen, turns.size());
+    }
+    Strokes cut_ones;
+    Strokes others;
+    for (const Stroke& stroke : strokes) {
+        (turns.contains(stroke.pen) ? cut_ones : others).push_back(stroke);
+    }
+    std::ranges::stable_sort(cut_ones, {}, [&](const Stroke& stroke) { return turns.at(stroke.pen); });
+    Strokes found = cut_ones.empty() ? cut_ones : ordered(cut_ones, start, end, progress);
+    found.insert(found.end(), others.begin(), others.end());
+    return air_of_levels(found, cut, start, end) < air_of_levels(strokes, cut, start, end) ? found : strokes;
 }
 
 } // namespace millwright::plot

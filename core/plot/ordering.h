@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/strokes.h"
 
 namespace millwright::plot {
@@ -11,6 +12,15 @@ namespace millwright::plot {
 /// they first draw), with all strokes of a pen together. Never more air travel than the order given: where
 /// that is not beaten, it is what comes back. Deterministic. Throws Cancelled through `progress`.
 [[nodiscard]] Strokes ordered(const Strokes& strokes,
+                              const Vec2& start = Vec2::Zero(),
+                              const Vec2& end = Vec2::Zero(),
+                              const Progress& progress = Progress());
+
+/// The same for strokes that are cut level by level: pens in the order in which they are first cut, what no
+/// level cuts behind them. Compared with the order given is the travel of all levels and their passes, ways
+/// to the change of tools as well.
+[[nodiscard]] Strokes ordered(const Strokes& strokes,
+                              const CutSettings& cut,
                               const Vec2& start = Vec2::Zero(),
                               const Vec2& end = Vec2::Zero(),
                               const Progress& progress = Progress());

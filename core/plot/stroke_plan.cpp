@@ -1,6 +1,7 @@
 #include "core/plot/stroke_plan.h"
 
 #include "core/base/error.h"
+#include "core/plot/closing.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/hatching.h"
 #include "core/plot/linking.h"
@@ -126,12 +127,13 @@ Strokes linked(const Strokes& shaped, const Strokes& drawn, const StrokePlan& pl
 }
 
 ShapedStrokes planned(const Strokes& drawn, const StrokePlan& plan, const Progress& progress) {
-    ShapedStrokes result = shaped(drawn, plan);
+    const Strokes outlines = outlines_for(drawn, plan);
+    ShapedStrokes result = shaped(outlines, plan);
     progress.check();
     if (plan.order) {
         result.strokes = ordered(result.strokes, Vec2::Zero(), Vec2::Zero(), progress);
     }
-    result.strokes = linked(result.strokes, drawn, plan);
+    result.strokes = linked(result.strokes, outlines, plan);
     return result;
 }
 

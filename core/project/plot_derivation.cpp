@@ -5,6 +5,7 @@
 #include "core/gcode/plot_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/plot/closing.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/left_alone.h"
 #include "core/plot/ordering.h"
@@ -189,14 +190,16 @@ std::vector<plot::Level> PlotDerivation::levels_of(const plot::Strokes& strokes)
     return levels;
 }
 
-plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& drawn, const Vec2& end) {
+plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const Vec2& end) {
+    const plot::Strokes drawn = plot::outlines_for(as_drawn, settings_.strokes);
     plot::ShapedStrokes shaped = plot::shaped(drawn, settings_.strokes);
     if (const std::string left_alone = plot::left_alone(drawn, shaped, settings_.strokes);
         !left_alone.empty()) {
         result_.notices.push_back({.place = {.file = result_.input.file}, .message = left_alone, .hint = {}});
     }
     if (settings_.strokes.order) {
-        shaped.strokes = plot::ordered(shaped.strokes, Vec2::Zero(), end, progress_.part(0.2, 0.4));
+        shaped.strokes = plot::ordered(
+            shaped.strokes, cut_of(levels_of(shaped.strokes)), Vec2::Zero(), end, progress_.part(0.2, 0.4));
     }
     return plot::linked(shaped.strokes, drawn, settings_.strokes);
 }

@@ -1,5 +1,7 @@
 #include "core/plot/ordering.h"
 
+#include "core/base/numbers.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,6 +55,57 @@ TEST(StrokeOrdering, IsNeverLongerThanTheFile) {
         EXPECT_LE(air(again), air(ordered(strokes)) + 1e-9) << seed;
     }
     EXPECT_TRUE(ordered({}).empty());
+}
+
+/// Way across at rapid of the path that is cut, and back to zero.
+double rapid(const Strokes& strokes, const CutSettings& cut) {
+    double way = 0.0;
+    Vec2 at = Vec2::Zero();
+    for (const CutPoint& point : cut_path(strokes, cut)) {
+        const Vec2 to = point.at.head<2>();
+        way += exactly_equal(point.speed, 0.0) ? (to - at).norm() : 0.0;
+        at = to;
+    }
+    return way + at.norm();
+}
+
+// Pens were put into the order in which they first draw, and then cut in another one.
+TEST(StrokeOrdering, IsNeverLongerThanTheFileWhereLevelsHaveAnOrderOfTheirOwn) {
+    int shorter = 0;
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const int pens = 1 + static_cast<int>(seed % 3);
+        const Strokes strokes = random_strokes(2 + static_cast<int>(seed % 11), seed, pens);
+        CutSettings cut;
+        cut.levels = levels_for(strokes);
+        cut.levels.back().order = -5;
+        cut.levels.back().passes = 1 + static_cast<int>(seed % 2);
+        cut.levels.front().tool = 1 + static_cast<int>(seed % 5 == 0);
+        if (seed % 4 == 0) { // a pen once more behind the others
+            cut.levels.push_back(cut.levels.back());
+            cut.levels.back().order = 9;
+        }
+        if (seed % 7 == 0) {
+            cut.levels.front().enabled = false;
+        }
+        const Strokes found = ordered(strokes, cut);
+        EXPECT_LE(rapid(found, cut), rapid(strokes, cut) + 1e-9) << seed;
+        EXPECT_EQ(found.size(), strokes.size());
+        shorter += rapid(found, cut) < rapid(strokes, cut) - 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(shorter, 100);
+}
+
+TEST(StrokeOrdering, PensComeAsTheyAreCut) {
+    const Strokes strokes = random_strokes(60, 5, 3);
+    CutSettings cut;
+    cut.levels = levels_for(strokes);
+    cut.levels[2].order = -1;
+    std::vector<int> pens;
+    for (const Stroke& stroke : ordered(strokes, cut)) {
+        pens.push_back(stroke.pen);
+    }
+    pens.erase(std::unique(pens.begin(), pens.end()), pens.end());
+    EXPECT_EQ(pens, (std::vector<int>{3, 1, 2}));
 }
 
 // All orders and directions of six strokes by brute force: 2-opt is within a quarter of the best.
