@@ -70,7 +70,12 @@ void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
     command.add_option("--bind", choice.bind, "Address to listen on")
         ->type_name("ADDRESS")
         ->capture_default_str();
-    command.add_option("--faults", choice.faults, "Faults of wire and controller, as drop=0.001,seed=7")
+    command
+        .add_option(
+            "--faults",
+            choice.faults,
+            "Faults of wire and controller, as drop=0.001,seed=7; N of disconnect=N, stall=N, reset=N, "
+            "alarm=N and estop=N counts bytes")
         ->type_name("SPEC");
     constexpr double slowest = 0.01;
     constexpr double fastest = 1000.0;

@@ -82,9 +82,11 @@ void expect_outlines_alone(const Options& options) {
                     options.picture.file,
                     "--speckle 0 traces them, too");
     }
+    const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
     throw Error("nothing in it is dark enough to be traced",
                 options.picture.file,
-                "--threshold says what is dark, --invert traces what is bright");
+                darkest == brightest ? "all of it is equally bright"
+                                     : "--threshold says what is dark, --invert traces what is bright");
 }
 
 int trace(const Options& options) {

@@ -3,6 +3,7 @@
 #include "app/commands/plot_play.h"
 #include "app/finite_number.h"
 #include "app/names.h"
+#include "app/other_than_plot.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -108,6 +109,7 @@ plot::PlotterUnit unit_of(const std::string& text) {
 }
 
 Plot read(const Options& options) {
+    expect_no_other_than_plot(options.file);
     plot::ReaderSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
@@ -119,6 +121,11 @@ void print_notices(const Plot& plot, const std::string& file) {
     for (const Diagnostic& notice : plot::notices(plot, file)) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
+}
+
+/// What the file says nothing about is null.
+nlohmann::ordered_json said(double value) {
+    return value > 0.0 ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
 nlohmann::ordered_json json_of(const Plot& plot) {
@@ -145,8 +152,10 @@ nlohmann::ordered_json json_of(const Plot& plot) {
     answer["strokes"] = plot.strokes.size();
     answer["pen_use"] = nlohmann::ordered_json::array();
     for (const auto& [pen, use] : plot.pens) {
-        answer["pen_use"].push_back(
-            {{"pen", pen}, {"draw_mm", lengths[pen]}, {"speed_mm_s", use.speed}, {"width_mm", use.width}});
+        answer["pen_use"].push_back({{"pen", pen},
+                                     {"draw_mm", lengths[pen]},
+                                     {"speed_mm_s", said(use.speed)},
+                                     {"width_mm", said(use.width)}});
     }
     answer["left_out"] = nlohmann::ordered_json::array();
     for (const plot::LeftOut& left_out : plot.left_out) {
@@ -212,9 +221,11 @@ int info(const Options& options) {
 
 int decode(const Options& options) {
     const Plot plot = read_to_use(options);
+    plot::DecodeSettings decoding = options.decode;
+    decoding.end = plot.end;
     const std::vector<Vec3> points = options.fastest
-                                         ? plot::decode_within(*options.fastest, plot.strokes, options.decode)
-                                         : plot::decode(plot.strokes, options.decode);
+                                         ? plot::decode_within(*options.fastest, plot.strokes, decoding)
+                                         : plot::decode(plot.strokes, decoding);
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
                counted(points.size(), "point", "points"),

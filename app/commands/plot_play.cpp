@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace millwright::app {
@@ -40,13 +41,30 @@ struct Options {
     bool json = false;
 };
 
-/// All lines have to be points: a table goes to none that was guessed.
-std::shared_ptr<const std::vector<Vec3>> points_of(const Options& options) {
-    plot::PointFile read = plot::read_points(read_file(options.file), options.file);
-    if (!read.diagnostics.empty()) {
-        throw Error(read.diagnostics.front());
+/// All of them are told; the last one ends it.
+void expect_none(const std::vector<Diagnostic>& faults) {
+    if (faults.empty()) {
+        return;
     }
-    return std::make_shared<const std::vector<Vec3>>(std::move(read.points));
+    for (const Diagnostic& fault : std::span(faults).first(faults.size() - 1)) {
+        fmt::print(stderr, "millwright: {}\n", to_text(fault));
+    }
+    throw Error(faults.back());
+}
+
+/// All lines have to be points: a table goes to none that was guessed.
+plot::PointFile points_of(const Options& options) {
+    plot::PointFile read = plot::read_points(read_file(options.file), options.file);
+    expect_none(read.diagnostics);
+    return read;
+}
+
+/// With the lines of the file, which may have blank ones, in place of the numbers of points.
+std::vector<Diagnostic> with_lines(std::vector<Diagnostic> faults, const std::vector<int>& lines) {
+    for (Diagnostic& fault : faults) {
+        fault.place.line = lines[static_cast<std::size_t>(fault.place.line) - 1];
+    }
+    return faults;
 }
 
 void print_jitter(const Jitter& jitter) {
@@ -93,13 +111,22 @@ void print_json(const PlayStatus& status) {
 
 int play(const Options& options) {
     const Interrupt interrupt;
-    const auto points = points_of(options);
+    plot::PointFile read = points_of(options);
+    const auto points = std::make_shared<const std::vector<Vec3>>(std::move(read.points));
     const kinematics::MachineModel model = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
-    if (const auto faults = machine::check_points(
-            *points, machine::machine_period(options.player, !options.port.empty()), model, options.file);
-        !faults.empty()) {
-        throw Error(faults.front());
+    expect_none(with_lines(
+        machine::check_points(
+            *points, machine::machine_period(options.player, !options.port.empty()), model, options.file),
+        read.lines));
+    if (options.record.format.relative && !options.port.empty()) {
+        const Vec3& first = points->front();
+        fmt::print(stderr,
+                   "millwright: the records say how far to go: the table has to stand at X {:.3f} Y {:.3f} Z "
+                   "{:.3f}\n",
+                   first.x(),
+                   first.y(),
+                   first.z());
     }
     machine::PlayerOptions player = options.player;
     player.format = record_of(options.record).value();

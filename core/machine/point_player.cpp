@@ -28,6 +28,13 @@ std::array<std::size_t, 3> indices_of(const MachineModel& model) {
     return found;
 }
 
+/// What to do about an axis that is too slow: strokes go up and down at a velocity of its own.
+std::string slower(char axis) {
+    return axis == 'Z' ? "decode it with a lower velocity up and down (--plunge-velocity), or more digits"
+                       : "decode it with a lower velocity, with the pen up too (--travel-velocity), samples "
+                         "rounded up, or more digits";
+}
+
 void expect_within(double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most)) {
         throw Error(fmt::format("{} of {} is not between {} and {}", what, value, least, most));
@@ -61,10 +68,9 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
     std::set<std::pair<std::size_t, bool>> told;
     const auto tell = [&](std::size_t n, std::size_t axis, bool place, std::string sentence) {
         if (told.insert({axis, place}).second) {
-            found.push_back(
-                {{file, static_cast<int>(n) + 1, 0, -1},
-                 std::move(sentence),
-                 place ? "" : "decode it with a lower velocity, samples rounded up, or more digits"});
+            found.push_back({{file, static_cast<int>(n) + 1, 0, -1},
+                             std::move(sentence),
+                             place ? std::string() : slower(letters[axis])});
         }
     };
     for (std::size_t n = 0; n < points.size(); ++n) {

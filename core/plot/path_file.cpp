@@ -60,6 +60,10 @@ public:
             fail(fmt::format("'{}' is no move", fields_[4]));
         }
         point.move = name->move;
+        const bool in_the_work = point.move == CutMove::plunge || point.move == CutMove::cut;
+        if (in_the_work && !(point.speed > 0.0)) {
+            fail(fmt::format("a {} of speed 0, which is a rapid's", fields_[4]));
+        }
         const double tool = number(5);
         constexpr double most_tools = 1e6;
         if (!(tool >= 0.0 && tool <= most_tools) || std::floor(tool) < tool) {

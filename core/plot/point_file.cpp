@@ -68,6 +68,7 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
         }
         if (const auto p = point(line)) {
             read.points.push_back(*p);
+            read.lines.push_back(number);
         } else if (read.diagnostics.size() < most_diagnostics) {
             constexpr std::size_t most_shown = 60;
             read.diagnostics.push_back(

@@ -17,6 +17,7 @@ namespace millwright::plot {
 
 struct PointFile {
     std::vector<Vec3> points;
+    std::vector<int> lines;              ///< of each point, from 1
     std::vector<Diagnostic> diagnostics; ///< a bad line each, with its number; the first 100
 };
 

@@ -375,7 +375,12 @@ TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
     EXPECT_THAT(traced({"--speckle", "1"}).err, HasSubstr("more than 1 pixel,"));
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_THAT(traced({"--speckle", "0"}).out, HasSubstr("1 outline of"));
-    EXPECT_THAT(traced({"--invert", "--speckle", "0"}).err, HasSubstr("nothing in it is dark enough"));
+    const Ended bright = traced({"--invert", "--speckle", "0"});
+    EXPECT_THAT(bright.err, HasSubstr("nothing in it is dark enough"));
+    EXPECT_THAT(bright.err, HasSubstr("all of it is equally bright"));
+    EXPECT_THAT(bright.err, Not(HasSubstr("--threshold")));
+    write_content(folder / "pixel.bmp", bmp(2, 1, {200, 255}));
+    EXPECT_THAT(traced({}).err, HasSubstr("--threshold"));
 }
 
 } // namespace

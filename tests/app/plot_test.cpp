@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -14,6 +15,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string sample = "assets/samples/plot/autocad-7475.plt";
 
@@ -121,6 +123,7 @@ TEST(PlotCommand, InfoAnswersInJson) {
     ASSERT_EQ(answer.at("diagnostics").size(), 1U);
     EXPECT_EQ(answer.at("diagnostics")[0].at("byte"), 61);
     EXPECT_EQ(answer.at("left_out")[0].at("command"), "OI");
+    EXPECT_TRUE(answer.at("pen_use")[0].at("speed_mm_s").is_null()); // nothing was said
 }
 
 TEST(PlotCommand, ToolpathIsAProgramWithoutErrors) {
@@ -173,6 +176,54 @@ TEST(PlotCommand, OrderBringsTheToolToTheNearestCornerOfAClosedStroke) {
     ASSERT_NE(ordered, std::string::npos) << ended.out;
     // Along the lower edges to the third shape and back to the origin.
     EXPECT_THAT(ended.out.substr(ordered), HasSubstr("0.218 m in the air")) << ended.out;
+}
+
+// Each was read as a plot, with a diagnostic for each of its words.
+TEST(PlotCommand, FilesThatAreNoPlotsAreTakenForWhatTheyAre) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out").string();
+    write_content(folder / "other.path",
+                  "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n");
+    write_content(folder / "nc.plt",
+                  "%\n(PROGRAM NAME - PLATE)\n; made by hand\n\nN1 G21\nN2 G0 X10 Y10\n%\n");
+    write_content(folder / "words.nc", "x10 y5 f200\n");
+    const std::vector<std::array<std::string, 3>> others{
+        {"assets/samples/gcode/thesis-plate.ngc",
+         "this is a G-code program, no plot",
+         "millwright gcode time"},
+        {(folder / "nc.plt").string(), "this is a G-code program, no plot", "--driver records"},
+        {(folder / "words.nc").string(), "this is a G-code program, no plot", "millwright send"},
+        {(folder / "other.path").string(), "this is a path file, no plot", "millwright send"},
+        {"assets/samples/pictures/boat.png", "this is a picture, no plot", "millwright picture relief"}};
+    for (const auto& [file, what, hint] : others) {
+        for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+                 {"info", file},
+                 {"info", file, "--json"},
+                 {"view", file, "--out", out},
+                 {"toolpath", file, "--out", out},
+                 {"decode", file, "--velocity", "5", "--period", "1", "--out", out}}) {
+            std::vector<std::string> words{"plot"};
+            words.insert(words.end(), command.begin(), command.end());
+            const Ended ended = run(words);
+            EXPECT_EQ(ended.exit_code, 1) << file;
+            EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
+            EXPECT_THAT(ended.err, HasSubstr(what));
+            EXPECT_THAT(ended.err, HasSubstr(hint));
+            EXPECT_FALSE(std::filesystem::exists(out));
+        }
+    }
+}
+
+// The head of AutoCAD's files, and plots that begin with a line end, a blank or small letters.
+TEST(PlotCommand, PlotsAreTakenForPlots) {
+    const ScratchFolder folder;
+    for (const char* text : {"\x1b.(\x1b.I81;;17:\x1b.N;19:IN;SP1;PD400,0;",
+                             "\r\n  in;sp1;pd400,0;",
+                             "\x1b%-12345X@PJL\r\nIN;SP1;PD400,0;",
+                             "PD400,0;"}) {
+        write_content(folder / "line.plt", text);
+        EXPECT_EQ(run({"plot", "info", (folder / "line.plt").string()}).exit_code, 0) << text;
+    }
 }
 
 TEST(PlotCommand, WritesOverNothingThatItReads) {
@@ -240,6 +291,69 @@ TEST(PlotCommand, SaysThatNothingIsClosedWhereItIsToBeFilled) {
                              (folder / "out.ngc").string()});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.err, HasSubstr("no stroke is closed: none is filled or compensated"));
+}
+
+// An outline of four LINE entities was cut on the line, with a notice: 3 mm too small.
+TEST(PlotCommand, AnOutlineOfLinesIsCompensatedAndWhatIsNoOutlineRefused) {
+    const ScratchFolder folder;
+    const std::string lines = "PU0,0;PD4000,0;PU4000,0;PD4000,4000;PU4000,4000;PD0,4000;";
+    const auto outside = [&](const std::string& plot) {
+        write_content(folder / "square.plt", "IN;SP1;" + plot + "PU;SP;");
+        return run({"plot",
+                    "toolpath",
+                    (folder / "square.plt").string(),
+                    "--side",
+                    "outside",
+                    "--origin",
+                    "10,10",
+                    "--out",
+                    (folder / "out.ngc").string()});
+    };
+    const Ended closed = outside(lines + "PU0,4000;PD0,0;");
+    EXPECT_EQ(closed.exit_code, 0) << closed.err;
+    EXPECT_THAT(closed.out, HasSubstr("0.412 m drawn"));
+    std::filesystem::remove(folder / "out.ngc");
+    const Ended open = outside(lines);
+    EXPECT_EQ(open.exit_code, 1);
+    EXPECT_THAT(open.err, HasSubstr("no stroke is closed"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ngc"));
+}
+
+TEST(PlotCommand, SaysThatNothingKeepsLinksInside) {
+    const ScratchFolder folder;
+    write_content(folder / "hatch.plt", "IN;SP1;PU0,0;PD400,0;PU400,60;PD0,60;PU;SP;");
+    const auto linked = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"plot",
+                                       "toolpath",
+                                       (folder / "hatch.plt").string(),
+                                       "--link",
+                                       "3",
+                                       "--out",
+                                       (folder / "out.ngc").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    EXPECT_THAT(linked({"--inside"}), HasSubstr("no stroke is closed: nothing keeps the links inside"));
+    EXPECT_THAT(linked({}), Not(HasSubstr("no stroke is closed")));
+}
+
+// The way is the one that info counts, and the tool does not stay in the work.
+TEST(PlotCommand, DecodeGoesToWhereTheFileLeavesThePen) {
+    const ScratchFolder folder;
+    write_content(folder / "line.plt", "IN;SP1;PU0,0;PD400,400;PU;PA0,0;SP;");
+    const Ended ended = run({"plot",
+                             "decode",
+                             (folder / "line.plt").string(),
+                             "--velocity",
+                             "40",
+                             "--period",
+                             "0.01",
+                             "--pen-up",
+                             "2",
+                             "--out",
+                             (folder / "points.csv").string()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(content_of(folder / "points.csv").ends_with("0.00,0.00,2.00\n"));
 }
 
 TEST(PlotCommand, SaysWhatIsTooNarrowForTheTool) {

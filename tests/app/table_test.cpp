@@ -17,6 +17,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 void wait_for(const std::filesystem::path& link) {
     for (int n = 0; n < 30'000 && !std::filesystem::exists(link); ++n) {
@@ -268,6 +269,70 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     const Ended bad = run({"plot", "play", (folder / "bad.txt").string(), "--period", "1"});
     EXPECT_EQ(bad.exit_code, 1);
     EXPECT_THAT(bad.err, HasSubstr("bad.txt:2"));
+}
+
+// It began 5 mm above the plate, and the table, which stood on it, went 5 mm into it.
+TEST(TableCommand, RelativePointsSayWhereTheTableHasToStand) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    write_content(folder / "down.csv", "0,0,5.00\n0,0,4.90\n");
+    Emulator table(port, {"--relative", "--answer", "ok"}, "table");
+    std::vector<std::string> words{
+        "plot", "play", (folder / "down.csv").string(), "--period", "0.02", "--port", port, "--answer", "ok"};
+    EXPECT_THAT(run(words).err, Not(HasSubstr("has to stand")));
+    words.emplace_back("--relative");
+    EXPECT_THAT(run(words).err, HasSubstr("the table has to stand at X 0.000 Y 0.000 Z 5.000"));
+}
+
+TEST(TableCommand, AnAnswerThatComesTwiceEndsTheJobBeforeTheNextRecord) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    const std::string program = (folder / "way.ngc").string();
+    std::string text = "G21 G90\nG0 X5 Y5\nG1 F600\n";
+    for (int n = 1; n < 20; ++n) {
+        text += "X" + std::to_string(5 + n) + "\n";
+    }
+    write_content(program, text + "M2\n");
+    Emulator table(port, {"--answer", "ok", "--double", "4"}, "table");
+    const Ended ended = run(send_words(program, port, folder));
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine said 'ok' before record 5 was sent"));
+    EXPECT_THAT(table.stop().out, HasSubstr("4 records obeyed"));
+}
+
+// Z is told with the velocity that is too high for it, and which option lowers it.
+TEST(TableCommand, PointsThatAreTooFastUpAndDownSayWhatToDo) {
+    const ScratchFolder folder;
+    write_content(folder / "fast.csv", "0,0,5.00\n0,0,4.50\n");
+    const Ended ended = run({"plot", "play", (folder / "fast.csv").string(), "--period", "0.02"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("axis Z would go"));
+    EXPECT_THAT(ended.err, HasSubstr("--plunge-velocity"));
+    write_content(folder / "fast.csv", "0,0,5.00\n0.5,0,5.00\n");
+    EXPECT_THAT(run({"plot", "play", (folder / "fast.csv").string(), "--period", "0.02"}).err,
+                HasSubstr("--travel-velocity"));
+}
+
+TEST(TableCommand, EachBadLineOfAPointFileIsToldWithItsLine) {
+    const ScratchFolder folder;
+    const auto played = [&](const std::string& text) {
+        write_content(folder / "points.csv", text);
+        return run({"plot", "play", (folder / "points.csv").string(), "--period", "0.01"}).err;
+    };
+    EXPECT_THAT(played("0.00,0.00,0.00\n\n0.29,0.29,0.00\n"), HasSubstr("points.csv:3: axis X"));
+    const std::string bad = played("0,0,0\n1;2\n\nnone\n");
+    EXPECT_THAT(bad, HasSubstr("points.csv:2: '1;2' is no point"));
+    EXPECT_THAT(bad, HasSubstr("points.csv:4: 'none' is no point"));
+}
+
+TEST(TableCommand, TheHelpSaysThatFaultsComeAfterBytes) {
+    const Ended help = run({"emulate", "table", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    std::string words = help.out; // lines are broken anywhere
+    words.erase(std::unique(words.begin(), words.end(), [](char a, char b) { return a <= ' ' && b <= ' '; }),
+                words.end());
+    std::ranges::replace(words, '\n', ' ');
+    EXPECT_THAT(words, HasSubstr("alarm=N and estop=N counts bytes"));
 }
 
 TEST(TableCommand, WrongRecordsAreRefused) {

@@ -39,6 +39,25 @@ int line_of_fault(const std::string& record) {
     return 0;
 }
 
+// A speed that was lost went through the material as fast as the machine can.
+TEST(PathFiles, WhatGoesThroughTheWorkHasASpeed) {
+    const std::string title =
+        "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n";
+    for (const char* move : {"cut", "plunge"}) {
+        std::string text = title;
+        text.append("1,2,5,0,rapid,1\n1,2,-1,0,").append(move).append(",1\n");
+        try {
+            (void)read_path(text, "a.path");
+            ADD_FAILURE() << move;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.diagnostic().place.line, 3);
+            EXPECT_NE(std::string(error.what()).find("of speed 0"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_NO_THROW(
+        (void)read_path(title + "1,2,5,0,rapid,1\n1,2,-1,2,plunge,1\n1,2,5,0,retract,1\n", "a.path"));
+}
+
 TEST(PathFiles, FaultsHaveTheirLine) {
     for (const char* record : {"1,2,3,4,cut",
                                "1,2,3,4,cut,1,9",
