@@ -137,7 +137,9 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
         ->check(above_zero())
         ->capture_default_str();
     command
-        .add_option("--level", options.levels, "Of one pen: PEN:depth=MM,passes=N,feed=F,order=N,tool=N,off")
+        .add_option("--level",
+                    options.levels,
+                    "Of one pen: PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,tabs=N,off")
         ->allow_extra_args(false);
     command.add_option("--tabs", options.tabs.count, "Left standing on closed strokes")
         ->check(not_below_zero())

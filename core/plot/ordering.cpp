@@ -294,8 +294,17 @@ std::vector<Level> in_order(const CutSettings& cut) {
     return levels;
 }
 
-/// Way across in the air, as cut_path() has it.
-double air_of_levels(const Strokes& strokes, const CutSettings& cut, const Vec2& start, const Vec2& end) {
+/// Ways across in the air.
+struct Air {
+    double cut = 0.0;   ///< as cut_path() has it, which ends above the last stroke
+    double drawn = 0.0; ///< and on to the end
+
+    [[nodiscard]] bool shorter_than(const Air& other) const {
+        return cut <= other.cut && drawn <= other.drawn && (cut < other.cut || drawn < other.drawn);
+    }
+};
+
+Air air_of_levels(const Strokes& strokes, const CutSettings& cut, const Vec2& start, const Vec2& end) {
     std::map<int, std::vector<const Stroke*>> pens;
     for (const Stroke& stroke : strokes) {
         pens[stroke.pen].push_back(&stroke);
@@ -322,8 +331,7 @@ double air_of_levels(const Strokes& strokes, const CutSettings& cut, const Vec2&
             }
         }
     }
-    go(end);
-    return air;
+    return {air, air + (end - at).norm()};
 }
 
 } // namespace
@@ -345,7 +353,9 @@ Strokes ordered(const Strokes& strokes,
     std::ranges::stable_sort(cut_ones, {}, [&](const Stroke& stroke) { return turns.at(stroke.pen); });
     Strokes found = cut_ones.empty() ? cut_ones : ordered(cut_ones, start, end, progress);
     found.insert(found.end(), others.begin(), others.end());
-    return air_of_levels(found, cut, start, end) < air_of_levels(strokes, cut, start, end) ? found : strokes;
+    return air_of_levels(found, cut, start, end).shorter_than(air_of_levels(strokes, cut, start, end))
+               ? found
+               : strokes;
 }
 
 } // namespace millwright::plot

@@ -18,7 +18,7 @@ namespace millwright::plot {
 
 /// The same for strokes that are cut level by level: pens in the order in which they are first cut, what no
 /// level cuts behind them. Compared with the order given is the travel of all levels and their passes, ways
-/// to the change of tools as well.
+/// to the change of tools as well, with the way to `end` and without.
 [[nodiscard]] Strokes ordered(const Strokes& strokes,
                               const CutSettings& cut,
                               const Vec2& start = Vec2::Zero(),

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -57,10 +58,8 @@ private:
             return;
         }
         const bool followed = follow(*row, command);
-        if (!followed && row->name == "SP") {
-            run_.pen.put_away(); // what follows was meant for a pen that nobody knows
-        } else if (!followed && row->name == "PU") {
-            run_.pen.lift(); // wherever it was to go
+        if (!followed) {
+            keep_safe(row->name);
         }
         if (row->places) {
             run_.misplace(row->name, !followed);
@@ -70,10 +69,24 @@ private:
         }
     }
 
+    /// What is known of a command that could not be followed, so that nothing behind it is drawn otherwise.
+    void keep_safe(std::string_view name) {
+        if (name == "SP") {
+            run_.pen.put_away(); // what follows was meant for a pen that nobody knows
+        } else if (name == "PU") {
+            run_.pen.lift(); // wherever it was to go
+        } else if (name == "PR" || name == "PA") {
+            run_.modes.relative = name == "PR"; // the numbers behind it are meant so
+        }
+    }
+
     bool follow(const CommandRow& row, const Command& command) {
         if (row.arguments != Arguments::numbers && row.arguments != Arguments::character) {
             numbers_.clear();
         } else if (!take_numbers(row, command)) {
+            if (row.name == "PM" && !run_.pen.in_polygon()) {
+                run_.pen.open_polygon(); // its corners may follow, and are no moves
+            }
             return false;
         }
         const Pen::Mark before = run_.pen.mark();
@@ -188,9 +201,33 @@ std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& f
     return all;
 }
 
+namespace {
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U; // plots of a million commands take 10 MB
+
+/// Of a pipe or a device nobody knows the size before.
+std::string read_pipe(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes;
+    std::vector<char> piece(std::size_t{1} << 20U);
+    while (in) {
+        in.read(piece.data(), std::ssize(piece));
+        bytes.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+        if (bytes.size() > most_bytes) {
+            throw Error("there is more than 1 GiB, the most that a plot may have", file);
+        }
+    }
+    return bytes;
+}
+
+} // namespace
+
 Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings) {
-    constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U; // plots of a million commands take 10 MB
-    std::error_code none;                                           // of a pipe, whose size nobody knows
+    std::error_code none;
+    if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none) &&
+        !std::filesystem::is_directory(file, none)) {
+        return read_hpgl(read_pipe(file), file, settings);
+    }
     if (const std::uintmax_t size = std::filesystem::file_size(file, none); !none && size > most_bytes) {
         throw Error(fmt::format("the file has {:.1f} GB; plots are read up to 1 GiB",
                                 1e-9 * static_cast<double>(size)),

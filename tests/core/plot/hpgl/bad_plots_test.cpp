@@ -85,6 +85,20 @@ TEST(BadPlots, NothingIsDrawnBehindADamagedPenUpToTheNext) {
     }
 }
 
+// Relative pairs were cut as absolute ones, elsewhere.
+TEST(BadPlots, NothingIsDrawnBehindADamagedChangeOfModeUpToAnAbsolutePosition) {
+    for (const char* damaged : {"PRx", "PR1O0,0", "PR1"}) {
+        SCOPED_TRACE(damaged);
+        const std::string head = std::string("IN;SP1;PU4000,4000;PD;").append(damaged);
+        const Plot plot = read_hpgl(head + ";PD100,0;PD0,100;PD-100,0;PU;SP;", "bad.plt");
+        EXPECT_TRUE(plot.strokes.empty());
+        EXPECT_GE(plot.diagnostics.size(), 1U);
+        const Plot found = read_hpgl(head + ";PD100,0;PA0,0;PD400,0;PU;SP;", "bad.plt");
+        EXPECT_NEAR(draw_length(found.strokes), 10.0, 1e-9);
+    }
+    EXPECT_TRUE(read_hpgl("IN;SP1;PU0,0;PMx;PD400,0,400,400;PM2;EP;PU;SP;", "bad.plt").strokes.empty());
+}
+
 // Wherever it was to go, the pen was to be up.
 TEST(BadPlots, ADamagedPenUpLiftsThePen) {
     for (const char* damaged : {"PU1x", "PU,", "PU3419995,4000", "PU5000000000,1", "PU1,2,3"}) {
