@@ -384,9 +384,12 @@ void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
 }
 
 void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto made = now.plot.latest();
+    const std::string notices =
+        made && !made->notices.empty() ? fmt::format("Notices ({})", made->notices.size()) : "Notices";
     const std::array<widgets::Option, 3> tabs{{{"materials", "Materials", icons::table},
                                                {"table", "XYZ table", icons::machine},
-                                               {"notices", "Notices", icons::info}}};
+                                               {"notices", notices, icons::info}}};
     if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
         tab_ = static_cast<Tab>(*chosen);
     }

@@ -97,18 +97,23 @@ void histogram(Ui& ui, const Jitter& jitter, const Rect& box) {
     }
 }
 
+std::string delay_text(double seconds) {
+    constexpr double ms = 1e-3;
+    return seconds < ms ? fmt::format("{:.0f} us", seconds / (1e-3 * ms))
+                        : fmt::format("{:.1f} ms", seconds / ms);
+}
+
 /// What is known, a line each: name and text.
 std::vector<std::array<std::string, 2>> read_out(const actions::TableView& table) {
     const machine::PlayStatus& now = table.status;
-    constexpr double us = 1e6;
     return {{"X", fixed(now.position.x(), 3) + " mm"},
             {"Y", fixed(now.position.y(), 3) + " mm"},
             {"Z", fixed(now.position.z(), 3) + " mm"},
             {"Table", std::string(state_text(now.state))},
             {"Points", fmt::format("{} of {}", now.points, table.total)},
-            {"Late, mean", fmt::format("{:.0f} us", us * now.jitter.mean)},
-            {"99 % below", fmt::format("{:.0f} us", us * now.jitter.p99)},
-            {"Latest", fmt::format("{:.0f} us", us * now.jitter.most)}};
+            {"Late, mean", delay_text(now.jitter.mean)},
+            {"99 % below", delay_text(now.jitter.p99)},
+            {"Latest", delay_text(now.jitter.most)}};
 }
 
 void draw_read_out(Ui& ui, const actions::TableView& table, const Rect& box) {
@@ -217,7 +222,34 @@ void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask
     }
 }
 
+/// Nobody tells where the table stands when it begins.
+void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
+    {
+        const auto labels = ui.label_share(0.3F);
+        ui.value("begins",
+                 "Begins at",
+                 fmt::format("{}  {}  {}", fixed(at.x(), 2), fixed(at.y(), 2), fixed(at.z(), 2)),
+                 "mm");
+    }
+    ui.note(choice.record.relative
+                ? "The table has to stand there: it is told how far to go, and would cut as far beside."
+                : "The table has to stand there, or goes there at once.");
+}
+
 } // namespace
+
+/// Nothing where nobody knows, and where nothing is sent.
+std::optional<Vec3> TablePane::place_of_begin(const TableChoice& choice,
+                                              const actions::TableView& table) const {
+    if (choice.port.empty() || table.status.state == PlayState::playing) {
+        return std::nullopt;
+    }
+    if (!table.there) {
+        return Vec3(0.0, 0.0, choice.decoding.pen_up_z);
+    }
+    return port_ == choice.port && table.status.sent > 0 ? std::optional(table.status.position)
+                                                         : std::nullopt;
+}
 
 void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const TableChoice& choice = now.plot.table_choice();
@@ -255,6 +287,9 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
            points.pen_down_z,
            1.0,
            &DecodeSettings::pen_down_z);
+    if (const auto begins = place_of_begin(choice, now.plot.table().view())) {
+        begin_fields(ui, choice, *begins);
+    }
     point_fields(ui, points, ask);
     record_fields(ui, choice.record, ask);
 }
@@ -266,6 +301,9 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         action_button(ui, now, ask, catalogue_, "plot.stop_table", widgets::Rank::danger, "Stop");
     }
     const actions::TableView table = now.plot.table().view();
+    if (table.status.state == PlayState::playing) {
+        port_ = now.plot.table_choice().port;
+    }
     if (table.there && table.status.state == PlayState::emergency_stop) {
         ui.words(table.status.sentence, widgets::Tone::danger);
     }

@@ -3,6 +3,9 @@
 
 #include "ui/panels/panel.h"
 
+#include <optional>
+#include <string>
+
 namespace millwright::panels {
 
 class TablePane final : public Panel {
@@ -14,8 +17,11 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    [[nodiscard]] std::optional<Vec3> place_of_begin(const actions::TableChoice& choice,
+                                                     const actions::TableView& table) const;
 
     const actions::Catalogue& catalogue_;
+    std::string port_; ///< that was played to last
 };
 
 } // namespace millwright::panels

@@ -260,7 +260,34 @@ void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
     }
     if (now.session.fit_wanted && there) {
         view_.fit();
+        plot_fitted_.reset();
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
+    }
+    if (there) {
+        follow_plot(*made);
+    }
+}
+
+/// A drawing that has been moved, turned to other units or made larger stays in sight; a view that a person
+/// has moved stays as it is as long as anything can be seen in it.
+void ViewPanel::follow_plot(const project::PlotResult& made) {
+    if (!plot_fitted_) {
+        plot_fitted_ = view_.camera().pose();
+    }
+    Box3 box;
+    for (const auto& cut : made.cuts) {
+        if (!cut.path.empty()) {
+            box.extend(cut.path.bounds());
+        }
+    }
+    if (box.isEmpty() || (box.min() == plot_box_.min() && box.max() == plot_box_.max())) {
+        return;
+    }
+    const bool elsewhere = !plot_box_.isEmpty() && !box.intersects(plot_box_);
+    plot_box_ = box;
+    if (elsewhere || view_.camera().pose() == *plot_fitted_) {
+        view_.fit();
+        plot_fitted_.reset();
     }
 }
 

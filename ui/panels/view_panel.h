@@ -24,12 +24,15 @@ private:
     void fit_set_up(const viewport::Scene& shown);
     void fit_file(const Workbench& now, ActionQueue& ask);
     void fit_plot(const Workbench& now, ActionQueue& ask);
+    void follow_plot(const project::PlotResult& made);
 
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
     std::shared_ptr<const project::SetUpResult> set_up_; ///< whose map is in sight
-    bool growing_ = false;                     ///< an opened file was fitted before all of it was there
-    std::optional<render::CameraPose> fitted_; ///< how the camera stood then
+    bool growing_ = false;                          ///< an opened file was fitted before all of it was there
+    std::optional<render::CameraPose> fitted_;      ///< how the camera stood then
+    std::optional<render::CameraPose> plot_fitted_; ///< the same of a plot; none: it is just being fitted
+    Box3 plot_box_;                                 ///< where it lay then
 };
 
 /// What the view shows of the workbench.

@@ -156,6 +156,28 @@ TEST(PlotWorkspace, EachAxisHasItsUnit) {
     EXPECT_NEAR(height(), 2.0 * y, 1e-9);
 }
 
+bool yellow(int r, int g, int b) {
+    return r > 180 && g > 160 && b < 130;
+}
+
+// What lies beyond the machine's travel has no program, and was out of sight as well, since the view stayed.
+TEST(PlotWorkspace, ADrawingThatIsMovedStaysInSight) {
+    Bench bench("assets/samples/plot/hatched-sign.plt");
+    const int before = bench.pixels_like(yellow);
+    ASSERT_GT(before, 1000);
+    bench.person.fill_in("inspector/work/origin_x_mm", "400");
+    bench.settle();
+    ASSERT_TRUE(bench.made().failure); // X ends at 480
+    EXPECT_GT(bench.pixels_like(yellow), before / 2);
+    bench.person.keep("plot-beyond");
+    bench.person.fill_in("inspector/work/origin_x_mm", "0");
+    bench.settle();
+    EXPECT_GT(bench.pixels_like(yellow), before / 2);
+    bench.person.fill_in("inspector/source/unit_x_mm", "0.1"); // four times as wide
+    bench.settle();
+    EXPECT_GT(bench.pixels_like(yellow), before / 8);
+}
+
 TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
     Bench bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
     const auto levels = bench.plot().levels();
@@ -522,6 +544,7 @@ TEST(PlotWorkspace, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.workshop().plot().set_table(choice);
     bench.person.click("lower/tabs/table");
     bench.person.frames();
+    EXPECT_TRUE(bench.person.sees("lower/begins"));
     bench.person.click("lower/plot_play_table");
     const auto cuts = [&] { return table.position()[0] > 5.0 && table.position()[2] < 0.5; };
     bench.person.frames(3);
@@ -530,6 +553,8 @@ TEST(PlotWorkspace, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.click("lower/plot_stop_table");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
     EXPECT_EQ(bench.plot().table().view().status.state, machine::PlayState::stopped);
+    bench.person.frames(2);
+    EXPECT_TRUE(bench.person.sees("lower/begins"));
     const auto first = static_cast<std::size_t>(table.records());
     bench.person.frames(2);
     bench.person.click("lower/plot_play_table");
