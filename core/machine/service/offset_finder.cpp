@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace millwright::machine {
 
@@ -20,39 +22,45 @@ class Borrowed {
 public:
     Borrowed(const CardTalk& card, int motor)
         : card_(card), motor_(motor), error_limit_(motor_variable(card, motor, fatal_following_error)),
-          bias_(motor_variable(card, motor, output_bias)), gain_(motor_variable(card, motor, gain)) {
-        kill();
-        set_motor_variable(card, motor, gain, 0.0);
-        set_motor_variable(card, motor, fatal_following_error, 0.0); // an open end of the loop drifts far
-    }
+          bias_(motor_variable(card, motor, output_bias)), gain_(motor_variable(card, motor, gain)) {}
     Borrowed(const Borrowed&) = delete;
     Borrowed& operator=(const Borrowed&) = delete;
     ~Borrowed() {
-        try {
-            end();
-        } catch (const Error&) {
-            // The link is gone; without a host the card kills its motors itself.
+        // Each by itself: in an alarm the kill is refused, and the variables are not. Without a link none
+        // goes; the card kills its motors itself then.
+        for (const auto& step : give_back_) {
+            try {
+                step();
+            } catch (const Error&) {
+            }
         }
     }
 
     [[nodiscard]] double bias() const { return bias_; }
     void kill() const { card_.ask(fmt::format("#{}K", motor_)); }
-    void end() {
-        if (ended_) {
-            return;
-        }
-        ended_ = true;
+    /// From here on they are given back however this ends.
+    void begin() {
         kill();
-        set_motor_variable(card_, motor_, output_bias, bias_);
-        set_motor_variable(card_, motor_, gain, gain_);
-        set_motor_variable(card_, motor_, fatal_following_error, error_limit_);
+        give_back_ = {[this] { kill(); },
+                      [this] { set_motor_variable(card_, motor_, output_bias, bias_); },
+                      [this] { set_motor_variable(card_, motor_, gain, gain_); },
+                      [this] { set_motor_variable(card_, motor_, fatal_following_error, error_limit_); }};
+        set_motor_variable(card_, motor_, gain, 0.0);
+        set_motor_variable(card_, motor_, fatal_following_error, 0.0); // an open end of the loop drifts far
+    }
+    void end() {
+        while (!give_back_.empty()) {
+            const std::function<void()> step = give_back_.front();
+            give_back_.erase(give_back_.begin());
+            step();
+        }
     }
 
 private:
     const CardTalk& card_;
     int motor_;
     double error_limit_, bias_, gain_;
-    bool ended_ = false;
+    std::vector<std::function<void()>> give_back_;
 };
 
 class Finder {
@@ -63,6 +71,7 @@ public:
           begin_(motor_position(card, motor)) {}
 
     [[nodiscard]] OffsetFound find() {
+        borrowed_.begin();
         OffsetFound found;
         found.before = static_cast<int>(std::lround(borrowed_.bias()));
         const int from = search_.from.value_or(found.before);

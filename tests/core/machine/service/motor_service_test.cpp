@@ -65,6 +65,29 @@ TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
     EXPECT_EQ(away.ask("I129"), "0");
 }
 
+/// As the driver in an alarm: variables are set, motors are told nothing.
+TEST(OffsetFinderC2, GivesBackWhatItChangedWheneverTheCardTakesNoMoreCommands) {
+    for (int last = 0; last < 40; ++last) {
+        PmacPlant plant;
+        plant.bias = 30.0;
+        test::PmacCard pmac({.plants = {plant}});
+        const CardTalk card = talk_to(pmac);
+        int asked = 0;
+        const CardTalk alarmed{.ask =
+                                   [&](const std::string& line) {
+                                       if (asked++ > last && line.find('#') != std::string::npos) {
+                                           throw Error("the PMAC is in alarm");
+                                       }
+                                       return card.ask(line);
+                                   },
+                               .wait = card.wait};
+        EXPECT_THAT(reason([&] { (void)find_offset(alarmed, 1); }), HasSubstr("alarm")) << last;
+        EXPECT_EQ(pmac.ask("I129"), "0") << last;
+        EXPECT_EQ(pmac.ask("I130"), "2000") << last;
+        EXPECT_EQ(pmac.ask("I111"), "32000") << last;
+    }
+}
+
 // C3: a closed form, the answer of a second order system.
 TEST(StepTestC3, MeasuresAKnownAnswer) {
     const double damping = 0.5, rate = 40.0; // rad/s
