@@ -71,6 +71,10 @@ void PmacTalk::give_power() {
     throw Error("the motors get no power", {}, "are all of them active (Ix00 = 1)?");
 }
 
+void PmacTalk::let_lines_give_power() {
+    driver_->let_lines_give_power();
+}
+
 void PmacTalk::check() {
     if (!cancelled_ && interrupt_.token().stop_requested()) {
         cancelled_ = true;

@@ -28,6 +28,8 @@ public:
     /// Closes the loops of the arm's motors: only because a person looked and said so. Throws Error for an
     /// alarm or a motor that gets none.
     void give_power();
+    /// Commands may close loops of motors without power: what they set up has none before.
+    void let_lines_give_power();
 
 private:
     std::string ask(const std::string& line);

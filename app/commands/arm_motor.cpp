@@ -41,6 +41,7 @@ struct Options {
 
 int offset(const Options& options) {
     PmacTalk talk(options.port, options.arm);
+    talk.let_lines_give_power(); // to the motor that creeps
     machine::OffsetSearch search;
     search.from = options.from;
     search.most_way = options.most_way;

@@ -28,12 +28,29 @@ struct Options {
     std::string port;
     std::string file;
     std::string arm = "motoman-l3";
+    bool power = false; ///< a person has looked: commands may give it
 };
+
+/// Tells what the card would do to a value, and which protection it takes away; refuses one of more than 24
+/// bits.
+void look_through(const std::string& command) {
+    try {
+        for (const Diagnostic& warning : machine::read_pmac_file(command, {}).warnings) {
+            fmt::print(stderr, "warning: {}\n", to_text(Diagnostic{{}, warning.message, warning.hint}));
+        }
+    } catch (const Error& error) {
+        throw Error(error.diagnostic().message, {}, error.diagnostic().hint);
+    }
+}
 
 class Conversation {
 public:
-    Conversation(const std::string& port, const std::string& arm)
-        : driver_(connected_pmac(port, arm, clock_)) {}
+    explicit Conversation(const Options& options)
+        : driver_(connected_pmac(options.port, options.arm, clock_)) {
+        if (options.power) {
+            driver_->let_lines_give_power();
+        }
+    }
 
     /// Whether the card took all of it.
     bool load(const std::string& path) {
@@ -58,7 +75,9 @@ public:
 
     bool say(const std::string& command) {
         const machine::CommandAnswer answer = answer_to(driver_->command(command));
-        print(answer, answer.text);
+        if (answer.text != driver_->status().message) { // which is told as the error
+            print(answer, answer.text);
+        }
         wait_for_rest();
         return is_done(answer);
     }
@@ -118,7 +137,10 @@ int talk(const Options& options) {
     if (options.commands.empty() && options.file.empty()) {
         throw Error("there is nothing to send", {}, "a command as '#1P', or --load FILE");
     }
-    Conversation card(options.port, options.arm);
+    for (const std::string& command : options.commands) {
+        look_through(command);
+    }
+    Conversation card(options);
     // A card that is set up by half is told nothing more.
     bool done = options.file.empty() || card.load(options.file);
     for (const std::string& command : options.commands) {
@@ -138,6 +160,7 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
         ->type_name("PORT");
     command.add_option("--load", options->file, "File of commands to send before, as pmac.ini")
         ->type_name("FILE");
+    command.add_flag("--power", options->power, "Commands may give motors power; somebody has looked");
     add_arm_option(command, options->arm);
     command.callback([&chosen, options] { chosen = [options] { return talk(*options); }; });
 }

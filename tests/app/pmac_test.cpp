@@ -39,6 +39,16 @@ TEST_F(Pmac, AnswersCommands) {
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("'X100' is refused: ERR005, no buffer is open"));
     EXPECT_EQ(refused.out, "");
+    const Ended powered = run({"pmac", "#1J/", "--port", port});
+    EXPECT_EQ(powered.exit_code, 1);
+    EXPECT_THAT(powered.err, HasSubstr("would give power to joint 1"));
+    EXPECT_THAT(powered.err, HasSubstr("--power"));
+    EXPECT_THAT(run({"pmac", "I130=99999999", "--port", port}).err, HasSubstr("more than 24 bits"));
+    EXPECT_THAT(run({"pmac", "I111=0", "--port", port}).err, HasSubstr("not stopped by a following error"));
+    const Ended reset = run({"pmac", "$$$", "--port", port});
+    EXPECT_THAT(reset.err, HasSubstr("the card was reset"));
+    EXPECT_EQ(reset.err.find("the card was reset"), reset.err.rfind("the card was reset"));
+    EXPECT_EQ(reset.out, "");
 }
 
 TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
@@ -61,7 +71,9 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
 
 TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {
     Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
-    ASSERT_EQ(run({"pmac", "--load", "assets/samples/pmac-arm.ini", "#1J/", "--port", port}).exit_code, 0);
+    ASSERT_EQ(
+        run({"pmac", "--load", "assets/samples/pmac-arm.ini", "#1J/", "--power", "--port", port}).exit_code,
+        0);
     const Ended went = run({"pmac", "#1J:600", "#1P", "--port", port});
     EXPECT_EQ(went.exit_code, 0) << went.err;
     EXPECT_THAT(went.out, testing::ContainsRegex("^(599|600)"));
@@ -177,7 +189,7 @@ TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     // computed time.
     EXPECT_THAT(found.out, testing::ContainsRegex("-(9[89][0-9]|100[0-9]) is the middle \\(it was 0\\)"));
     EXPECT_THAT(run({"pmac", "I129", "--port", port}).out, testing::ContainsRegex("^-(9[89]|100)"));
-    ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--port", port}).exit_code, 0);
+    ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--power", "--port", port}).exit_code, 0);
     const std::string csv = (scratch / "step.csv").string(), png = (scratch / "step.png").string();
     const Ended step = run({"arm", "step", "1", "--port", port, "--out", csv, "--picture", png});
     ASSERT_EQ(step.exit_code, 0) << step.err;

@@ -120,6 +120,11 @@ void PmacDriver::enable() {
     talk().enable(turn.now());
 }
 
+void PmacDriver::let_lines_give_power() {
+    const Turn turn(*this);
+    talk().let_lines_give_power();
+}
+
 bool PmacDriver::position_known() const {
     const std::scoped_lock lock(session_mutex());
     return talk().position_known();

@@ -41,6 +41,9 @@ public:
     int load(const std::vector<std::string>& lines) override;
     /// Closes the loops of all motors where they stand. Throws Error unless at rest.
     void enable() override;
+    /// From now on lines may close loops of motors without power, which are refused else: a person has
+    /// looked.
+    void let_lines_give_power();
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;

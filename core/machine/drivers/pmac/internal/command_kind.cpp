@@ -1,5 +1,6 @@
 #include "core/machine/drivers/pmac/internal/command_kind.h"
 
+#include <cctype>
 #include <cstdlib>
 #include <regex>
 #include <string>
@@ -71,6 +72,39 @@ std::vector<MotorGoal> goals_of(std::string_view line, int& motor) {
         }
     }
     return goals;
+}
+
+std::vector<PowerChange> power_changes_of(std::string_view line, int& motor) {
+    static const std::regex piece("# *([1-8])|(J *[-+/=:^]|HM(?!Z)|HOME(?!Z)|^ *[$] *$)|"
+                                  "(K)(?![A-Z])|(A)(?![-+A-Z0-9.(=])",
+                                  std::regex::icase);
+    std::vector<PowerChange> changes;
+    if (line.find('"') != std::string_view::npos || line.find("->") != std::string_view::npos) {
+        return changes; // of a buffer, or the definition of an axis A
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), piece), end; at != end; ++at) {
+        const char before = (*at).position() > 0 ? line[static_cast<std::size_t>((*at).position()) - 1] : ' ';
+        if ((*at)[1].matched) {
+            motor = std::stoi((*at)[1]);
+        } else if (std::isalpha(static_cast<unsigned char>(before)) != 0) {
+            continue; // the end of another word
+        } else if ((*at)[4].matched) {
+            changes.push_back({std::nullopt, true});
+        } else {
+            changes.push_back({motor, !(*at)[3].matched});
+        }
+    }
+    return changes;
+}
+
+bool opens_buffer(std::string_view line) {
+    static const std::regex open(" *OPEN.*", std::regex::icase);
+    return is(line, open);
+}
+
+bool closes_buffer(std::string_view line) {
+    static const std::regex close(" *CLOSE.*", std::regex::icase);
+    return is(line, close);
 }
 
 bool opens_loop(std::string_view line) {

@@ -44,6 +44,19 @@ struct MotorGoal {
 /// it, and behind it.
 [[nodiscard]] std::vector<MotorGoal> goals_of(std::string_view line, int& motor);
 
+/// Power that a line takes away from a motor, or gives it by closing its loop (`J/`, `A`, `HM`, any jog).
+struct PowerChange {
+    std::optional<int> motor{}; ///< none: every one of the coordinate system
+    bool given = false;
+};
+
+/// What `line` changes, in its order; `motor` as above.
+[[nodiscard]] std::vector<PowerChange> power_changes_of(std::string_view line, int& motor);
+
+/// Whether `line` begins with OPEN, or with CLOSE: what is between them is stored, not done.
+[[nodiscard]] bool opens_buffer(std::string_view line);
+[[nodiscard]] bool closes_buffer(std::string_view line);
+
 /// Sets the output of a motor to anything but 0, its loop open.
 [[nodiscard]] bool opens_loop(std::string_view line);
 

@@ -453,6 +453,55 @@ bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
     return true;
 }
 
+/// The first motor without power that `lines` would give it to.
+std::optional<std::size_t> PmacSession::given_power(const std::vector<std::string>& lines) const {
+    int addressed = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<char> powered;
+    for (const MotorState& motor : motors_) {
+        powered.push_back(motor.enabled() ? 1 : 0);
+    }
+    bool stored = false;
+    for (const std::string& line : lines) {
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+        if (stored) {
+            continue;
+        }
+        for (const PowerChange& change : power_changes_of(line, addressed)) {
+            for (std::size_t n = 0; n < powered.size(); ++n) {
+                if (change.motor && *change.motor != settings_.axes[n].motor) {
+                    continue;
+                }
+                if (change.given && powered[n] == 0) {
+                    return n;
+                }
+                powered[n] = change.given ? 1 : 0;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// Stops that were typed would give power to motors without: those that have it brake, and that is all.
+/// Throws Error where nothing is to be stopped, and for lines that do more.
+bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
+    const auto to = given_power(lines);
+    if (!to || lines_may_power_ || stage_ == Stage::alarm) { // which takes none of them anyway
+        return false;
+    }
+    const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
+    if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
+        throw Error(
+            fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),
+            {},
+            "look at the machine, then give its motors power: --power on the command line");
+    }
+    command_lines_.clear();
+    finish(Stage::stopping);
+    unbraked_ = true; // the next report tells which move
+    answer_ = {answer_.number + 1, CommandAnswer::State::done, {}};
+    return true;
+}
+
 int PmacSession::load(const std::vector<std::string>& lines) {
     if (std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); })) {
         throw Error("the motors have power, and a wrong gain or limit would move them at once",
@@ -465,7 +514,7 @@ int PmacSession::load(const std::vector<std::string>& lines) {
 int PmacSession::command(const std::vector<std::string>& lines, bool all) {
     check_command(lines);
     check_goals(lines);
-    if (stopped_by_command(lines)) {
+    if (stopped_by_command(lines) || brakes_instead(lines)) {
         return answer_.number;
     }
     const bool waits = answer_.state == CommandAnswer::State::pending;
@@ -494,6 +543,11 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
     command_refused_ = false;
     command_lines_.assign(lines.begin(), lines.end());
     only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
+    int addressed = 0;
+    closes_loops_ = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        const auto changes = power_changes_of(line, addressed);
+        return std::any_of(changes.begin(), changes.end(), [](const PowerChange& c) { return c.given; });
+    });
     commanded_.clear();
     for (const std::string& line : lines) {
         commanded_ += line + "\n";

@@ -60,6 +60,8 @@ public:
     void set_overrides(const Overrides& wanted) override;
     /// Closes the loops of the motors where they stand: the one way back from a kill.
     void enable(double now);
+    /// From now on lines of command() may give it, too: a person has looked.
+    void let_lines_give_power() { lines_may_power_ = true; }
 
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
@@ -95,7 +97,8 @@ private:
     struct MotorState {
         double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
         std::uint32_t word_1 = 0, word_2 = 0;
-        double target = 0.0; ///< of the last jog
+        double target = 0.0;    ///< of the last jog
+        bool had_power = false; ///< since what is under way began
         [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
         [[nodiscard]] bool faulty() const { return (word_2 >> 3 & 1U) != 0; } ///< its amplifier
         [[nodiscard]] bool left_behind() const { return (word_2 >> 2 & 1U) != 0; }
@@ -146,7 +149,8 @@ private:
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
     [[nodiscard]] std::string unheard() const;
-    [[nodiscard]] std::string reason_of_kill() const;
+    /// `now`: of what is under way alone; a motor that was killed before tells its old one.
+    [[nodiscard]] std::string reason_of_kill(bool now) const;
     [[nodiscard]] std::string commanded_limit() const;
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
@@ -160,6 +164,8 @@ private:
     void check_goals(const std::vector<std::string>& lines) const;
     void begin_command(const std::vector<std::string>& lines, bool all);
     bool stopped_by_command(const std::vector<std::string>& lines);
+    [[nodiscard]] std::optional<std::size_t> given_power(const std::vector<std::string>& lines) const;
+    bool brakes_instead(const std::vector<std::string>& lines);
     void halt();
     void halt_jog();
     void brake();
@@ -221,6 +227,8 @@ private:
     double homing_from_ = 0.0;           ///< counts
     std::vector<double> commanded_from_; ///< counts of each motor when the last command was given
     std::string commanded_;              ///< its lines
+    bool lines_may_power_ = false;       ///< those of commands
+    bool closes_loops_ = false;          ///< the last command
     bool only_set_ = false;              ///< variables, by its lines: nothing moves
     std::vector<double> watched_deg_;    ///< of each axis, at the last look at the limits
     std::vector<double> rest_counts_;    ///< of each motor, where it came to rest

@@ -60,6 +60,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
         motor.counts = *counts;
         motor.word_1 = words->first;
         motor.word_2 = words->second;
+        motor.had_power = motor.had_power || motor.enabled();
     }
     system_1_ = system->first;
     system_2_ = system->second;
@@ -113,7 +114,7 @@ void PmacSession::watch_motors() {
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
     if (watched && killed != motors_.end()) {
         // A card that kills one motor may kill all of them: what one of them tells is the reason for all.
-        if (const std::string why = reason_of_kill(); !why.empty()) {
+        if (const std::string why = reason_of_kill(true); !why.empty()) {
             fail(why);
         } else if (need_power) {
             const int motor = settings_.axes[static_cast<std::size_t>(killed - motors_.begin())].motor;
@@ -130,9 +131,12 @@ void PmacSession::watch_motors() {
 }
 
 /// Empty where no motor without power tells any.
-std::string PmacSession::reason_of_kill() const {
+std::string PmacSession::reason_of_kill(bool now) const {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const MotorState& motor = motors_[n];
+        if (now && !motor.had_power && !closes_loops_) {
+            continue;
+        }
         if (motor.faulty() && !motor.enabled()) {
             return fmt::format("motor {}: its amplifier reports a fault", settings_.axes[n].motor);
         }
@@ -148,7 +152,7 @@ void PmacSession::watch_killed() {
     if (!unexplained_) {
         return;
     }
-    if (std::string why = reason_of_kill(); !why.empty()) {
+    if (std::string why = reason_of_kill(false); !why.empty()) {
         unexplained_ = false;
         tell(false, ConsoleKind::fault, why);
         message_ = std::move(why);
@@ -164,7 +168,7 @@ void PmacSession::watch_power() {
     if (power_polls_ > 0 || enabled() || !rests()) {
         return;
     }
-    const std::string why = reason_of_kill();
+    const std::string why = reason_of_kill(false);
     const auto without =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
     fail(!why.empty()
@@ -470,6 +474,9 @@ void PmacSession::finish(Stage stage, std::string why) {
     unbraked_ = unexplained_ = false;
     following_.forget();
     brake_by_.reset();
+    for (MotorState& motor : motors_) {
+        motor.had_power = motor.enabled();
+    }
     if (given_up && answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = CommandAnswer::State::refused;
         answer_.text = message_.empty() ? "stopped" : message_;

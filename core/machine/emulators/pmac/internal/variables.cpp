@@ -79,6 +79,13 @@ double factory_of_motor(int motor, int index) {
     }
 }
 
+/// Ix that are whole words of the card, with a sign.
+bool is_signed_word(int index) {
+    constexpr std::array<int, 12> words{8, 9, 11, 12, 30, 31, 32, 33, 34, 35, 63, 67};
+    return index >= first_motor && index <= last_motor &&
+           std::find(words.begin(), words.end(), index % hundred) != words.end();
+}
+
 } // namespace
 
 IVariables::IVariables() : values_(count) {
@@ -124,6 +131,8 @@ void IVariables::set(int index, double value) {
     if (range > 0.0) {
         value = std::floor(value + 0.5);
         value -= range * std::floor(value / range);
+    } else if (is_signed_word(index)) {
+        value -= word * std::floor(value / word + 0.5);
     }
     constexpr double most = 1e12;
     values_[static_cast<std::size_t>(index)] = std::clamp(value, -most, most);

@@ -62,6 +62,7 @@ TEST(PmacJogF3, GivesTheCardItsOwnJogSpeedBack) {
 TEST(PmacJogF3, ThatIsTypedIsNoFasterThanOneByHand) {
     for (const bool homed : {true, false}) {
         PmacWire wire({}, homed);
+        wire.session.let_lines_give_power();
         (void)wire.session.command({"#3J:1500"}, false);
         EXPECT_LT(fastest_of_motor_3(wire), 5.1);
         EXPECT_NEAR(wire.card.position(3), 1500.0, 2.0);
@@ -99,6 +100,7 @@ TEST(PmacJogF3, ThatIsTypedAndWouldEndBeyondALimitIsNotSent) {
     wire.pass(1.0);
     EXPECT_EQ(wire.card.position(1), 0.0);
     PmacWire lost({}, false); // the position is not known, so nobody knows better than the one who types
+    lost.session.let_lines_give_power();
     (void)lost.session.command({"#1J=1200"}, false);
     ASSERT_TRUE(lost.run_to_end(20.0));
     EXPECT_NEAR(lost.card.position(1), 1200.0, 2.0);

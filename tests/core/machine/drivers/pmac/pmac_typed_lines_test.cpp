@@ -10,6 +10,7 @@
 namespace millwright::machine::pmac {
 namespace {
 
+using test::jog_of;
 using test::PmacWire;
 using test::refusal;
 using testing::HasSubstr;
@@ -116,6 +117,72 @@ TEST(PmacTypedLines, SetsVariablesAloneInAnAlarm) {
     }
     wire.pass(0.5);
     EXPECT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
+    PmacWire wire({}, false);
+    for (const std::vector<std::string>& lines :
+         std::vector<std::vector<std::string>>{{"A"},
+                                               {"&1A"},
+                                               {"#2J/"},
+                                               {"#1J:12"},
+                                               {"#3", "J=5"},
+                                               {"#1HM"},
+                                               {"#4J^0"},
+                                               {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
+                    HasSubstr("would give power to"))
+            << lines.front();
+    }
+    (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
+    ASSERT_TRUE(answered(wire));
+    wire.pass(0.5);
+    EXPECT_FALSE(wire.powered());
+    wire.session.let_lines_give_power();
+    (void)wire.session.command({"#1J/"}, false);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.card.enabled(1));
+}
+
+TEST(PmacTypedLinesF2, NoneGivesPowerBackBehindAKill) {
+    PmacWire wire;
+    for (const std::vector<std::string>& lines :
+         std::vector<std::vector<std::string>>{{"#1K", "A"}, {"#2K #2J/"}}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
+                    HasSubstr("would give power to"));
+    }
+}
+
+TEST(PmacTypedLinesF2, AStopBrakesWhatMovesAndGivesTheOthersNoPower) {
+    PmacWire wire;
+    (void)wire.session.command({"#2K"}, false);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+    (void)wire.session.command({"#1J:9000"}, false);
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+    (void)wire.session.command({"&1A"}, false);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped) << wire.session.status().message;
+    EXPECT_LT(wire.card.position(1), 2000.0);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.standing());
+    EXPECT_FALSE(wire.card.enabled(2));
+}
+
+// A following error that ended an earlier motion stays in the motor's status.
+TEST(PmacTypedLines, AnOldFaultOfAMotorIsNoNews) {
+    PmacWire wire;
+    (void)wire.session.command({"I111=16"}, false); // a count
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+    wire.session.jog(jog_of(0, 5.0, 5.0), wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 3.0));
+    wire.pass(0.2);
+    wire.session.reset(wire.now);
+    for (const std::string line : {"I111=32000", "#1->120X", "P1"}) {
+        (void)wire.session.command({line}, false);
+        wire.pass(0.5);
+        EXPECT_EQ(wire.state(), DriverState::idle) << line << ": " << wire.session.status().message;
+    }
     EXPECT_FALSE(wire.powered());
 }
 

@@ -100,6 +100,11 @@ TEST(PmacHandshakeP2, RefusesBytesThatAreNoText) {
 
 TEST(PmacHandshakeP3, KnowsItsVariables) {
     PmacCard pmac;
+    EXPECT_EQ(pmac.send("I130=16777217"), ""); // words of 24 bits roll over
+    EXPECT_EQ(pmac.ask("I130"), "1");
+    EXPECT_EQ(pmac.send("I130=-5 I112=8388607"), "");
+    EXPECT_EQ(pmac.ask("I130"), "-5");
+    EXPECT_EQ(pmac.ask("I112"), "8388607");
     EXPECT_EQ(pmac.ask("I125"), "$C000"); // I9=2
     EXPECT_EQ(pmac.send("I9=0"), "");
     EXPECT_EQ(pmac.ask("I125"), "49152");
