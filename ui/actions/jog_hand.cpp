@@ -2,21 +2,28 @@
 
 #include "core/base/error.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::actions {
 
 namespace {
 
-constexpr double ahead = 1.0; // s: of motion that a renewed jog asks for, far beyond its dead man
+constexpr double ahead = 1.0;   // s: of motion that a renewed jog asks for, far beyond its dead man
+constexpr double forgets = 0.9; // of a slow frame, with each that follows
 
 } // namespace
+
+double JogHand::dead_man_for(double frame) {
+    constexpr double frames = 1.5;
+    return std::clamp(frames * frame, dead_man, longest_dead_man);
+}
 
 void JogHand::renew(const JogWish& wish) {
     machine::Jog jog;
     jog.way = wish.direction * (wish.speed * ahead);
     jog.speed = wish.speed;
-    jog.dead_man = dead_man;
+    jog.dead_man = dead_man_for(frame_);
     moving_ = true; // also if the driver refuses: it is told to stop then
     controller_.tell([&](machine::Driver& driver) { driver.jog(jog); });
 }
@@ -24,6 +31,9 @@ void JogHand::renew(const JogWish& wish) {
 void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - std::exchange(followed_, now)).count();
+    if (moving_) {
+        frame_ = std::max(std::min(since, longest_dead_man), forgets * frame_);
+    }
     if (!wish) {
         must_let_go_ = false;
     } else if (moving_ && since > longest_frame) {

@@ -25,8 +25,14 @@ class JogHand {
 public:
     /// After this time without a sign of life the driver stops a jog, s.
     static constexpr double dead_man = 0.1;
-    /// A window that has hung for so long begins nothing anew by itself, s.
-    static constexpr double longest_frame = 2.0;
+    /// A window that draws slowly is no window that hangs: it has one and a half frames' time, but no more
+    /// than this, s.
+    static constexpr double longest_dead_man = 0.25;
+    /// For a window whose slowest frame of late took `frame`, s.
+    [[nodiscard]] static double dead_man_for(double frame);
+    /// A slow frame interrupts a jog that is still held; a window that has hung for so long begins nothing
+    /// anew by itself, s.
+    static constexpr double longest_frame = 0.5;
 
     explicit JogHand(Controller& controller) : controller_(controller) {}
 
@@ -44,6 +50,7 @@ private:
     Controller& controller_;
     bool moving_ = false;
     bool must_let_go_ = false;
+    double frame_ = 0.0;                             ///< the slowest of late while it moved, s
     bool asks_again_ = false;                        ///< after a refusal by what has come to rest meanwhile
     std::chrono::steady_clock::time_point followed_; ///< when follow() was called last
 };

@@ -1,0 +1,60 @@
+// Moving by hand as long as a window wants it in every frame, at the virtual machine in real time.
+#include "ui/actions/jog_hand.h"
+
+#include "core/kinematics/machine_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace millwright::actions {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+TEST(JogHand, GivesASlowWindowMoreTimeThanAQuickOneAndAHungOneNone) {
+    EXPECT_DOUBLE_EQ(JogHand::dead_man_for(0.0), 0.1);
+    EXPECT_DOUBLE_EQ(JogHand::dead_man_for(0.06), 0.1); // a frame of the arm in software
+    EXPECT_DOUBLE_EQ(JogHand::dead_man_for(0.12), 0.18);
+    EXPECT_DOUBLE_EQ(JogHand::dead_man_for(5.0), 0.25);
+}
+
+TEST(JogHand, IsNotInterruptedByFramesThatAreSlowOneLikeAnother) {
+    const auto folder = std::filesystem::temp_directory_path() / ("jog_hand_" + std::to_string(::getpid()));
+    Controller controller(folder, [] {});
+    const auto model = std::make_shared<const kinematics::MachineModel>(
+        kinematics::read_machine("assets/machines/router-xyz.json"));
+    controller.connect(machine::DriverChoice{}, model, nullptr);
+    controller.wait_idle();
+    const auto driver = controller.driver();
+    ASSERT_TRUE(driver);
+    driver->trust_position();
+    JogHand hand(controller);
+    JogWish wish{kinematics::AxisPositions::Zero(model->axis_count()), 1.0};
+    wish.direction[0] = 1.0;
+    hand.follow(wish, true);
+    int looks = 0;
+    auto last = Clock::now();
+    for (int n = 0; n < 20 && looks < 5; ++n) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(130));
+        const bool goes_on = driver->status().activity == machine::Activity::jog;
+        const auto now = Clock::now();
+        const double frame = std::chrono::duration<double>(now - std::exchange(last, now)).count();
+        hand.follow(wish, true);
+        if (n > 1 && frame < 0.17) { // else the computer is too busy to tell
+            EXPECT_TRUE(goes_on) << frame;
+            ++looks;
+        }
+    }
+    hand.let_go();
+    std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace millwright::actions
