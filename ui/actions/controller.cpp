@@ -268,7 +268,11 @@ void Controller::tell(const std::function<void(machine::Driver&)>& what) {
     if (!driver) {
         throw Error("no machine is connected");
     }
-    what(*driver);
+    try {
+        what(*driver);
+    } catch (const Error& error) {
+        throw MachineError(error);
+    }
 }
 
 void Controller::emergency_stop() {

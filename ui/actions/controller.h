@@ -39,6 +39,12 @@ struct ControllerView {
     [[nodiscard]] bool connected() const { return link == LinkState::connected; }
 };
 
+/// What the connected machine refuses, or says of itself: told as long as it is in that state.
+class MachineError final : public Error {
+public:
+    explicit MachineError(const Error& of_driver) : Error(of_driver.diagnostic()) {}
+};
+
 class Controller {
 public:
     /// `wake`: from any thread, when something that is seen has changed. Doubts about positions outlast this
@@ -67,7 +73,8 @@ public:
     /// Null where there is none. Lives as long as the driver.
     [[nodiscard]] std::shared_ptr<machine::Console> console() const;
 
-    /// Does something with the driver at once. Throws Error if none is connected, or what the driver says.
+    /// Does something with the driver at once. Throws Error if none is connected, MachineError with what the
+    /// driver says.
     void tell(const std::function<void(machine::Driver&)>& what);
     /// The same without any complaint where nothing is connected.
     void emergency_stop();

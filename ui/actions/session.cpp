@@ -23,7 +23,7 @@ void show_grid(Session& session, project::GridMethod method) {
 
 void tell(Session& session, widgets::Severity severity, std::string text, std::string place) {
     session.log.push_back(place.empty() ? text : place + ": " + text);
-    session.notices.push_back({severity, std::move(text), std::move(place)});
+    session.notices.push_back({severity, std::move(text), std::move(place), false});
 }
 
 } // namespace millwright::actions

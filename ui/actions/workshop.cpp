@@ -160,6 +160,7 @@ void Workshop::guarded(const std::function<void()>& action) {
              widgets::Severity::danger,
              error.diagnostic().message + (hint.empty() ? "" : " (" + hint + ")"),
              where.substr(0, where.size() - std::min<std::size_t>(2, where.size())));
+        session_.notices.back().passing = dynamic_cast<const MachineError*>(&error) != nullptr;
     }
 }
 

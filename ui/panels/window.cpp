@@ -153,9 +153,20 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
     draw_splitters(ui, now, place, width, height);
     draw_over(ui, now, place.view);
     obey_shortcuts(ui, now);
+    forget_machine_notices(now.controller);
     workshop_.perform(ask_, may_jog && !search_.is_open());
     for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
         toasts_.push(std::move(notice));
+    }
+}
+
+/// What was told of a machine's fault is over with it, and with its link.
+void Window::forget_machine_notices(const actions::ControllerView& machine) {
+    const MachineSeen seen{machine.connected(),
+                           machine.connected() && machine.status.state == machine::DriverState::alarm};
+    const MachineSeen before = std::exchange(machine_seen_, seen);
+    if ((before.alarm && !seen.alarm) || (!before.connected && seen.connected)) {
+        toasts_.forget_passing();
     }
 }
 

@@ -53,6 +53,11 @@ private:
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
     void draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view);
     void obey_shortcuts(const Ui& ui, const Workbench& now);
+    void forget_machine_notices(const actions::ControllerView& machine);
+
+    struct MachineSeen { ///< in the frame before
+        bool connected = false, alarm = false;
+    };
 
     actions::Workshop& workshop_;
     ActionQueue ask_;
@@ -73,6 +78,7 @@ private:
     Dialogs dialogs_;
     ViewPanel view_;
     widgets::Toasts toasts_;
+    MachineSeen machine_seen_;
     widgets::Search search_;
     JogGate jog_gate_;
 };

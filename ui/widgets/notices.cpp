@@ -176,6 +176,10 @@ void Toasts::push(Notice notice) {
     }
 }
 
+void Toasts::forget_passing() {
+    std::erase_if(shown_, [](const Shown& shown) { return shown.notice.passing; });
+}
+
 void Toasts::draw(Ui& ui, std::string_view id, const Rect& area) {
     const double now = ImGui::GetTime();
     for (Shown& shown : shown_) {

@@ -15,6 +15,8 @@ struct Notice {
     Severity severity = Severity::info;
     std::string text;  ///< a plain sentence
     std::string place; ///< file, line, axis: where it was found; may be empty
+    /// Of something that passes: Toasts::forget_passing() takes it away, also where it is danger.
+    bool passing = false;
 };
 
 /// A banner in the flow of the pane. True when it was closed; `can_close` false leaves the cross out.
@@ -28,6 +30,8 @@ class Toasts {
 public:
     /// The same notice again only makes the one on show start anew.
     void push(Notice notice);
+    /// What they tell of is over.
+    void forget_passing();
     /// Into the lower right corner of `area`, newest below; into another corner of the window where that
     /// would cover a dialog. Paths: `id`/1 ... in order of coming; `/close`.
     void draw(Ui& ui, std::string_view id, const Rect& area);

@@ -1,4 +1,5 @@
 // The Arm workspace at an emulated PMAC over TCP, in real time.
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
@@ -6,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
 
 namespace millwright::panels {
 namespace {
@@ -248,6 +251,43 @@ TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
     bench.jog("hand/jog/minus_3", 3);
     bench.person.set_focused(false);
     EXPECT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+}
+
+/// What the card refused in an alarm is no news when it is over.
+TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
+    Bench bench;
+    bench.connect();
+    bench.person.workshop().run("machine.emergency_stop");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
+    actions::ActionQueue asked;
+    asked.tell([](machine::Driver& driver) { driver.home(); });
+    asked.show([](actions::Session&) { throw Error("the disk is full"); });
+    bench.person.workshop().perform(asked, true);
+    bench.person.frames(3);
+    const int last = bench.newest_notice();
+    ASSERT_GE(last, 2);
+    EXPECT_TRUE(bench.person.sees("notices/" + std::to_string(last - 1)));
+    bench.person.workshop().run("machine.reset");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
+    bench.person.frames(3);
+    EXPECT_FALSE(bench.person.sees("notices/" + std::to_string(last - 1)));
+    EXPECT_TRUE(bench.person.sees("notices/" + std::to_string(last)));
+}
+
+TEST(ArmAtPmacF2, AWindowThatHangsEndsAJogThatIsStillHeldAndBeginsNoneAnew) {
+    Bench bench;
+    bench.connect();
+    bench.jog("hand/jog/plus_1", 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(900)); // no frame
+    EXPECT_FALSE(bench.pmac.moving());
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+    const double there = bench.pmac.degrees(1);
+    (void)bench.person.live_until([] { return false; }, 0.5);
+    EXPECT_NEAR(bench.pmac.degrees(1), there, 0.05);
+    bench.person.hold_button(false);
+    bench.person.frames(2);
+    bench.jog("hand/jog/plus_1", 1);
+    bench.person.hold_button(false);
 }
 
 TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {

@@ -51,6 +51,17 @@ TEST(Toasts, AFloodKeepsTheDanger) {
     EXPECT_TRUE(stage.ui().place("notices/1").has_value());
 }
 
+TEST(Toasts, WhatPassesIsForgottenWhenItIsOver) {
+    Toasts toasts;
+    toasts.push({Severity::danger, "The PMAC is in alarm.", "", true});
+    toasts.push({Severity::danger, "dome.json cannot be read.", "", false});
+    toasts.forget_passing();
+    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole); });
+    stage.frames(2);
+    EXPECT_FALSE(stage.ui().place("notices/1").has_value());
+    EXPECT_TRUE(stage.ui().place("notices/2").has_value());
+}
+
 TEST(Toasts, CoverNothingOfADialog) {
     Toasts toasts;
     toasts.push({Severity::info, "part.ngc is opened when the question is answered.", ""});
