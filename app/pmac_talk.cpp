@@ -56,6 +56,7 @@ machine::CardTalk PmacTalk::card() {
 
 void PmacTalk::give_power() {
     constexpr double glance = 0.02, patience = 5.0; // s
+    driver_->let_lines_give_power(); // a busy computer lets the card take it away between two commands
     driver_->enable();
     for (double waited = 0.0; waited < patience; waited += glance) {
         check();

@@ -74,13 +74,13 @@ TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {
     ASSERT_EQ(
         run({"pmac", "--load", "assets/samples/pmac-arm.ini", "#1J/", "--power", "--port", port}).exit_code,
         0);
-    const Ended went = run({"pmac", "#1J:600", "#1P", "--port", port});
+    const Ended went = run({"pmac", "#1J:600", "#1P", "--power", "--port", port});
     EXPECT_EQ(went.exit_code, 0) << went.err;
     EXPECT_THAT(went.out, testing::ContainsRegex("^(599|600)"));
     const Ended endless = run({"pmac", "#1J+", "--port", port});
     EXPECT_EQ(endless.exit_code, 1);
     EXPECT_THAT(endless.err, HasSubstr("until somebody thinks of stopping it"));
-    Program far({"pmac", "#1J:2000000", "--port", port});
+    Program far({"pmac", "#1J:2000000", "--power", "--port", port});
     far.wait_for_error_text("Ctrl+C stops them");
     far.send(SIGINT);
     EXPECT_NE(far.end().exit_code, 0);
@@ -189,9 +189,12 @@ TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     // computed time.
     EXPECT_THAT(found.out, testing::ContainsRegex("-(9[89][0-9]|100[0-9]) is the middle \\(it was 0\\)"));
     EXPECT_THAT(run({"pmac", "I129", "--port", port}).out, testing::ContainsRegex("^-(9[89]|100)"));
-    ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--power", "--port", port}).exit_code, 0);
     const std::string csv = (scratch / "step.csv").string(), png = (scratch / "step.png").string();
-    const Ended step = run({"arm", "step", "1", "--port", port, "--out", csv, "--picture", png});
+    Ended step;
+    for (int n = 0; n < 5 && (n == 0 || step.exit_code != 0); ++n) { // the power may be gone when it begins
+        ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--power", "--port", port}).exit_code, 0);
+        step = run({"arm", "step", "1", "--port", port, "--out", csv, "--picture", png});
+    }
     ASSERT_EQ(step.exit_code, 0) << step.err;
     EXPECT_THAT(step.out, HasSubstr("to change:"));
     EXPECT_THAT(content_of(csv), testing::StartsWith("seconds,counts\n0.0"));

@@ -105,6 +105,8 @@ std::string PmacSession::asked(const Request& request) {
         return "the question for its motors' values";
     case Kind::address:
         return "the question which motor it addresses";
+    case Kind::watch:
+        return "one of this program's own settings";
     case Kind::step:
         return request.line.starts_with('I') ? "a jog's speed" : "'" + request.line + "'";
     default:

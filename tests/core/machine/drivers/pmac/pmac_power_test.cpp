@@ -142,6 +142,11 @@ TEST(PmacPowerF2, ACardThatWasSwitchedOffAndOnIsNotToldAsSilent) {
         EXPECT_THAT(wire.session.status().message,
                     AllOf(HasSubstr("reset"), Not(HasSubstr("did not answer"))));
     }
+    PmacWire begun;
+    begun.card.power_cycle();
+    begun.session.jog(jog_of(1, 4.0, 5.0), begun.now);
+    ASSERT_TRUE(begun.run_until([&] { return begun.state() == DriverState::alarm; }, 3.0));
+    EXPECT_THAT(begun.session.status().message, AllOf(HasSubstr("reset"), Not(HasSubstr("P1002="))));
     PmacWire deaf;
     deaf.go_deaf();
     ASSERT_TRUE(deaf.run_until([&] { return deaf.state() == DriverState::alarm; }, 3.0));

@@ -161,7 +161,7 @@ TEST(PmacHandshakeP3, ReportsStatusAsInTheManual) {
     EXPECT_EQ(pmac.ask("&2??"), "A80020000000"); // X Y Z in the feed, circle vectors incremental
 }
 
-TEST(PmacHandshakeP3, AnswersEveryCommandOfTheThesis) {
+TEST(PmacHandshakeP3, AnswersTheCommandsOfTheThesis) {
     PmacCard pmac;
     ASSERT_EQ(pmac.send(test::arm_axes + test::arm_program), "");
     const std::array<const char*, 47> accepted{"@",
