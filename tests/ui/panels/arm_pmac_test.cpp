@@ -7,10 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <string>
-#include <thread>
 
 namespace millwright::panels {
 namespace {
@@ -272,22 +270,6 @@ TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
     bench.person.frames(3);
     EXPECT_FALSE(bench.person.sees("notices/" + std::to_string(last - 1)));
     EXPECT_TRUE(bench.person.sees("notices/" + std::to_string(last)));
-}
-
-TEST(ArmAtPmacF2, AWindowThatHangsEndsAJogThatIsStillHeldAndBeginsNoneAnew) {
-    Bench bench;
-    bench.connect();
-    bench.jog("hand/jog/plus_1", 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(900)); // no frame
-    EXPECT_FALSE(bench.pmac.moving());
-    ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
-    const double there = bench.pmac.degrees(1);
-    (void)bench.person.live_until([] { return false; }, 0.5);
-    EXPECT_NEAR(bench.pmac.degrees(1), there, 0.05);
-    bench.person.hold_button(false);
-    bench.person.frames(2);
-    bench.jog("hand/jog/plus_1", 1);
-    bench.person.hold_button(false);
 }
 
 TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {
