@@ -132,43 +132,40 @@ project::Project changed(project::Project project, const Options& options) {
     return project;
 }
 
-void print_path(std::string_view name, const project::Workpiece& workpiece, const project::Evaluation& of) {
+void print_path(std::string_view name,
+                const project::Workpiece& workpiece,
+                const project::Evaluation& of,
+                const std::optional<double>& time) {
     const double step =
         toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
-    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
                name,
                of.toolpath.points.size(),
                fixed(of.closest.max, 4),
                fixed(of.closest.mean, 4),
                fixed(to_degrees(of.axes.rotary_travel), 1),
-               fixed(to_degrees(step), 2));
+               fixed(to_degrees(step), 2),
+               time ? fixed(*time, 1) : std::string("-"));
 }
 
 /// The path of the chosen grid beside the one of the nearest angles with no point added.
-void print_sequencing(const project::Plan& plan,
-                      const project::Project& project,
-                      const std::stop_token& stop) {
-    const project::Workpiece& workpiece = *plan.workpiece;
-    if (project.sequencing == project::SequencingInput{} || workpiece.machine.rotary_axes().empty()) {
+void print_sequencing(const project::Plan& plan, const project::Project& project) {
+    if (!plan.unsequenced) {
         return;
     }
-    const project::Evaluation& chosen = *plan.program_path(project);
-    project::Workpiece plain = workpiece;
-    plain.sequencing = {};
-    const project::Evaluation before = project::evaluate(plain,
-                                                         chosen.outcome,
-                                                         project::strategy_settings(project),
-                                                         project::report_samples,
-                                                         Progress({}, stop));
-    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13}\n",
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
                "sequence",
                "points",
                "max mm",
                "mean mm",
                "rotation deg",
-               "in a cut deg");
-    print_path("before", workpiece, before);
-    print_path(project::row_of(project::sequencing_goals(), project.sequencing.goal).id, workpiece, chosen);
+               "in a cut deg",
+               "time s");
+    print_path("before", *plan.workpiece, *plan.unsequenced, plan.unsequenced_time);
+    print_path(project::row_of(project::sequencing_goals(), project.sequencing.goal).id,
+               *plan.workpiece,
+               *plan.program_path(project),
+               plan.trajectory->duration());
 }
 
 void print_cut(const project::Project& project, const project::Plan& plan) {
@@ -215,7 +212,7 @@ int plan(const Options& options) {
     print_notes(text);
     print_warnings(plan);
     print_summary(plan, opened.project);
-    print_sequencing(plan, opened.project, interrupt.token());
+    print_sequencing(plan, opened.project);
     if (plan.cut) {
         print_cut(opened.project, plan);
     }

@@ -1,23 +1,32 @@
 #include "core/project/cut_remarks.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/text.h"
+#include "core/project/settings.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace millwright::project {
 
 namespace {
 
-/// More points of a track than `points`, so many that moves which were `off` are only a tenth of `height`
-/// off: the error falls with the square of their number.
-int points_for(int points, double off, double height) {
+/// What helps against moves of a track of `points` that are `off`: the error falls with the square of their
+/// number, and a tenth of `height` is little beside it.
+std::string way_out(int points, double off, double height) {
     constexpr double share = 0.1;
-    constexpr double most = 1e6;
-    return 1 + static_cast<int>(std::min(most, std::ceil((points - 1) * std::sqrt(off / (share * height)))));
+    const double most = most_nodes_a_side - 1;
+    const double moves = std::ceil((points - 1) * std::sqrt(off / (share * height)));
+    if (moves <= most) {
+        return fmt::format("{} points a track are too few, about {} would do", points, moves + 1.0);
+    }
+    return fmt::format(
+        "with {} points a track, the most there can be, it would be about {} mm; choose another "
+        "place of the part on the table, or another machine",
+        most_nodes_a_side,
+        fixed(off * square((points - 1) / most), 4));
 }
 
 } // namespace
@@ -34,19 +43,18 @@ std::string why_higher(const Project& project, const Plan& plan) {
     const double off = path.closest.max;
     if (off < (much - 1.0) * wanted) {
         return fmt::format(
-            "{} mm are left where {} mm are wanted: surface.csv of 'millwright cutter' tells the places",
+            "{} mm are left where {} mm are wanted: the map of what is left shows where, as does surface.csv "
+            "of 'millwright cutter'",
             fixed(left, 4),
             shortest(wanted));
     }
-    const int points = path.outcome.grid.nodes_per_track(plan.workpiece->direction);
     return fmt::format(
-        "{} mm are left where {} mm are wanted: between the points of a track the tool alone is up to "
-        "{} mm off the surface; {} points a track are too few, about {} would do",
+        "{} mm are left where {} mm are wanted: between the points of a track the tool alone is "
+        "up to {} mm off the surface; {}",
         fixed(left, 4),
         shortest(wanted),
         fixed(off, 4),
-        points,
-        points_for(points, off, wanted));
+        way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
 }
 
 } // namespace millwright::project

@@ -1,9 +1,13 @@
 #include "core/project/evaluation.h"
 
+#include "core/project/planned_time.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/trimmed_path.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
 #include <utility>
 
 namespace millwright::project {
@@ -12,6 +16,34 @@ using toolpath::Distance;
 using toolpath::MoveKind;
 
 namespace {
+
+/// The costs of a way know of no accelerations: of several the planner finds the fastest.
+toolpath::SequencedPath
+fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progress& progress) {
+    using toolpath::SequencingGoal;
+    constexpr std::array goals{SequencingGoal::time, SequencingGoal::travel, SequencingGoal::nearest};
+    toolpath::SequencedPath best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < goals.size(); ++n) {
+        const auto share = [&](double at) {
+            return (static_cast<double>(n) + at) / static_cast<double>(goals.size());
+        };
+        toolpath::SequencingSettings settings = workpiece.sequencing;
+        settings.goal = goals[n];
+        toolpath::SequencedPath way = toolpath::sequenced(
+            workpiece.patch, workpiece.machine, path, settings, progress.part(share(0.0), share(0.8)));
+        const std::optional<double> time = planned_time(way.toolpath,
+                                                        way.axes,
+                                                        workpiece.machine,
+                                                        workpiece.timing,
+                                                        progress.part(share(0.8), share(1.0)));
+        if (n == 0 || (time && *time < least)) {
+            best = std::move(way);
+            least = time.value_or(least);
+        }
+    }
+    return best;
+}
 
 toolpath::SequencedPath path_of(const Workpiece& workpiece,
                                 const grid::Grid& grid,
@@ -27,7 +59,11 @@ toolpath::SequencedPath path_of(const Workpiece& workpiece,
                           workpiece.flipped);
     toolpath::Toolpath path =
         toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));
-    if (workpiece.angle_mode == kinematics::AngleMode::consistent) {
+    const bool consistent = workpiece.angle_mode == kinematics::AngleMode::consistent;
+    if (consistent && workpiece.sequencing.goal == toolpath::SequencingGoal::time) {
+        return fastest(workpiece, path, progress.part(covering, 1.0));
+    }
+    if (consistent) {
         return toolpath::sequenced(workpiece.patch,
                                    workpiece.machine,
                                    std::move(path),

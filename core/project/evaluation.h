@@ -4,6 +4,7 @@
 #include "core/base/progress.h"
 #include "core/geometry/trim.h"
 #include "core/grid/improver.h"
+#include "core/project/project.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/kinematic_error.h"
 #include "core/toolpath/sequenced_path.h"
@@ -51,6 +52,7 @@ struct Workpiece {
     kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
     toolpath::Tool tool = {};
     toolpath::SequencingSettings sequencing = {}; ///< of consistent angles
+    ProgramInput timing = {};                     ///< what SequencingGoal::time is the time of
     geometry::Trim trim = {};                     ///< what of the patch is cut
 
     [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped, tool}; }

@@ -12,15 +12,13 @@ using grid::EllipticMethod;
 using grid::MixSettings;
 using grid::TrackDirection;
 
-constexpr int most_nodes = 1000; // a path of a million moves
-
 constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
     {"nu",
      "Nodes along u",
      "",
      "Grid nodes along u, the boundary's included",
      2,
-     most_nodes,
+     most_nodes_a_side,
      0,
      field<&GridInput::nu>},
     {"nv",
@@ -28,7 +26,7 @@ constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
      "",
      "Grid nodes along v, the boundary's included",
      2,
-     most_nodes,
+     most_nodes_a_side,
      0,
      field<&GridInput::nv>},
 }};
@@ -108,7 +106,7 @@ constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
 
 constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
     {"error",
-     "Share of the error",
+     "Error share",
      "",
      "How much the measured error counts; it is divided by its largest and raised to the power 0.7",
      0.0,
@@ -116,7 +114,7 @@ constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
      2,
      field<&MixSettings::error>},
     {"curvature",
-     "Share of the curvature",
+     "Curvature share",
      "",
      "How much sqrt(k1^2 + k2^2) counts, divided by its largest",
      0.0,
@@ -124,7 +122,7 @@ constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
      2,
      field<&MixSettings::curvature>},
     {"painted",
-     "Share of the paint",
+     "Paint share",
      "",
      "How much what is painted counts",
      0.0,
@@ -132,7 +130,7 @@ constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
      2,
      field<&MixSettings::painted>},
     {"expression",
-     "Share of the formula",
+     "Formula share",
      "",
      "How much the value of the formula counts, as it is",
      0.0,

@@ -311,12 +311,12 @@ std::string_view title_of_making(GridMethod method) {
     return {};
 }
 
-Evaluation improved_evaluation(GridMethod method,
-                               const GridInput& input,
-                               const Workpiece& workpiece,
-                               const Evaluation& uniform,
-                               Effort effort,
-                               const Progress& progress) {
+Evaluation evaluation_by(GridMethod method,
+                         const GridInput& input,
+                         const Workpiece& workpiece,
+                         const Evaluation& uniform,
+                         Effort effort,
+                         const Progress& progress) {
     const toolpath::KinematicError error = workpiece.error_model();
     const auto improver = make_improver(method, input, error, effort);
     constexpr double measuring = 0.9; // share of the improvement

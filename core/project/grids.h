@@ -74,6 +74,16 @@ void expect_memory(GridMethod method, const GridInput& input);
 
 /// The grid by `method` (not uniform) with its error. Where that is worse than `uniform`, the evaluation of
 /// the uniform grid, measured like `uniform`, with a note that says so. Throws Error or Cancelled.
+[[nodiscard]] Evaluation evaluation_by(GridMethod method,
+                                       const GridInput& input,
+                                       const Workpiece& workpiece,
+                                       const Evaluation& uniform,
+                                       Effort effort,
+                                       const Progress& progress);
+
+/// The same, but the whole chain ends with the best grid of all methods: where one of them is better on the
+/// finished part (largest * mean error) and keeps the chain's promise there, its grid, with a note that says
+/// so. The others have their standard settings. Throws Error or Cancelled.
 [[nodiscard]] Evaluation improved_evaluation(GridMethod method,
                                              const GridInput& input,
                                              const Workpiece& workpiece,

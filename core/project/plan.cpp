@@ -10,6 +10,7 @@
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
+#include "core/project/planned_time.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
@@ -138,7 +139,12 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
             project.machine.angle_mode,
             tool_of(project.tool),
             sequencing_settings(project),
+            timing(project),
             project.surface.trim(project.surface.machined_patch)};
+}
+
+ProgramInput timing(const Project& project) {
+    return project.sequencing.goal == toolpath::SequencingGoal::time ? project.program : ProgramInput{};
 }
 
 toolpath::SequencingSettings sequencing_settings(const Project& project) {
@@ -195,14 +201,21 @@ std::optional<double> estimated_time(const Evaluation& evaluation,
                                      const kinematics::MachineModel& machine,
                                      const ProgramInput& input,
                                      const Progress& progress) {
-    try {
-        const gcode::PostResult posted =
-            gcode::post(machine, evaluation.toolpath, evaluation.axes, program_settings(input), {}, progress);
-        progress.check();
-        return motion::plan(posted.program, machine, motion::PlannerSettings{}, progress).duration();
-    } catch (const Error&) { // such a program is beyond the machine's limits
-        return std::nullopt;
+    return planned_time(evaluation.toolpath, evaluation.axes, machine, input, progress);
+}
+
+void add_unsequenced(Plan& plan, const Project& project, const Progress& progress) {
+    const auto& chosen = plan.program_path(project);
+    plan.unsequenced = nullptr;
+    if (project.sequencing == SequencingInput{} || plan.workpiece->machine.rotary_axes().empty() || !chosen) {
+        return;
     }
+    Workpiece plain = *plan.workpiece;
+    plain.sequencing = {};
+    Evaluation before =
+        evaluate(plain, chosen->outcome, strategy_settings(project), report_samples, progress.part(0.0, 0.9));
+    plan.unsequenced_time = estimated_time(before, plain.machine, project.program, progress.part(0.9, 1.0));
+    plan.unsequenced = std::make_shared<const Evaluation>(std::move(before));
 }
 
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress) {
@@ -284,7 +297,8 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
                                                                progress.part(0.85, 0.9)));
     }
     add_program(plan, project, progress.part(0.9, 0.92));
-    add_estimated_times(plan, project, progress.part(0.92, 0.95));
+    add_estimated_times(plan, project, progress.part(0.92, 0.94));
+    add_unsequenced(plan, project, progress.part(0.94, 0.95));
     if (scope == Scope::everything) {
         add_cut_study(plan, project, progress.part(0.95, 1.0));
     }

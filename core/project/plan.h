@@ -47,6 +47,9 @@ struct Plan {
     /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
     std::array<std::optional<double>, every_grid_method.size()> estimated_times;
     std::optional<double> path_time; ///< the same of `path`
+    /// The program's path with the nearest angles and no point added, and its time; nothing where it is that.
+    std::shared_ptr<const Evaluation> unsequenced;
+    std::optional<double> unsequenced_time;
     /// Why there is none of a grid that is only compared with the program's, by GridMethod.
     std::array<std::optional<Diagnostic>, every_grid_method.size()> failed;
 
@@ -90,6 +93,8 @@ struct Folders {
 /// How the axis positions of its paths are chosen; what does not matter for the goal is left out, so that
 /// equal settings give equal paths.
 [[nodiscard]] toolpath::SequencingSettings sequencing_settings(const Project& project);
+/// The program that SequencingGoal::time is about; with another goal always the same.
+[[nodiscard]] ProgramInput timing(const Project& project);
 
 [[nodiscard]] gcode::ProgramSettings program_settings(const ProgramInput& input);
 
@@ -107,6 +112,9 @@ void add_program(Plan& plan, const Project& project, const Progress& progress);
 /// Of the grids that were not chosen the estimated times, for comparison, into `plan`: those that are missing
 /// and can be made into a program. Throws Cancelled.
 void add_estimated_times(Plan& plan, const Project& project, const Progress& progress);
+
+/// Plan::unsequenced, where the project asks for another sequence than the nearest angles.
+void add_unsequenced(Plan& plan, const Project& project, const Progress& progress);
 
 /// How much of a plan is wanted.
 enum class Scope {

@@ -25,7 +25,8 @@ bool same_cut(ToolInput a, const ToolInput& b) {
 
 bool same_place(const Project& a, const Project& b) {
     return a.surface == b.surface && a.machine == b.machine && same_cut(a.tool, b.tool) &&
-           a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b);
+           a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b) &&
+           timing(a) == timing(b);
 }
 
 bool same_nodes(const GridInput& a, const GridInput& b) {
@@ -338,7 +339,8 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
         publish(now_.plan, std::nullopt, false);
     }
     compare(rest(0.3, 0.9));
-    add_estimated_times(now_.plan, project(), rest(0.9, 0.92));
+    add_estimated_times(now_.plan, project(), rest(0.9, 0.91));
+    add_unsequenced(now_.plan, project(), rest(0.91, 0.92));
     add_compared_cuts(now_.plan, project(), rest(0.92, 0.99));
     const auto fault = std::ranges::find_if(now_.plan.failed, [](const auto& f) { return f.has_value(); });
     const bool all_there = fault == now_.plan.failed.end();

@@ -50,6 +50,9 @@ template <class Owner> struct NumberSetting {
     void set(Owner& owner, double value) const { access.set(owner, value); }
 };
 
+/// Nodes of a grid along u or v: a path of a million moves.
+inline constexpr int most_nodes_a_side = 1000;
+
 [[nodiscard]] std::span<const NumberSetting<GridInput>> grid_numbers();
 [[nodiscard]] std::span<const NumberSetting<RedistributionInput>> redistribution_numbers();
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();

@@ -1,6 +1,7 @@
 #include "ui/panels/tool_fields.h"
 
 #include "core/base/text.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
@@ -41,6 +42,39 @@ void bites_text(Ui& ui, const project::CutStudy& cut) {
     if (!cut.bites.empty() || !cut.local_gouges.empty()) {
         (void)widgets::banner(
             ui, "gouges", {widgets::Severity::warning, "This tool gouges the part on this path.", {}});
+    }
+}
+
+/// Before and after, where the program's angles are not the nearest ones.
+void gain_text(Ui& ui, const Workbench& now) {
+    const project::Plan& plan = now.plan->plan;
+    const auto after = plan.program_path(now.plan->project);
+    if (!plan.unsequenced || !after || !plan.trajectory) {
+        return;
+    }
+    const project::Evaluation& before = *plan.unsequenced;
+    const auto both = [](const std::string& from, const std::string& to) { return from + " > " + to; };
+    ui.note("The program with the nearest angles and no point added > as chosen here:");
+    ui.value("both_points",
+             "Points",
+             both(fmt::format("{}", before.toolpath.points.size()),
+                  fmt::format("{}", after->toolpath.points.size())));
+    ui.value("both_max",
+             "Largest error",
+             both(length_text(before.closest.max), length_text(after->closest.max)),
+             "mm");
+    ui.value("both_mean",
+             "Mean error",
+             both(length_text(before.closest.mean), length_text(after->closest.mean)),
+             "mm");
+    ui.value("both_travel",
+             "Rotation",
+             both(angle_text(before.axes.rotary_travel), angle_text(after->axes.rotary_travel)),
+             "deg");
+    if (plan.unsequenced_time) {
+        ui.value("both_time",
+                 "Time",
+                 both(clock_time(*plan.unsequenced_time), clock_time(plan.trajectory->duration())));
     }
 }
 
@@ -87,6 +121,9 @@ void cut_fields(Ui& ui, const Workbench& now) {
     if (std::isfinite(cut.step_over)) {
         ui.value("step_over", "Step-over", length_text(cut.step_over), "mm");
     }
+    if (const std::string why = project::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
+        (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
+    }
     bites_text(ui, cut);
 }
 
@@ -116,6 +153,7 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.value("points", "Points", fmt::format("{}", shown->toolpath.points.size()));
         ui.value("travel", "Rotation", angle_text(shown->axes.rotary_travel), "deg");
         ui.value("step", "Now at most", angle_text(step), "deg");
+        gain_text(ui, now);
     }
 }
 

@@ -255,6 +255,26 @@ TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
     EXPECT_EQ(report.at("program").at("blocks"), plan.program->block_count());
 }
 
+/// The way that is the fastest without accelerations was slower here than the nearest angles.
+TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
+    using toolpath::SequencingGoal;
+    Project project = sample("two-bell", 12);
+    project.machine.file = "tilted-c-table";
+    project.grid.method = GridMethod::uniform;
+    const auto plan_for = [&](SequencingGoal goal) {
+        project.sequencing.goal = goal;
+        return make_plan(project, folders, Progress(), Scope::program);
+    };
+    const Plan nearest = plan_for(SequencingGoal::nearest);
+    const Plan fastest = plan_for(SequencingGoal::time);
+    EXPECT_LE(fastest.trajectory->duration(), nearest.trajectory->duration());
+    EXPECT_LE(fastest.trajectory->duration(), plan_for(SequencingGoal::travel).trajectory->duration());
+    EXPECT_EQ(nearest.unsequenced, nullptr);
+    ASSERT_NE(fastest.unsequenced, nullptr);
+    EXPECT_EQ(fastest.unsequenced->closest.max, nearest.uniform->closest.max);
+    EXPECT_NEAR(fastest.unsequenced_time.value(), nearest.trajectory->duration(), 1e-3);
+}
+
 TEST(Report, OfAPlanThatIsNotCompleteIsRefused) {
     const Project project = sample("dome", 4);
     EXPECT_THROW((void)report_text(project, Plan{}), Defect);
