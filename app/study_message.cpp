@@ -65,6 +65,7 @@ json packed_row(const StudyRow& row) {
             {"method", static_cast<int>(row.method)},
             {"note", row.note},
             {"no_gain", row.no_gain},
+            {"loss", row.loss},
             {"figures", row.figures ? packed_figures(*row.figures) : json()}};
 }
 
@@ -74,6 +75,7 @@ StudyRow unpacked_row(const json& from) {
     row.method = project::every_study_method.at(from.at("method").get<std::size_t>());
     row.note = from.at("note");
     row.no_gain = from.at("no_gain");
+    row.loss = from.at("loss");
     if (!from.at("figures").is_null()) {
         row.figures = unpacked_figures(from.at("figures"));
     }

@@ -151,7 +151,9 @@ void print(const StudyRow& row) {
                fixed(row.figures->error.mean, 4),
                fixed(to_degrees(row.figures->error.axis_max), 2),
                fixed(row.figures->track_gap, 3),
-               row.no_gain ? "  no gain" : "");
+               row.no_gain        ? "  no gain"
+               : row.loss.empty() ? ""
+                                  : "  " + row.loss);
 }
 
 /// The tables first: where mpirun stops a study, it may leave no time for pictures.

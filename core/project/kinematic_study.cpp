@@ -112,25 +112,36 @@ private:
     Evaluation uniform_;
 };
 
-/// The search for a set-up looks at a mean error of another grid: what that costs elsewhere is said.
-void tell_losses(StudyRow& row, const StudyRow& without) {
+double score(const StudyRow& row) {
+    return row.figures->error.max * row.figures->error.mean;
+}
+
+/// The search for a set-up looks at a mean error of another grid. Where it gains nothing here the part stays
+/// where it was; what it costs elsewhere is said.
+void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     constexpr double rounding = 1e-3;
-    const auto loss = [&](double grid::ErrorSummary::*figure, const char* name) {
-        const double before = without.figures->error.*figure;
-        const double ratio = before > 0.0 ? row.figures->error.*figure / before : 1.0;
-        return ratio > 1.0 + rounding
-                   ? fmt::format(" the {} error is {:.1f} % larger", name, 100.0 * (ratio - 1.0))
-                   : std::string();
+    const grid::ErrorSummary& before = unmoved.figures->error;
+    const grid::ErrorSummary& now = row.figures->error;
+    if (!(now.mean <= before.mean && score(row) < (1.0 - rounding) * score(unmoved))) {
+        row.figures = unmoved.figures;
+        row.no_gain = true;
+        row.note =
+            fmt::format("Where the search would put the part it is no better than beside \"{}\": it stays.",
+                        label(unmoved.method));
+        return;
+    }
+    const auto tell = [&](double old_figure, double figure, const char* name) {
+        if (old_figure > 0.0 && figure > (1.0 + rounding) * old_figure) {
+            row.loss += fmt::format(
+                "{}{} +{:.1f} %", row.loss.empty() ? "" : ", ", name, 100.0 * (figure / old_figure - 1.0));
+        }
     };
-    const std::string largest = loss(&grid::ErrorSummary::max, "largest");
-    const std::string mean = loss(&grid::ErrorSummary::mean, "mean");
-    if (!largest.empty() || !mean.empty()) {
-        row.note = with_sentence(std::move(row.note),
-                                 fmt::format("Without the set-up better: beside {}{}{}{}.",
-                                             label(without.method),
-                                             largest,
-                                             !largest.empty() && !mean.empty() ? "," : "",
-                                             mean));
+    tell(before.max, now.max, "largest");
+    tell(before.axis_max, now.axis_max, "axis");
+    if (!row.loss.empty()) {
+        row.note = with_sentence(
+            std::move(row.note),
+            fmt::format("Without the set-up better, beside \"{}\": {}.", label(unmoved.method), row.loss));
     }
 }
 
@@ -205,9 +216,12 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         const auto row = [&](StudyMethod method) -> StudyRow& {
             return *std::ranges::find(rows, method, &StudyRow::method);
         };
-        tell_losses(row(StudyMethod::set_up), row(StudyMethod::uniform));
-        tell_losses(row(StudyMethod::set_up_chain), row(StudyMethod::chain));
-        tell_losses(row(StudyMethod::everything), row(StudyMethod::sequencing));
+        compare_with_unmoved(row(StudyMethod::set_up), row(StudyMethod::uniform));
+        compare_with_unmoved(row(StudyMethod::set_up_chain), row(StudyMethod::chain));
+        const StudyRow& moved = row(StudyMethod::set_up_chain);
+        const StudyRow& sequenced = row(StudyMethod::sequencing);
+        compare_with_unmoved(row(StudyMethod::everything),
+                             score(moved) < score(sequenced) ? moved : sequenced);
         return rows;
     } catch (const Error& error) {
         return out_of_reach_rows(of, error.diagnostic().message);

@@ -61,8 +61,9 @@ struct StudyRow {
     StudyCase of;
     StudyMethod method = StudyMethod::uniform;
     std::optional<StudyFigures> figures; ///< nothing where the path cannot be run
-    std::string note;                    ///< why, or what the method says of itself
-    bool no_gain = false; ///< nothing better than what the method starts from was found, which is kept
+    std::string note = {};               ///< why, or what the method says of itself
+    bool no_gain = false;  ///< nothing better than what the method starts from was found, which is kept
+    std::string loss = {}; ///< "largest +3.1 %": what a set-up costs where it gains elsewhere; empty: nothing
 };
 
 /// One row a method, in their order. Only `folders.assets` matters. Throws Error if surface or machine are
