@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -55,30 +56,87 @@ local_gouges(const Workpiece& workpiece, const toolpath::Profile& cutter, const 
     return found;
 }
 
-/// Where each track begins, and the end of the last.
-std::vector<std::size_t> track_starts(const Toolpath& path) {
-    std::vector<std::size_t> starts;
+/// Points of one track, from the first to before the end, without a lift in between.
+struct Stretch {
+    std::size_t first = 0, end = 0;
+};
+
+/// The stretches of each track, in the order of the path: more than one where the surface is cut off, or was
+/// done before the rest.
+std::vector<std::vector<Stretch>> tracks_of(const Toolpath& path) {
+    std::vector<std::vector<Stretch>> tracks;
+    int last = 0;
     for (std::size_t n = 0; n < path.points.size(); ++n) {
         if (path.points[n].reached_by != MoveKind::track) {
-            starts.push_back(n);
+            const int track = toolpath::track_of(path.direction, path.points[n].origin);
+            if (tracks.empty() || track != last) {
+                tracks.emplace_back();
+            }
+            last = track;
+            tracks.back().push_back({n, n});
         }
+        tracks.back().back().end = n + 1;
     }
-    starts.push_back(path.points.size());
-    return starts;
+    return tracks;
 }
 
-/// From `point` to the nearest place between the contacts of the points from `first` to before `end`.
-double gap_to(const Toolpath& path, std::size_t first, std::size_t end, const Vec3& point) {
-    double squared = (path.points[first].contact - point).squaredNorm();
-    for (std::size_t n = first + 1; n < end; ++n) {
-        const Vec3& a = path.points[n - 1].contact;
-        const Vec3 way = path.points[n].contact - a;
-        const double length = way.squaredNorm();
-        const double t = length > 0.0 ? std::clamp((point - a).dot(way) / length, 0.0, 1.0) : 0.0;
-        squared = std::min(squared, (a + t * way - point).squaredNorm());
+/// From `point` to the nearest place between the contacts of `track`.
+double gap_to(const Toolpath& path, const std::vector<Stretch>& track, const Vec3& point) {
+    double squared = infinity;
+    for (const Stretch& stretch : track) {
+        squared = std::min(squared, (path.points[stretch.first].contact - point).squaredNorm());
+        for (std::size_t n = stretch.first + 1; n < stretch.end; ++n) {
+            const Vec3& a = path.points[n - 1].contact;
+            const Vec3 way = path.points[n].contact - a;
+            const double length = way.squaredNorm();
+            const double t = length > 0.0 ? std::clamp((point - a).dot(way) / length, 0.0, 1.0) : 0.0;
+            squared = std::min(squared, (a + t * way - point).squaredNorm());
+        }
     }
     return std::sqrt(squared);
 }
+
+/// How far a point is from what was or will be cut beside it, mm; 0 where nothing is.
+class Gaps {
+public:
+    explicit Gaps(const Toolpath& path) : path_(path), tracks_(tracks_of(path)) {
+        if (tracks_.size() != 1) {
+            return;
+        }
+        for (std::size_t n = 0; n < path.points.size(); ++n) { // a spiral: its rounds are no tracks
+            at_node_[{path.points[n].origin.i, path.points[n].origin.j}] = n;
+        }
+    }
+
+    [[nodiscard]] const std::vector<std::vector<Stretch>>& tracks() const { return tracks_; }
+
+    /// Point `n` of a track: to the track before, since the next one may have no part beside it. Of a spiral:
+    /// to the farthest neighbour in the grid, square to `feed`.
+    [[nodiscard]] double of(std::size_t n, std::size_t track, const Vec3& feed) const {
+        if (tracks_.size() == 1) {
+            return across_rounds(n, feed);
+        }
+        return track == 0 ? 0.0 : gap_to(path_, tracks_[track - 1], path_.points[n].contact);
+    }
+
+private:
+    [[nodiscard]] double across_rounds(std::size_t n, const Vec3& feed) const {
+        const PathPoint& point = path_.points[n];
+        double gap = 0.0;
+        for (const auto& [i, j] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+            const auto found = at_node_.find({point.origin.i + i, point.origin.j + j});
+            if (found != at_node_.end() && found->second + 1 != n && found->second != n + 1) {
+                const Vec3 way = path_.points[found->second].contact - point.contact;
+                gap = std::max(gap, (way - way.dot(feed) * feed).norm());
+            }
+        }
+        return gap;
+    }
+
+    const Toolpath& path_;
+    std::vector<std::vector<Stretch>> tracks_;
+    std::map<std::pair<int, int>, std::size_t> at_node_;
+};
 
 /// The formulas of second order over all points: the highest ridge, and the gap that leaves `wanted` at most.
 struct Ridges {
@@ -89,18 +147,21 @@ struct Ridges {
 Ridges
 ridges_of(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path, double wanted) {
     Ridges ridges;
-    const std::vector<std::size_t> starts = track_starts(path);
-    for (std::size_t track = 0; track + 1 < starts.size(); ++track) {
-        for (std::size_t n = starts[track]; n < starts[track + 1]; ++n) {
-            const PathPoint& point = path.points[n];
-            const Contact contact = contact_at(workpiece, cutter, path, n);
-            const double radius = toolpath::effective_radius(contact.shape, point.normal, contact.feed);
-            const Vec3 across = point.normal.cross(contact.feed);
-            const double convex = toolpath::convex_curvature(contact.at, point.normal, across);
-            ridges.step_over = std::min(ridges.step_over, toolpath::step_over(radius, convex, wanted));
-            if (track + 2 < starts.size()) {
-                const double gap = gap_to(path, starts[track + 1], starts[track + 2], point.contact);
-                ridges.highest = std::max(ridges.highest, toolpath::scallop_height(radius, convex, gap));
+    const Gaps gaps(path);
+    const auto add = [&](std::size_t n, std::size_t track) {
+        const PathPoint& point = path.points[n];
+        const Contact contact = contact_at(workpiece, cutter, path, n);
+        const double radius = toolpath::effective_radius(contact.shape, point.normal, contact.feed);
+        const Vec3 across = point.normal.cross(contact.feed);
+        const double convex = toolpath::convex_curvature(contact.at, point.normal, across);
+        const double gap = gaps.of(n, track, contact.feed);
+        ridges.step_over = std::min(ridges.step_over, toolpath::step_over(radius, convex, wanted));
+        ridges.highest = std::max(ridges.highest, toolpath::scallop_height(radius, convex, gap));
+    };
+    for (std::size_t track = 0; track < gaps.tracks().size(); ++track) {
+        for (const Stretch& stretch : gaps.tracks()[track]) {
+            for (std::size_t n = stretch.first; n < stretch.end; ++n) {
+                add(n, track);
             }
         }
     }

@@ -31,7 +31,7 @@ struct ScallopFigures {
     double mean = 0.0;
     double p95 = 0.0;        ///< 95 % of the points are not higher
     double not_cut = 0.0;    ///< share of the points that the cutter never came near
-    double by_formula = 0.0; ///< largest of gap^2 (1/R + k) / 8 over neighbouring tracks
+    double by_formula = 0.0; ///< largest of gap^2 (1/R + k) / 8 over neighbouring tracks or rounds
 };
 
 struct CutStudy {

@@ -224,8 +224,7 @@ private:
             const double along = static_cast<double>(node) / static_cast<double>(std::ssize(track) - 1);
             PathPoint point = contact_point(
                 of_.patch, uv_of(of_.direction, along, track[static_cast<std::size_t>(node)]), of_.flipped);
-            point.origin.i = track_;
-            point.origin.j = points_++;
+            point.origin = origin_at(of_.direction, track_, points_++, point.origin.uv);
             point.reached_by = node != from           ? MoveKind::track
                                : path_.points.empty() ? MoveKind::start
                                                       : MoveKind::cross;

@@ -47,8 +47,7 @@ void add(Toolpath& path, const Covering& of, const grid::PlacedTrack& placed, in
     for (int k = 0; k < count; ++k) {
         const auto place = static_cast<std::size_t>(backwards ? count - 1 - k : k);
         PathPoint point = contact_point(of.patch, placed.track.at(placed.places[place]), of.flipped);
-        point.origin.i = track;
-        point.origin.j = k;
+        point.origin = origin_at(of.direction, track, k, point.origin.uv);
         point.reached_by = k > 0 ? MoveKind::track : track > 0 ? MoveKind::cross : MoveKind::start;
         path.points.push_back(point);
     }

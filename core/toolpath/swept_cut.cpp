@@ -4,6 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/geometry/closest_point.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "core/toolpath/body_clearance.h"
 #include "core/toolpath/internal/body_height.h"
@@ -268,6 +269,39 @@ void look_along(Sweep& sweep,
     }
 }
 
+/// Where the cutter goes through the surface and out of sight below it, no point of the surface on its way
+/// tells how deep its end is. The ball of the corner's radius around `pose`'s core lies in the body.
+class Buried {
+public:
+    Buried(const geometry::BezierPatch& patch, bool flipped, const Profile& cutter)
+        : patch_(patch), flipped_(flipped), shape_(cutter.shape()), search_(patch) {}
+
+    /// Less deep bites come from no core below the surface.
+    [[nodiscard]] bool may_follow(const Bite& bite) const {
+        constexpr double least = 0.05; // mm
+        return bite.depth > std::max(0.5 * shape_.corner, least);
+    }
+
+    /// The deeper of `bite` and the ball in that pose.
+    [[nodiscard]] Bite deeper(const Bite& bite, const geometry::ToolPose& pose) const {
+        const Vec3 core = pose.tip + (shape_.bottom + shape_.corner) * pose.axis;
+        const geometry::ClosestPoint foot = search_.closest(core, bite.uv);
+        const auto normal = patch_.unit_normal(foot.parameters.x(), foot.parameters.y());
+        const double below = normal ? (foot.position - core).dot(flipped_ ? Vec3(-*normal) : *normal) : 0.0;
+        constexpr double square_on = 0.999; // else the core is beside the part
+        if (below < square_on * foot.distance || below + shape_.corner <= bite.depth) {
+            return bite;
+        }
+        return {below + shape_.corner, foot.parameters, foot.position};
+    }
+
+private:
+    const geometry::BezierPatch& patch_;
+    bool flipped_;
+    const ProfileShape& shape_;
+    geometry::ClosestPointSearch search_;
+};
+
 } // namespace
 
 SweptCut swept_cut(const geometry::BezierPatch& patch,
@@ -281,6 +315,7 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
     expects(settings.nu >= 2 && settings.nv >= 2 && settings.step > 0.0 && settings.highest > 0.0,
             "a raster has two points or more each way, steps and heights are above 0");
     const std::vector<Tile> tiles = tiles_of(patch, flipped, settings);
+    const Buried buried(patch, flipped, *tool.cutter);
     SweptCut cut{settings.nu, settings.nv, {}, {}};
     cut.heights.assign(static_cast<std::size_t>(settings.nu) * static_cast<std::size_t>(settings.nv),
                        infinity);
@@ -295,8 +330,16 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
             constexpr double hits_only =
                 4.0; // a hit is not missed by coarser steps, a scallop would be wrong
             const double step = move.cuts ? settings.step : hits_only * settings.step;
-            look_along(sweep, machine, move, looks_at(machine, move, step), progress);
-            found[static_cast<std::size_t>(n)] = sweep.found(patch);
+            const int looks = looks_at(machine, move, step);
+            look_along(sweep, machine, move, looks, progress);
+            Found& of_move = found[static_cast<std::size_t>(n)];
+            of_move = sweep.found(patch);
+            for (int k = 0; k <= looks && buried.may_follow(of_move.bites.cutter); ++k) {
+                progress.check();
+                of_move.bites.cutter =
+                    buried.deeper(of_move.bites.cutter,
+                                  actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));
+            }
         });
         for (std::ptrdiff_t n = 0; n < count; ++n) {
             const auto move = static_cast<std::size_t>(first + n);

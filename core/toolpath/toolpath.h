@@ -23,7 +23,7 @@ enum class MoveKind {
 
 /// Where a path point comes from.
 struct GridOrigin {
-    int i = 0, j = 0;       ///< grid node
+    int i = 0, j = 0;       ///< grid node; of a point of its own the track and its number there, as in a grid
     Vec2 uv = Vec2::Zero(); ///< its parameters
 };
 
@@ -40,6 +40,10 @@ struct Toolpath {
     Tool tool = {};                ///< that the poses are of
     std::vector<PathPoint> points; ///< one more than moves
 };
+
+/// The node of the numbers `track` and `node` along it, and back: its track.
+[[nodiscard]] GridOrigin origin_at(grid::TrackDirection direction, int track, int node, const Vec2& uv);
+[[nodiscard]] int track_of(grid::TrackDirection direction, const GridOrigin& origin);
 
 /// Length of the path with straight moves, without those that go over what is not cut, mm.
 [[nodiscard]] double length(const Toolpath& toolpath);

@@ -182,8 +182,13 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
         ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
         ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
-        ui.value("best", "To curve, best", length_text(state->of_best.mean), "mm");
+        ui.value("best", "To curve, kept", length_text(state->of_best.mean), "mm");
         ui.value("gain", "Change", change_text(state->start.mean, state->of_best.mean));
+        if (state->now.mean < state->of_best.mean) {
+            ui.note("The grid of now has less error in the mean but is not kept: its largest error, the tool "
+                    "axis "
+                    "or the gap between tracks is worse than at the start.");
+        }
     }
     ui.note(status_text(*now.watched));
     if (const GridMethod watched = now.watched->method; watched != now.project.grid.method) {

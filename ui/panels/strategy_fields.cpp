@@ -41,7 +41,14 @@ std::string grid_note(const Project& project) {
         return fmt::format("Over the nodes of the grid: {}.",
                            project::row_of(project::grid_methods(), project.grid.method).label);
     }
-    return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
+    switch (project.toolpath.strategy) {
+    case StrategyInput::constant_scallop:
+        return "The grid gives the number of points of a track alone; how it was made does not matter.";
+    case StrategyInput::fewest_points:
+        return "The grid gives the number of tracks alone; how it was made does not matter.";
+    default:
+        return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
+    }
 }
 
 } // namespace

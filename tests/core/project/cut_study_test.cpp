@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace millwright::project {
@@ -135,6 +136,52 @@ TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
     const auto report = nlohmann::json::parse(cut_report_text(project, bent));
     EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
     EXPECT_EQ(report.at("scallop_mm").at("why_higher"), why_higher(project, bent));
+}
+
+TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {
+    Project project = plane(5, 11);
+    project.toolpath.strategy = StrategyInput::constant_scallop;
+    project.surface = project_from_preset("two-bell").surface;
+    project.machine.file = "ac-table"; // its moves swing
+    ToolInput tool = ball;
+    tool.scallop_mm = 1.0;
+    Plan plan = studied(project, tool);
+    tool.scallop_mm = project.tool.scallop_mm = 1e-3; // the tracks for it would take minutes
+    project.tool = tool;
+    EXPECT_THAT(why_higher(project, plan),
+                testing::HasSubstr("with 1000 points a track, the most there can be"));
+}
+
+/// Where a part of a track was done before the rest, the next track has nothing beside it.
+TEST(CutStudy, FormulaKnowsPartedTracks) {
+    Project project = project_from_preset("dome");
+    project.machine.file = "router-xyz";
+    project.grid.nu = project.grid.nv = 41;
+    project.toolpath.strategy = StrategyInput::constant_scallop;
+    for (const auto direction : {grid::TrackDirection::along_u, grid::TrackDirection::along_v}) {
+        project.grid.direction = direction;
+        ToolInput tool = ball;
+        tool.scallop_mm = 0.1;
+        const Plan plan = studied(project, tool);
+        const toolpath::Toolpath& path = plan.path->toolpath;
+        std::map<int, int> points; // by track
+        for (const toolpath::PathPoint& point : path.points) {
+            ++points[track_of(direction, point.origin)];
+        }
+        EXPECT_TRUE(std::ranges::any_of(points, [](const auto& of) { return of.second < 41; }))
+            << "there are tracks with less than the whole width";
+        EXPECT_GT(plan.cut->scallops.by_formula, 0.5 * tool.scallop_mm);
+        EXPECT_LT(plan.cut->scallops.by_formula, 2.0 * tool.scallop_mm);
+    }
+}
+
+/// Rounds 4 and 10 mm apart: the latter on every second side.
+TEST(CutStudy, FormulaKnowsTheRoundsOfASpiral) {
+    Project project = plane(5, 11);
+    project.toolpath.strategy = StrategyInput::spiral;
+    const CutStudy& found = *studied(project, ball).cut;
+    EXPECT_NEAR(found.scallops.by_formula, 100.0 / (8.0 * 4.0), 1e-9);
+    EXPECT_GT(found.scallops.max, 1.0) << "what is left between them is no surface that was never cut";
 }
 
 TEST(CutStudy, OfAPointIsNone) {

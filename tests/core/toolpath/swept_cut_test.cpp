@@ -256,6 +256,29 @@ TEST(SweptCut, AHolderThatIsTooLowHitsTheWallAndALongerCutterDoesNot) {
     EXPECT_EQ(holder_depth(150.0), 0.0);
 }
 
+/// The tool comes in from the side below a flat part: the surface points that it goes through are at its
+/// shank.
+TEST(SweptCut, KnowsHowDeepACutterIsThatGoesThroughTheSurface) {
+    const auto patch = part(0.0, 0.0, 60.0);
+    const auto machine = test::machine("ac-table");
+    Tool tool;
+    tool.cutter = test::body(test::ball); // radius 4
+    constexpr double lean = 45.0;
+    constexpr double below = 12.0; // of the ball's centre
+    const Vec3 axis(0.0, std::sin(from_degrees(lean)), std::cos(from_degrees(lean)));
+    const auto at = [&](double x) {
+        const geometry::ToolPose pose{Vec3(x, -10.0, -below) - 4.0 * axis, axis};
+        return kinematics::inverse(machine, pose, kinematics::AxisPositions::Zero(machine.axis_count()))
+            .branches.front();
+    };
+    const std::vector<SweptMove> moves{{at(18.0), at(22.0), true}};
+    SweepSettings settings;
+    settings.nu = settings.nv = 81;
+    const SweptCut cut = swept_cut(patch, false, machine, tool, moves, settings);
+    EXPECT_NEAR(cut.moves.front().cutter.depth, below + 4.0, 1e-6);
+    EXPECT_NEAR(cut.moves.front().cutter.position.y(), -10.0, 1e-6);
+}
+
 TEST(SweptCut, IsTheSameOnAnyNumberOfThreads) {
     const auto patch = part(0.02);
     const Tool tool{.cutter = test::body(test::cone)};

@@ -83,6 +83,20 @@ TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {
     EXPECT_GT(plan().path->toolpath.points.size(), wide);
 }
 
+TEST_F(Strategies, WhyConstantScallopLeavesMoreIsToldBesideWhatIsLeft) {
+    person_.choose("inspector/tool/cutter", "ball");
+    person_.choose("inspector/strategy/strategy", "constant-scallop");
+    person_.fill_in("inspector/strategy/scallop_mm", "0.2");
+    person_.wait_idle();
+    ASSERT_NE(plan().cut, nullptr);
+    EXPECT_GT(plan().cut->scallops.max, 0.3) << "moves of 9 points swing off the dome";
+    EXPECT_TRUE(person_.sees("inspector/cut/left_higher"));
+    person_.keep("strategy-left-higher");
+    person_.choose("inspector/strategy/strategy", "zigzag");
+    person_.wait_idle();
+    EXPECT_FALSE(person_.sees("inspector/cut/left_higher")) << "a grid promises no height";
+}
+
 TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
     person_.press_key(render::Key::f3);
     person_.frames();
