@@ -1,6 +1,7 @@
 #include "app/commands/import_command.h"
 
 #include "app/names.h"
+#include "app/usage_error.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -29,11 +30,11 @@ using nlohmann::ordered_json;
 
 struct Options {
     std::string file;
-    std::string out;       ///< a project; empty: the file is only told of
-    std::string deviation; ///< comma-separated; empty: none
-    std::string degrees;   ///< as "5" or "5x3"; empty: as it is
-    std::string along;     ///< empty: found
-    double mm_per_unit = 1.0;
+    std::string out;                   ///< a project; empty: the file is only told of
+    std::string deviation;             ///< comma-separated; empty: none
+    std::string degrees;               ///< as "5" or "5x3"; empty: as it is
+    std::string along;                 ///< empty: found
+    std::optional<double> mm_per_unit; ///< of a mesh
     int face = 0;
     bool json = false;
 };
@@ -68,7 +69,7 @@ std::string fault_of_degrees(const std::string& text) {
 }
 
 project::ImportChoice choice_of(const Options& options) {
-    project::ImportChoice choice{.face = options.face, .mm_per_unit = options.mm_per_unit};
+    project::ImportChoice choice{.face = options.face, .mm_per_unit = options.mm_per_unit.value_or(1.0)};
     if (!options.degrees.empty()) {
         choice.degrees = degrees_from(options.degrees);
     }
@@ -132,7 +133,7 @@ int tell_of(const Options& options) {
     ordered_json told;
     if (exchange::is_mesh_file(options.file)) {
         const exchange::MeshFile read =
-            exchange::read_mesh(options.file, options.mm_per_unit, work.progress());
+            exchange::read_mesh(options.file, options.mm_per_unit.value_or(1.0), work.progress());
         Box3 box;
         for (const Vec3& point : read.mesh.points) {
             box.extend(point);
@@ -217,6 +218,9 @@ void print_imported(const project::ImportedSurface& imported, const Options& opt
 int import_file(const Options& options) {
     if (!project::is_importable(options.file)) {
         throw Error("this kind of file is not imported", options.file, "STEP, IGES, STL, OBJ and PLY are");
+    }
+    if (options.mm_per_unit && !exchange::is_mesh_file(options.file)) {
+        throw UsageError("--unit is of a mesh", options.file, "a STEP or IGES file tells its unit itself");
     }
     if (options.out.empty()) {
         return tell_of(options);

@@ -6,23 +6,25 @@
 #include "app/outputs.h"
 #include "app/progress_printer.h"
 #include "app/spread_study.h"
+#include "app/study_pictures.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
 #include "core/project/kinematic_study.h"
-#include "ui/render/picture.h"
-#include "ui/viewport/chart_picture.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace millwright::app {
@@ -44,92 +46,41 @@ template <class Value> bool wanted(const std::vector<Value>& named, const Value&
     return named.empty() || std::ranges::find(named, value) != named.end();
 }
 
-/// The cases of the study that were asked for. Throws Error if there are none.
+/// Throws UsageError for what is named and in no case of the study, and tells what is.
+template <class Value>
+void expect_known(const std::vector<Value>& named,
+                  std::span<const StudyCase> study,
+                  Value StudyCase::*member,
+                  std::string_view option) {
+    std::vector<Value> known;
+    for (const StudyCase& of : study) {
+        if (std::ranges::find(known, of.*member) == known.end()) {
+            known.push_back(of.*member);
+        }
+    }
+    for (const Value& value : named) {
+        if (std::ranges::find(known, value) == known.end()) {
+            throw UsageError(fmt::format("{} {} is not in the study", option, value),
+                             {},
+                             fmt::format("it has {}", fmt::join(known, ", ")));
+        }
+    }
+}
+
+/// The cases of the study that were asked for. Throws UsageError for a name or number that it has not.
 std::vector<StudyCase> cases_of(const Options& options) {
+    const std::vector<StudyCase> study = options.quick ? project::quick_study() : project::full_study();
+    expect_known(options.surfaces, study, &StudyCase::surface, "--surface");
+    expect_known(options.machines, study, &StudyCase::machine, "--machine");
+    expect_known(options.points, study, &StudyCase::points, options.quick ? "--quick --points" : "--points");
     std::vector<StudyCase> cases;
-    for (StudyCase& of : options.quick ? project::quick_study() : project::full_study()) {
+    for (const StudyCase& of : study) {
         if (wanted(options.surfaces, of.surface) && wanted(options.machines, of.machine) &&
             wanted(options.points, of.points)) {
-            cases.push_back(std::move(of));
+            cases.push_back(of);
         }
-    }
-    if (cases.empty()) {
-        throw Error(
-            "no case of the study is left",
-            {},
-            "surfaces: dome, sine, two-bell, saddle; machines: rotary-tilt-listing, bc-table-head, ca-head; "
-            "points: 15, 20, 30, 40, 60, or 12 with --quick");
     }
     return cases;
-}
-
-double figure_of(const StudyRow& row, bool largest) {
-    return largest ? row.figures->error.max : row.figures->error.mean;
-}
-
-std::string title_of(const StudyCase& of, bool largest) {
-    return fmt::format("{} on {}: {} error", of.surface, of.machine, largest ? "largest" : "mean");
-}
-
-/// A curve a method over the numbers of points.
-viewport::Chart curves_of(std::span<const StudyRow> rows, bool largest) {
-    viewport::Chart chart{title_of(rows.front().of, largest), "points a track", "error", "mm", true, {}};
-    for (const project::StudyMethod method : project::every_study_method) {
-        viewport::ChartLine line{std::string(project::label(method)), {}, {}};
-        for (const StudyRow& row : rows) {
-            if (row.method == method && row.figures) {
-                line.x.push_back(row.of.points);
-                line.y.push_back(figure_of(row, largest));
-            }
-        }
-        chart.lines.push_back(std::move(line));
-    }
-    return chart;
-}
-
-/// A bar a method, for one number of points.
-viewport::Chart bars_of(std::span<const StudyRow> rows, bool largest) {
-    constexpr double half_width = 0.4;
-    viewport::Chart chart{fmt::format("{}, {} points on {} tracks, method by method",
-                                      title_of(rows.front().of, largest),
-                                      rows.front().of.points,
-                                      rows.front().of.tracks),
-                          "",
-                          "error",
-                          "mm",
-                          false,
-                          {}};
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-        viewport::ChartLine bar{std::string(project::label(rows[n].method)), {}, {}, true};
-        if (rows[n].figures) {
-            const double x = static_cast<double>(n) + 1.0;
-            const double y = figure_of(rows[n], largest);
-            bar.x = {x - half_width, x + half_width};
-            bar.y = {y, y};
-        }
-        chart.lines.push_back(std::move(bar));
-    }
-    return chart;
-}
-
-/// One picture a surface and machine.
-std::vector<OutputFile> pictures_of(const std::vector<StudyRow>& rows) {
-    constexpr render::PixelSize size{1100, 800};
-    std::vector<OutputFile> files;
-    for (std::size_t from = 0; from < rows.size();) {
-        std::size_t to = from;
-        while (to < rows.size() && rows[to].of.surface == rows[from].of.surface &&
-               rows[to].of.machine == rows[from].of.machine) {
-            ++to;
-        }
-        const auto of = std::span(rows).subspan(from, to - from);
-        const auto chart = of.size() > project::every_study_method.size() ? curves_of : bars_of;
-        files.push_back({fmt::format("{}-{}.png", of.front().of.surface, of.front().of.machine),
-                         to_png(viewport::chart_picture(
-                             {chart(of, true), chart(of, false)}, size, render::Theme::light))});
-        from = to;
-    }
-    return files;
 }
 
 void print(const StudyRow& row) {
@@ -162,7 +113,7 @@ void write(const std::string& folder, const std::vector<StudyRow>& rows) {
                   {{"kinematic-error.csv", project::study_csv(rows)},
                    {"kinematic-error.json", project::study_json(rows)},
                    {"kinematic-error.md", project::study_markdown(rows)}});
-    write_outputs(folder, pictures_of(rows));
+    write_outputs(folder, study_pictures(rows));
 }
 
 void print_head() {

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace millwright::test {
 namespace {
 
@@ -53,6 +57,18 @@ TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {
     EXPECT_TRUE(told.at("fit").at("follows_outline"));
     EXPECT_LT(told.at("fit").at("max_mm"), 0.06); // the triangles lie up to 0.02 mm below the points
     EXPECT_THAT(content_of(path("deviation.csv")), ::testing::StartsWith("x_mm,y_mm,z_mm,deviation_mm\n"));
+}
+
+TEST_F(ImportCommand, UnitOfAStepFileIsTheFilesOwn) {
+    const std::string file = exported("dome.step");
+    for (const auto& words :
+         {std::vector<std::string>{"import", file, "--unit", "inch"},
+          std::vector<std::string>{"import", file, "--face", "1", "--unit", "mm", "--out", path("u.json")}}) {
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 2);
+        EXPECT_THAT(ended.err, HasSubstr("--unit is of a mesh"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("u.json")));
 }
 
 TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {

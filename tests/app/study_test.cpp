@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace millwright::test {
 namespace {
 
@@ -42,6 +46,36 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
     EXPECT_THAT(content_of(scratch / "out/kinematic-error.md"), HasSubstr(" (no gain) | "));
     EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
     EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
+}
+
+TEST(StudyCommand, NamesWhatTheStudyDoesNotHave) {
+    const ScratchFolder scratch;
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"study",
+                                       "kinematic-error",
+                                       "--surface",
+                                       "dome",
+                                       "--machine",
+                                       "ca-head",
+                                       "--out",
+                                       scratch / "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Ended surface = with({"--surface", "foo"});
+    EXPECT_EQ(surface.exit_code, 2);
+    EXPECT_THAT(surface.err, HasSubstr("--surface foo is not in the study"));
+    EXPECT_THAT(surface.err, HasSubstr("dome, sine, two-bell, saddle"));
+    const Ended machine = with({"--machine", "ac-table"});
+    EXPECT_EQ(machine.exit_code, 2);
+    EXPECT_THAT(machine.err, HasSubstr("--machine ac-table is not in the study"));
+    const Ended points = with({"--points", "15", "--points", "17"});
+    EXPECT_EQ(points.exit_code, 2);
+    EXPECT_THAT(points.err, HasSubstr("--points 17 is not in the study"));
+    const Ended quick = with({"--quick", "--points", "12", "--points", "20"});
+    EXPECT_EQ(quick.exit_code, 2);
+    EXPECT_THAT(quick.err, HasSubstr("--quick --points 20 is not in the study"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {

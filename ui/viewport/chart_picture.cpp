@@ -4,18 +4,49 @@
 #include "ui/viewport/internal/desk.h"
 #include "ui/widgets/plot.h"
 
+#include <array>
 #include <cstddef>
+#include <iterator>
 #include <string>
 
 namespace millwright::viewport {
 
 namespace {
 
+constexpr std::size_t colours = std::size(widgets::Palette{}.series);
+
+/// Where the colours come again the lines are dashed, then dotted.
+widgets::Stroke stroke_of(std::size_t line) {
+    constexpr std::array strokes{widgets::Stroke::solid, widgets::Stroke::dashed, widgets::Stroke::dotted};
+    return strokes[line / colours % strokes.size()];
+}
+
+/// Five kinds, so that colour and sign come together again after thirty lines only.
+widgets::Marker marker_of(std::size_t line) {
+    constexpr std::array markers{widgets::Marker::disc,
+                                 widgets::Marker::square,
+                                 widgets::Marker::triangle,
+                                 widgets::Marker::ring,
+                                 widgets::Marker::cross};
+    return markers[line % markers.size()];
+}
+
 void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
     ui.heading(chart.title);
     std::vector<widgets::Series> series;
-    for (const ChartLine& line : chart.lines) {
-        series.push_back({.label = line.label, .x = line.x, .y = line.y, .is_filled = line.is_filled});
+    for (std::size_t n = 0; n < chart.lines.size(); ++n) {
+        const ChartLine& line = chart.lines[n];
+        series.push_back({.label = line.label,
+                          .x = line.x,
+                          .y = line.y,
+                          .is_filled = line.is_filled,
+                          .stroke = stroke_of(n),
+                          .marker = chart.shows_values ? marker_of(n) : widgets::Marker::none,
+                          .caption = line.caption});
+    }
+    std::vector<widgets::AxisTick> ticks;
+    for (const ChartTick& tick : chart.x_ticks) {
+        ticks.push_back({tick.at, tick.text});
     }
     widgets::PlotView view;
     view.x_label = chart.x_label;
@@ -24,6 +55,9 @@ void draw_chart(widgets::Ui& ui, const Chart& chart, float height) {
     view.series = series;
     view.y_is_log = chart.y_is_log;
     view.y_from_zero = !chart.y_is_log;
+    view.y_is_fitted = chart.shows_values;
+    view.x_ticks = ticks;
+    view.has_key = chart.has_key;
     view.height = height;
     (void)widgets::line_plot(ui, "lines", view);
 }

@@ -15,6 +15,12 @@ struct ChartLine {
     std::vector<double> x; ///< ascending
     std::vector<double> y; ///< as many; values that are not finite leave a gap
     bool is_filled = false;
+    std::string caption = {}; ///< above its middle
+};
+
+struct ChartTick {
+    double at = 0.0;
+    std::string text;
 };
 
 struct Chart {
@@ -24,6 +30,9 @@ struct Chart {
     std::string y_unit;
     bool y_is_log = false;
     std::vector<ChartLine> lines;
+    std::vector<ChartTick> x_ticks = {}; ///< ascending; empty: round numbers
+    bool shows_values = false;           ///< a sign at each: for few values, and y fitted to them
+    bool has_key = true;                 ///< the lines' labels
 };
 
 /// The charts one below the other. Throws Error where nothing can be drawn.

@@ -4,6 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "ui/widgets/internal/curve.h"
+#include "ui/widgets/internal/line_style.h"
 #include "ui/widgets/ticks.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,8 @@ namespace {
 
 constexpr float least_height = 80.0F;
 constexpr float line_width = 1.6F;
+constexpr float dash_length = 7.0F;
+constexpr float marker_size = 4.0F;
 constexpr float zeros_height = 22.0F; // the strip of the zeros of a logarithmic plot
 
 Colour series_colour(const Palette& colours, std::span<const Series> series, std::size_t index) {
@@ -86,7 +89,10 @@ std::optional<Mapping> mapping_of(const PlotView& view) {
     if (view.limit_y && mapping.has_place(0.0, *view.limit_y)) {
         y.add(*view.limit_y);
     }
-    if (view.y_is_log) {
+    if (view.y_is_log && view.y_is_fitted) {
+        const double more = std::pow(std::max(y.high / y.low, 1.1), 0.08);
+        y = {y.low / more, y.high * more};
+    } else if (view.y_is_log) {
         y.low = std::pow(10.0, std::floor(std::log10(y.low)));
         y.high = std::pow(10.0, std::floor(std::log10(y.high)) + 1.0);
     } else {
@@ -97,6 +103,10 @@ std::optional<Mapping> mapping_of(const PlotView& view) {
     }
     if (!(x.high > x.low)) {
         x = {x.low - 0.5, x.low + 0.5};
+    }
+    if (!view.x_ticks.empty()) { // room for the texts at the ends
+        const double more = 0.02 * (x.high - x.low);
+        x = {x.low - more, x.high + more};
     }
     if (!std::isfinite(x.high - x.low) || !std::isfinite(y.high - y.low)) {
         return std::nullopt; // wider than numbers go
@@ -112,23 +122,48 @@ std::string axis_title(std::string_view label, std::string_view unit) {
     return unit.empty() ? std::string(label) : fmt::format("{} ({})", label, unit);
 }
 
+using TextTicks = std::vector<std::pair<double, std::string>>;
+
+/// Powers of ten, between them 2 and 5 or all digits where that leaves too few.
+TextTicks fitted_log_ticks(const Mapping& mapping, int at_most) {
+    const int first = static_cast<int>(std::floor(std::log10(mapping.y_low)));
+    const int last = static_cast<int>(std::ceil(std::log10(mapping.y_high)));
+    TextTicks found;
+    for (const std::vector<int>& digits : {std::vector{1, 2, 3, 4, 5, 6, 7, 8, 9}, {1, 2, 5}, {1}}) {
+        TextTicks tried;
+        for (int exponent = first; exponent <= last; ++exponent) {
+            for (const int digit : digits) {
+                const double value = digit * std::pow(10.0, exponent);
+                if (value >= mapping.y_low && value <= mapping.y_high) {
+                    tried.emplace_back(value, fmt::format("{:g}", value));
+                }
+            }
+        }
+        if (found.empty() || tried.size() > 1) {
+            found = std::move(tried);
+        }
+        if (std::ssize(found) <= at_most) {
+            break;
+        }
+    }
+    return found;
+}
+
 /// Powers of ten, thinned out to what fits.
-std::vector<std::pair<double, std::string>> log_ticks(const Mapping& mapping, int at_most) {
+TextTicks log_ticks(const Mapping& mapping, int at_most) {
     const int first = static_cast<int>(std::lround(std::log10(mapping.y_low)));
     const int last = static_cast<int>(std::lround(std::log10(mapping.y_high)));
     const int step = std::max(1, (last - first + at_most) / std::max(1, at_most));
-    std::vector<std::pair<double, std::string>> found;
+    TextTicks found;
     for (int exponent = first; exponent <= last; exponent += step) {
         found.emplace_back(std::pow(10.0, exponent), fmt::format("1e{}", exponent));
     }
     return found;
 }
 
-using TextTicks = std::vector<std::pair<double, std::string>>;
-
-TextTicks y_ticks(const Mapping& mapping, int at_most) {
+TextTicks y_ticks(const Mapping& mapping, int at_most, bool is_fitted) {
     if (mapping.y_is_log) {
-        return log_ticks(mapping, at_most);
+        return is_fitted ? fitted_log_ticks(mapping, at_most) : log_ticks(mapping, at_most);
     }
     const Ticks found = scale_ticks(mapping.y_low, mapping.y_high, at_most);
     TextTicks texts;
@@ -147,23 +182,82 @@ float gutter_of(const Ui& ui, const TextTicks& ticks) {
     return width;
 }
 
-/// Title at the left, the series and their colours at the right, of the line above the plot.
-void draw_key(Ui& ui, const Rect& line, const PlotView& view) {
-    const ImFont* font = ui.look().fonts.small;
-    const std::string title = axis_title(view.y_label, view.y_unit);
-    draw_text(ui, font, line, ui.colours().muted, title);
-    float right = line.right();
-    for (std::size_t i = view.series.size(); i-- > 0;) {
-        const std::string_view label = view.series[i].label;
-        const float width = text_width(font, label);
-        draw_text(ui, font, {right - width, line.y, width, line.h}, ui.colours().text, label);
-        const float swatch = ui.px(12.0F);
-        const float x = right - width - swatch - ui.px(5.0F);
-        fill({x, std::round(line.centre().y) - ui.px(1.5F), swatch, ui.px(3.0F)},
-             series_colour(ui.colours(), view.series, i),
-             ui.px(1.5F));
-        right = x - ui.px(14.0F);
+std::string key_title(const PlotView& view) {
+    const std::string y = axis_title(view.y_label, view.y_unit);
+    return view.x_ticks.empty() || view.x_label.empty()
+               ? y
+               : fmt::format("{} over {}", y, axis_title(view.x_label, view.x_unit));
+}
+
+float swatch_width(const Ui& ui, const Series& series) {
+    return ui.px(series.marker == Marker::none && series.stroke == Stroke::solid ? 12.0F : 34.0F);
+}
+
+float key_entry_width(const Ui& ui, const Series& series) {
+    return text_width(ui.look().fonts.small, series.label) + swatch_width(ui, series) + ui.px(19.0F);
+}
+
+/// Where each line of the key begins: as many labels as stand beside the title, then as many as fit.
+std::vector<std::size_t> key_lines(const Ui& ui, const PlotView& view, float width) {
+    std::vector<std::size_t> first;
+    float rest = 0.0F;
+    for (std::size_t i = 0; view.has_key && i < view.series.size(); ++i) {
+        const float needed = key_entry_width(ui, view.series[i]);
+        if (first.empty() || rest < needed) {
+            rest = first.empty() ? width - text_width(ui.look().fonts.small, key_title(view)) : width;
+            first.push_back(i);
+        }
+        rest -= needed;
     }
+    return first;
+}
+
+void draw_swatch(Ui& ui, const Rect& box, const Series& series, Colour colour) {
+    if (series.marker == Marker::none && series.stroke == Stroke::solid) {
+        fill({box.x, std::round(box.centre().y) - ui.px(1.5F), box.w, ui.px(3.0F)}, colour, ui.px(1.5F));
+        return;
+    }
+    const float y = std::round(box.centre().y);
+    draw_stroke({{box.x, y}, {box.right(), y}}, series.stroke, colour, ui.px(line_width), ui.px(dash_length));
+    draw_marker(series.marker, {box.centre().x, y}, colour, ui.px(marker_size));
+}
+
+/// Title at the left, the series and their colours at the right, of the lines above the plot.
+void draw_key(Ui& ui, Rect line, const PlotView& view, const std::vector<std::size_t>& first) {
+    const ImFont* font = ui.look().fonts.small;
+    draw_text(ui, font, line, ui.colours().muted, key_title(view));
+    for (std::size_t row = 0; row < first.size(); ++row) {
+        float right = line.right();
+        for (std::size_t i = row + 1 < first.size() ? first[row + 1] : view.series.size();
+             i-- > first[row];) {
+            const Series& series = view.series[i];
+            const float width = text_width(font, series.label);
+            draw_text(ui, font, {right - width, line.y, width, line.h}, ui.colours().text, series.label);
+            const float swatch = swatch_width(ui, series);
+            draw_swatch(ui,
+                        {right - width - ui.px(5.0F) - swatch, line.y, swatch, line.h},
+                        series,
+                        series_colour(ui.colours(), view.series, i));
+            right -= key_entry_width(ui, series);
+        }
+        line.y += line.h;
+    }
+}
+
+TextTicks x_ticks(const Ui& ui, const Mapping& mapping, const PlotView& view) {
+    TextTicks texts;
+    for (const AxisTick& tick : view.x_ticks) {
+        texts.emplace_back(tick.at, tick.text);
+    }
+    if (!texts.empty()) {
+        return texts;
+    }
+    const Ticks found =
+        ticks(mapping.x_low, mapping.x_high, std::max(2, static_cast<int>(mapping.box.w / ui.px(70.0F))));
+    for (const double value : found.values) {
+        texts.emplace_back(value, tick_text(value, found));
+    }
+    return texts;
 }
 
 /// `bottom`: where x is told, below everything.
@@ -179,16 +273,14 @@ void draw_axes(
         const float right = box.x - ui.px(6.0F);
         draw_text(ui, font, {left, y - 0.5F * line, right - left, line}, colours.muted, text, Align::right);
     }
-    const Ticks found =
-        ticks(mapping.x_low, mapping.x_high, std::max(2, static_cast<int>(box.w / ui.px(70.0F))));
-    const std::string title = axis_title(view.x_label, view.x_unit);
+    const bool titled = view.x_ticks.empty(); // else the key tells it, and the texts have all the room
+    const std::string title = titled ? axis_title(view.x_label, view.x_unit) : std::string();
     const float title_x = box.right() - text_width(font, title);
-    for (const double value : found.values) {
-        const std::string text = tick_text(value, found);
+    for (const auto& [value, text] : x_ticks(ui, mapping, view)) {
         const float half = 0.5F * text_width(font, text);
         const float x = mapping.pixel_x(value);
         fill({std::round(x), bottom, 1.0F, ui.px(4.0F)}, colours.line);
-        if (x + half < title_x - ui.px(8.0F)) {
+        if (!titled || x + half < title_x - ui.px(8.0F)) {
             const Rect place{x - half, bottom + ui.px(5.0F), 2.0F * half + 1.0F, line};
             draw_text(ui, font, place, colours.muted, text, Align::centre);
         }
@@ -207,7 +299,13 @@ void draw_series(Ui& ui, const Mapping& mapping, const PlotView& view) {
             if (series.is_filled) {
                 fill_below(run, mapping.box.bottom(), faded(colour, 0.25));
             }
-            draw_run(run, colour, ui.px(line_width));
+            draw_stroke(run, series.stroke, colour, ui.px(line_width), ui.px(dash_length));
+        }
+        for (std::size_t n = 0; series.marker != Marker::none && n < series.x.size(); ++n) {
+            if (mapping.has_place(series.x[n], series.y[n])) {
+                const ImVec2 at{mapping.pixel_x(series.x[n]), mapping.pixel_y(series.y[n])};
+                draw_marker(series.marker, at, colour, ui.px(marker_size));
+            }
         }
     }
     if (view.limit_y && mapping.has_place(0.0, *view.limit_y)) {
@@ -222,6 +320,26 @@ void draw_series(Ui& ui, const Mapping& mapping, const PlotView& view) {
         fill({x - 0.5F, mapping.box.y, ui.px(1.5F), mapping.box.h}, ui.colours().accent);
     }
     ImGui::PopClipRect();
+}
+
+void draw_captions(Ui& ui, const Mapping& mapping, const PlotView& view) {
+    const ImFont* font = ui.look().fonts.small;
+    for (const Series& series : view.series) {
+        const auto run = runs(mapping, series.x, series.y);
+        if (series.caption.empty() || run.empty()) {
+            continue;
+        }
+        const auto [low, high] = std::ranges::minmax(run.front(), {}, &ImVec2::y);
+        const float middle = 0.5F * (run.front().front().x + run.back().back().x);
+        const float half = 0.5F * text_width(font, series.caption);
+        const float y = std::max(mapping.box.y, low.y - font->FontSize - ui.px(1.0F));
+        draw_text(ui,
+                  font,
+                  {middle - half, y, 2.0F * half + 1.0F, font->FontSize},
+                  ui.colours().text,
+                  series.caption,
+                  Align::centre);
+    }
 }
 
 /// A cross for each zero of a logarithmic plot, in `strip` below its curves.
@@ -284,11 +402,13 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
         return std::nullopt;
     }
     const float line = ui.look().fonts.small->FontSize;
-    draw_key(ui, {all.x, all.y, all.w, line}, view);
-    const float top = line + ui.px(6.0F);
+    const std::vector<std::size_t> key = key_lines(ui, view, all.w);
+    draw_key(ui, {all.x, all.y, all.w, line}, view, key);
+    const float top = line * static_cast<float>(std::max<std::size_t>(key.size(), 1)) + ui.px(6.0F);
     const float inside = all.h - top - line - ui.px(6.0F);
     const float strip = has_zeros(view) ? ui.px(zeros_height) : 0.0F;
-    const TextTicks rows = y_ticks(*mapping, std::max(2, static_cast<int>((inside - strip) / (2.2F * line))));
+    const TextTicks rows =
+        y_ticks(*mapping, std::max(2, static_cast<int>((inside - strip) / (2.2F * line))), view.y_is_fitted);
     const float left = gutter_of(ui, rows);
     const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), inside};
     fill(box, ui.colours().field, ui.px(2.0F));
@@ -302,6 +422,7 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
         record_at(ui, own + "/zeros", zeros);
     }
     draw_series(ui, *mapping, view);
+    draw_captions(ui, *mapping, view);
     if (now.hovered) {
         read_out(ui, own, *mapping, view);
     }

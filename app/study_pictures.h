@@ -1,0 +1,15 @@
+// The study of the kinematic error as pictures: largest error, mean error and largest axis deviation.
+#pragma once
+
+#include "app/outputs.h"
+#include "core/project/kinematic_study.h"
+
+#include <vector>
+
+namespace millwright::app {
+
+/// A PNG file a surface and machine: a curve a method over the numbers of points, or a bar a method where
+/// there is one number. `rows` as project::studied gives them, case after case.
+[[nodiscard]] std::vector<OutputFile> study_pictures(const std::vector<project::StudyRow>& rows);
+
+} // namespace millwright::app
