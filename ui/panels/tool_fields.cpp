@@ -1,6 +1,7 @@
 #include "ui/panels/tool_fields.h"
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/tool_settings.h"
@@ -67,9 +68,10 @@ void gain_text(Ui& ui, const Workbench& now) {
              "Mean error",
              both(length_text(before.closest.mean), length_text(after->closest.mean)),
              "mm");
+    const auto whole = [](double angle) { return fixed(to_degrees(angle), 0); };
     ui.value("both_travel",
              "Rotation",
-             both(angle_text(before.axes.rotary_travel), angle_text(after->axes.rotary_travel)),
+             both(whole(before.axes.rotary_travel), whole(after->axes.rotary_travel)),
              "deg");
     if (plan.unsequenced_time) {
         ui.value("both_time",
