@@ -7,8 +7,10 @@
 #include "core/exchange/internal/cad_faces.h"
 #include "core/exchange/internal/cad_frames.h"
 #include "core/exchange/internal/cad_reading.h"
+#include "core/exchange/internal/cad_text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/occt.h"
+#include "core/exchange/internal/told_text.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -37,11 +39,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
+#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace millwright::exchange {
 
@@ -99,10 +102,9 @@ std::string unit_of(const IGESControl_Reader& reader) {
 }
 
 /// Why a file that begins as it should is none that can be read.
-[[noreturn]] void refuse_damaged(const std::filesystem::path& file) {
+[[noreturn]] void refuse_damaged(const std::string& text, const std::filesystem::path& file) {
     constexpr std::string_view last = "END-ISO-10303-21";
     constexpr std::size_t enough = 4096;
-    const std::string text = read_file(file);
     const bool ends = text.find(last, text.size() - std::min(text.size(), enough)) != std::string::npos;
     if (is_step_name(file) && !ends) {
         throw Error(fmt::format("the file is cut off: it does not end with {}", last),
@@ -112,22 +114,48 @@ std::string unit_of(const IGESControl_Reader& reader) {
     throw Error("the file is damaged, no model can be read from it", file);
 }
 
+// Shares of the time, measured on 18,000 faces in 38 MB.
+constexpr double text_looked_through = 0.02;
+constexpr double text_read = 0.15;
+constexpr double model_read = 0.22;
+constexpr double shapes_made = 0.65;
+
+void load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
+    const std::string text = read_file(file);
+    const int faces = checked_step_text(text, file, progress.part(0.0, text_looked_through));
+    expect_not_too_many(faces, file);
+    const std::string of = faces == 1 ? "1 face" : fmt::format("{} faces", faces);
+    progress.report(text_looked_through, "reading the text of " + of);
+    ToldText told(text, progress.part(text_looked_through, text_read), "reading the entities of " + of);
+    std::istream stream(&told);
+    if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone) {
+        refuse_damaged(text, file);
+    }
+}
+
+void load(IGESControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
+    const std::string text = read_file(file);
+    check_iges_text(text, file, progress.part(0.0, text_looked_through));
+    progress.report(text_looked_through, "reading the file");
+    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+        refuse_damaged(text, file);
+    }
+}
+
 template <typename Reader>
 CadModel read_by(Reader reader, const std::filesystem::path& file, const Progress& progress) {
     progress.report(0.0, "reading the file");
-    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-        refuse_damaged(file);
-    }
-    expect_not_too_many_faces(*reader.Model(), file);
+    load(reader, file, progress);
     progress.check();
-    const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
+    progress.report(model_read, "making shapes");
+    const Handle(OcctProgress) indicator = new OcctProgress(progress.part(model_read, shapes_made));
     reader.TransferRoots(indicator->Start());
     progress.check();
     const TopoDS_Shape shape = reader.OneShape();
     if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
         refuse_without_face(shape, *reader.Model(), file);
     }
-    CadModel model = faces_of(shape, file, progress.part(0.6, 1.0));
+    CadModel model = faces_of(shape, file, progress.part(shapes_made, 1.0));
     model.unit = unit_of(reader);
     return model;
 }
@@ -222,13 +250,12 @@ void heed(const Frame& frame,
     if (frame.kind == FrameKind::model) {
         model = unpacked(frame.bytes);
     } else if (frame.kind == FrameKind::error) {
-        const std::size_t end = std::min(frame.bytes.find('\0'), frame.bytes.size());
-        const std::size_t hint = std::min(end + 1, frame.bytes.size());
-        throw Error(frame.bytes.substr(0, end), file, frame.bytes.substr(hint));
-    } else if (frame.bytes.size() == sizeof(double)) {
-        double fraction = 0.0;
-        std::memcpy(&fraction, frame.bytes.data(), sizeof fraction);
-        progress.report(fraction, "reading the file");
+        Diagnostic diagnostic = told_error(frame);
+        diagnostic.place.file = file;
+        throw Error(std::move(diagnostic));
+    } else {
+        const Progress::Report report = told_progress(frame);
+        progress.report(report.fraction, report.text);
     }
 }
 

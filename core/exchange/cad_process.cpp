@@ -18,23 +18,14 @@ bool say(const Frame& frame) {
     return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
 }
 
-bool say_error(const std::string& message, const std::string& hint) {
-    return say({FrameKind::error, message + '\0' + hint});
-}
-
 int read(const char* file) {
-    const Progress progress(
-        [](const Progress::Report& report) {
-            const double fraction = report.fraction;
-            (void)say({FrameKind::progress, {reinterpret_cast<const char*>(&fraction), sizeof fraction}});
-        },
-        {});
+    const Progress progress([](const Progress::Report& report) { (void)say(progress_frame(report)); }, {});
     try {
         return say({FrameKind::model, packed(read_cad_here(file, progress))}) ? 0 : 1;
     } catch (const Error& error) {
-        return say_error(error.diagnostic().message, error.diagnostic().hint) ? 0 : 1;
+        return say(error_frame(error.diagnostic())) ? 0 : 1;
     } catch (const std::exception& failure) {
-        return say_error(std::string("the file cannot be read: ") + failure.what(), "") ? 0 : 1;
+        return say(error_frame({{}, std::string("the file cannot be read: ") + failure.what(), ""})) ? 0 : 1;
     }
 }
 

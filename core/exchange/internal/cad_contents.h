@@ -8,9 +8,8 @@
 
 namespace millwright::exchange {
 
-/// Throws Error about `file` if a STEP model has more faces than can be read: before they are made, which
-/// takes its time.
-void expect_not_too_many_faces(const Interface_InterfaceModel& model, const std::filesystem::path& file);
+/// Throws Error about `file` if there are more than can be read: before they are made, which takes its time.
+void expect_not_too_many(int faces, const std::filesystem::path& file);
 
 /// Throws Error about `file`: it has no face. `shape` may be null, where nothing of the model became one.
 [[noreturn]] void refuse_without_face(const TopoDS_Shape& shape,

@@ -32,6 +32,19 @@ namespace {
 using geometry::BezierPatch;
 using geometry::ControlNet;
 
+/// Calls `work`; what the library throws becomes an Error that says what could not be done.
+template <typename Work> auto told_as(const char* what, Work work) {
+    try {
+        return work();
+    } catch (const Standard_Failure& failure) {
+        const char* const reason = failure.GetMessageString();
+        throw Error(
+            fmt::format("{} (Open CASCADE: {})",
+                        what,
+                        reason != nullptr && *reason != '\0' ? reason : failure.DynamicType()->Name()));
+    }
+}
+
 /// The same face on a B-spline surface, its boundary in the parameters of that.
 TopoDS_Face as_nurbs(const TopoDS_Face& face) {
     BRepBuilderAPI_NurbsConvert converted(face);
@@ -61,9 +74,17 @@ within(std::pair<double, double> bounds, std::pair<double, double> own, bool per
     return {snapped(bounds.first), std::min(snapped(bounds.second), snapped(bounds.first) + range)};
 }
 
+void expect_area(const std::pair<double, double>& bounds) {
+    if (!(bounds.first < bounds.second) || !std::isfinite(bounds.second - bounds.first)) {
+        throw Error("its boundary encloses no part of its surface");
+    }
+}
+
 Bounded bounded(const TopoDS_Face& face) {
     Bounded result;
     BRepTools::UVBounds(face, result.u.first, result.u.second, result.v.first, result.v.second);
+    expect_area(result.u);
+    expect_area(result.v);
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
     result.surface = Handle(Geom_BSplineSurface)::DownCast(surface);
     if (result.surface.IsNull()) {
@@ -180,33 +201,53 @@ bool is_everything(const std::vector<Vec2>& outline, int rows, int columns) {
     });
 }
 
-CadFace face_of(const TopoDS_Face& original, int number) {
-    const TopoDS_Face face = as_nurbs(original);
-    const Bounded part = bounded(face);
+/// The patches of the face, and the knots between them.
+struct Raster {
+    CadFace face;
+    Knots knots;
+};
+
+Raster raster_of(const Bounded& part) {
     GeomConvert_BSplineSurfaceToBezierSurface pieces(
         part.surface, part.u.first, part.u.second, part.v.first, part.v.second, 1e-9);
-    CadFace result;
-    result.number = number;
-    result.rows = pieces.NbUPatches();
-    result.columns = pieces.NbVPatches();
-    for (int i = 1; i <= result.rows; ++i) {
-        for (int j = 1; j <= result.columns; ++j) {
-            result.patches.push_back(patch_of(*pieces.Patch(i, j)));
+    Raster result{
+        CadFace{},
+        {TColStd_Array1OfReal(1, pieces.NbUPatches() + 1), TColStd_Array1OfReal(1, pieces.NbVPatches() + 1)}};
+    result.face.rows = pieces.NbUPatches();
+    result.face.columns = pieces.NbVPatches();
+    for (int i = 1; i <= result.face.rows; ++i) {
+        for (int j = 1; j <= result.face.columns; ++j) {
+            result.face.patches.push_back(patch_of(*pieces.Patch(i, j)));
         }
     }
-    Knots knots{TColStd_Array1OfReal(1, result.rows + 1), TColStd_Array1OfReal(1, result.columns + 1)};
-    pieces.UKnots(knots.u);
-    pieces.VKnots(knots.v);
+    pieces.UKnots(result.knots.u);
+    pieces.VKnots(result.knots.v);
+    return result;
+}
+
+void take_boundary(CadFace& result, const TopoDS_Face& face, const Knots& knots) {
     const TopoDS_Wire outer = BRepTools::OuterWire(face);
     result.outline = loop_of(outer, face, knots);
     result.holes = holes_of(face, outer, knots);
     if (result.holes.empty() && is_everything(result.outline, result.rows, result.columns)) {
         result.outline.clear();
     }
+}
+
+CadFace face_of(const TopoDS_Face& original, int number) {
+    const TopoDS_Face face =
+        told_as("its surface cannot be made a B-spline", [&] { return as_nurbs(original); });
+    const Bounded part = told_as("its boundary does not lie on its surface", [&] { return bounded(face); });
+    auto [result, knots] =
+        told_as("its surface cannot be divided into patches", [&] { return raster_of(part); });
+    result.number = number;
+    told_as("its boundary cannot be followed on its surface",
+            [&, &result = result, &knots = knots] { take_boundary(result, face, knots); });
     if (face.Orientation() == TopAbs_REVERSED) {
         turn_over(result);
     }
-    result.box = box_of(result, original);
+    result.box =
+        told_as("its size cannot be told", [&, &result = result] { return box_of(result, original); });
     return result;
 }
 
@@ -235,26 +276,22 @@ CadModel faces_of(const TopoDS_Shape& shape, const std::filesystem::path& file, 
         progress.check();
         progress.report(static_cast<double>(n) / static_cast<double>(faces.size()), "converting faces");
         const int number = static_cast<int>(n) + 1;
-        const auto leave_out = [&](const char* reason) {
-            model.left_out.push_back(fmt::format("face {}: {}", number, reason));
-        };
         try {
             model.faces.push_back(face_of(faces[n], number));
             patches += std::ssize(model.faces.back().patches);
-        } catch (const Standard_Failure& failure) {
-            const char* const reason = failure.GetMessageString();
-            leave_out(reason != nullptr && *reason != '\0' ? reason : failure.DynamicType()->Name());
         } catch (const Error& error) {
-            leave_out(error.diagnostic().message.c_str());
+            model.left_out.push_back(fmt::format("face {}: {}", number, error.diagnostic().message));
         }
         if (patches > most_cad_patches) {
             throw Error(fmt::format("more than {} Bezier patches", most_cad_patches), file, write_fewer);
         }
     }
     if (model.faces.empty()) {
-        throw Error(
-            fmt::format("none of the {} faces can be converted: {}", faces.size(), model.left_out.front()),
-            file);
+        throw Error(faces.size() == 1 ? "the only face cannot be converted: " + model.left_out.front()
+                                      : fmt::format("none of the {} faces can be converted: {}",
+                                                    faces.size(),
+                                                    model.left_out.front()),
+                    file);
     }
     return model;
 }

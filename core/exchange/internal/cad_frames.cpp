@@ -171,6 +171,40 @@ std::optional<Frame> take_frame(std::string& stream) {
     return frame;
 }
 
+Frame progress_frame(const Progress::Report& report) {
+    Packer to;
+    to.put(report.fraction);
+    to.put_text(report.text);
+    return {FrameKind::progress, std::move(to).take()};
+}
+
+Frame error_frame(const Diagnostic& diagnostic) {
+    Packer to;
+    to.put(diagnostic.place.line);
+    to.put_text(diagnostic.message);
+    to.put_text(diagnostic.hint);
+    return {FrameKind::error, std::move(to).take()};
+}
+
+Progress::Report told_progress(const Frame& frame) {
+    Unpacker from(frame.bytes);
+    Progress::Report report;
+    report.fraction = from.get<double>();
+    report.text = from.get_text();
+    from.expect_end();
+    return report;
+}
+
+Diagnostic told_error(const Frame& frame) {
+    Unpacker from(frame.bytes);
+    Diagnostic diagnostic;
+    diagnostic.place.line = from.get<int>();
+    diagnostic.message = from.get_text();
+    diagnostic.hint = from.get_text();
+    from.expect_end();
+    return diagnostic;
+}
+
 std::string packed(const CadModel& model) {
     Packer to;
     to.put_text(model.unit);

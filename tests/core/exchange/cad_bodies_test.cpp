@@ -1,6 +1,8 @@
 // Bodies that Open CASCADE itself writes: faces of all kinds, trimmed, in other units, as IGES.
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/exchange/cad_file.h"
+#include "core/exchange/internal/cad_faces.h"
 #include "tests/support/scratch_folder.h"
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -21,15 +23,18 @@
 #include <STEPControl_Writer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace millwright::exchange {
 namespace {
@@ -263,6 +268,64 @@ TEST_F(CadBodies, ThousandsOfFacesComeWithProgressAndCanBeCancelled) {
         stop.get_token());
     EXPECT_THROW((void)read_cad(folder_ / "body.step", progress), Cancelled);
     EXPECT_GT(last, 0.7);
+}
+
+// A plane without an end. The library's own words alone may be "NCollection_Array1::Value".
+TEST_F(CadBodies, FaceThatCannotBeConvertedIsLeftOutWithAReason) {
+    const BRep_Builder builder;
+    TopoDS_Compound both;
+    builder.MakeCompound(both);
+    builder.Add(both, BRepBuilderAPI_MakeFace(gp_Pln()).Shape());
+    builder.Add(both, BRepPrimAPI_MakeSphere(20.0).Shape());
+    const CadModel model = faces_of(both, "both.step", {});
+    EXPECT_EQ(model.faces.size(), 1U);
+    EXPECT_THAT(model.left_out,
+                ::testing::ElementsAre(
+                    ::testing::StartsWith("face 1: its surface cannot be made a B-spline (Open CASCADE: ")));
+}
+
+TEST_F(CadBodies, ReadingTellsHowManyFacesAndHowFar) {
+    (void)through_step(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape());
+    std::vector<std::string> told;
+    const Progress progress(
+        [&](const Progress::Report& now) {
+            if (told.empty() || told.back() != now.text) {
+                told.push_back(now.text);
+            }
+        },
+        {});
+    (void)read_cad(folder_ / "body.step", progress);
+    EXPECT_THAT(told,
+                ::testing::ElementsAre("reading the file",
+                                       "reading the text of 6 faces",
+                                       "reading the entities of 6 faces",
+                                       "making shapes",
+                                       "converting faces"));
+}
+
+TEST_F(CadBodies, NumbersOfIgesThatAreNoneAreRefusedWithTheirLine) {
+    (void)through_iges(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape());
+    const std::string whole = read_file(folder_ / "body.igs");
+    const std::string corner = "110,0.,0.,0.,0.,0.,10.;      ";
+    const std::size_t found = whole.find(corner);
+    ASSERT_NE(found, std::string::npos);
+    const std::ptrdiff_t line =
+        1 + std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(found), '\n');
+    for (const char* no_number : {"nan", "1e400", "1.D999", "-INF", "1.#INF"}) {
+        std::string text = whole;
+        text.replace(found,
+                     corner.size(),
+                     fmt::format("{:{}}", fmt::format("110,0.,0.,0.,0.,0.,{};", no_number), corner.size()));
+        write_file(folder_ / "broken.igs", text);
+        try {
+            (void)read_cad(folder_ / "broken.igs", {});
+            FAIL() << no_number;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("entity of type 110: \""));
+            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("is no finite number"));
+            EXPECT_EQ(error.diagnostic().place.line, line) << no_number;
+        }
+    }
 }
 
 TEST_F(CadBodies, IgesIsTheSame) {

@@ -5,11 +5,14 @@
 #include "core/geometry/presets.h"
 #include "tests/support/scratch_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 namespace millwright::exchange {
 namespace {
@@ -188,6 +191,60 @@ TEST_F(CadFile, WhatBreaksTheLibraryBreaksNothingElse) {
     ASSERT_NE(vector, std::string::npos);
     text.replace(vector, 11, "VECTOR('',#9");
     EXPECT_NE(refusal(text, "broken.step"), "none");
+}
+
+/// What is said of the dome with `from`, which it holds, as `to`.
+std::string dome_with(const std::string& text, std::string_view from, std::string_view to) {
+    const std::size_t found = text.find(from);
+    EXPECT_NE(found, std::string::npos) << from;
+    return std::string(text).replace(found, from.size(), to);
+}
+
+// The library takes nan and 1e400 for coordinates; with some it never ends, others it lets pass.
+TEST_F(CadFile, NumbersThatAreNoneAreRefusedWithTheirLine) {
+    write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
+    const std::string whole = read_file(folder_ / "whole.step");
+    const std::string point = "CARTESIAN_POINT('',(0.,0.,0.))";
+    for (const char* no_number : {"nan", "-NaN", "inf", "1e400", "-1.E+999", "1.#INF", "1.#QNAN", "0.0.0"}) {
+        const std::string text =
+            dome_with(whole, point, fmt::format("CARTESIAN_POINT('',(0.,{},0.))", no_number));
+        try {
+            (void)read_text(text, "broken.step");
+            FAIL() << no_number;
+        } catch (const Error& error) {
+            const Diagnostic& said = error.diagnostic();
+            EXPECT_THAT(said.message,
+                        HasSubstr(fmt::format("CARTESIAN_POINT: \"{}\" is no finite number", no_number)));
+            EXPECT_EQ(said.message.front(), '#');
+            const std::ptrdiff_t lines = std::count(
+                text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(no_number)), '\n');
+            EXPECT_EQ(said.place.line, lines + 1) << no_number;
+        }
+    }
+    EXPECT_THAT(refusal(dome_with(whole, point, "CARTESIAN_POINT('',(0.,0.,-1.E10))"), "far.step"),
+                HasSubstr("\"-1.E10\" is no coordinate of a part, they end at 1000000000"));
+    EXPECT_THAT(refusal(dome_with(whole, "VECTOR('',#", "VECTOR('',1e999,#"), "vector.step"),
+                HasSubstr("VECTOR: \"1e999\""));
+}
+
+TEST_F(CadFile, WhatOnlyLooksLikeANumberIsRead) {
+    write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
+    const std::string whole = read_file(folder_ / "whole.step");
+    const std::string point = "CARTESIAN_POINT('',(0.,0.,0.))";
+    for (const char* fine : {"CARTESIAN_POINT('(nan,1e400,inf)',(0.,0.,0.))",
+                             "CARTESIAN_POINT('it''s (nan',(0.,0.,0.))",
+                             "CARTESIAN_POINT /* (1e400) */ ('',(0.,0.E-999,-0))",
+                             "CARTESIAN_POINT\n('',\n(0., +0.E+00,0.))"}) {
+        EXPECT_EQ(read_text(dome_with(whole, point, fine), "fine.step").faces.size(), 1U) << fine;
+    }
+}
+
+TEST_F(CadFile, TooManyFacesAreRefusedBeforeTheModelIsRead) {
+    std::string faces;
+    for (int n = 1; n <= most_cad_faces + 1; ++n) {
+        faces += fmt::format("#{}=ADVANCED_FACE('',(),#{},.T.);\n", n, n);
+    }
+    EXPECT_EQ(refusal(step_of(faces), "many.step"), "the file has 20001 faces, more than 20000");
 }
 
 TEST_F(CadFile, CanBeCancelled) {
