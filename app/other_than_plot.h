@@ -5,8 +5,11 @@
 
 namespace millwright::app {
 
-/// Throws Error with the commands for it if the file is a G-code program, a picture or a path file. Pipes are
-/// left alone: what is looked at in them is gone.
+/// Throws Error with the commands for it if the file is a picture or a path file. Pipes are left alone: what
+/// is looked at in them is gone.
 void expect_no_other_than_plot(const std::filesystem::path& file);
+
+/// Whether it begins as G-code does. Pipes are left alone.
+[[nodiscard]] bool is_gcode_file(const std::filesystem::path& file);
 
 } // namespace millwright::app

@@ -45,6 +45,14 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     cut.safe_height = options.cutting.safe_height;
     cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
     cut.levels = plot::levels_for(strokes, like);
+    for (plot::Level& level : cut.levels) {
+        const auto drawn = std::ranges::find(options.drawn_levels, level.pen, &plot::Level::pen);
+        if (drawn != options.drawn_levels.end()) {
+            const int order = level.order;
+            level = *drawn;
+            level.order = order;
+        }
+    }
     std::vector<plot::Level> named;
     for (const std::string& text : options.levels) {
         const int pen = plot::parse_level(text, like).pen;

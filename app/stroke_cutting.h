@@ -19,6 +19,7 @@ struct StrokeCutting {
     int passes = 1;
     plot::Tabs tabs = {};
     std::vector<std::string> levels;
+    std::vector<plot::Level> drawn_levels; ///< what the drawing itself says of its pens; others: as above
 };
 
 /// Both lengths and their sum in m, and the lifts: "0.043 m (0.040 m drawn, 0.003 m in the air), 1 lift".

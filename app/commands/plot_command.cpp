@@ -1,9 +1,9 @@
 #include "app/commands/plot_command.h"
 
 #include "app/commands/plot_play.h"
+#include "app/commands/plot_program.h"
 #include "app/finite_number.h"
 #include "app/names.h"
-#include "app/other_than_plot.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -70,6 +70,8 @@ struct Options {
     std::optional<double> fastest;
     int decimals = 2;
     StrokeCutting cutting;
+    ProgramReading program;
+    const CLI::App* command = nullptr; ///< that was called
 };
 
 /// A length in mm, or one along x and one along y with a comma between.
@@ -109,7 +111,6 @@ plot::PlotterUnit unit_of(const std::string& text) {
 }
 
 Plot read(const Options& options) {
-    expect_no_other_than_plot(options.file);
     plot::ReaderSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
@@ -195,7 +196,24 @@ std::string strokes_of_pens(const Plot& plot) {
            counted(plot::levels_for(plot.strokes).size(), "pen", "pens");
 }
 
+bool is_program(const Options& options) {
+    return takes_program(*options.command, options.file);
+}
+
+/// With --safe-height and --arc-tolerance, which plots have too.
+ProgramReading program_reading(const Options& options) {
+    ProgramReading reading = options.program;
+    reading.chord_tolerance = options.reading.arc_tolerance;
+    if (options.command->count("--safe-height") > 0) {
+        reading.safe_height = options.cutting.cutting.safe_height;
+    }
+    return reading;
+}
+
 int info(const Options& options) {
+    if (is_program(options)) {
+        return program_info(options.file, program_reading(options), options.json);
+    }
     if (options.json) {
         const Plot plot = read(options);
         fmt::print("{}\n",
@@ -219,13 +237,20 @@ int info(const Options& options) {
     return 0;
 }
 
-int decode(const Options& options) {
+std::vector<Vec3> points_of(const Options& options) {
+    if (is_program(options)) {
+        const bool flat = options.command->count("--pen-up") + options.command->count("--pen-down") > 0;
+        return program_points(options.file, program_reading(options), options.decode, options.fastest, flat);
+    }
     const Plot plot = read_to_use(options);
     plot::DecodeSettings decoding = options.decode;
     decoding.end = plot.end;
-    const std::vector<Vec3> points = options.fastest
-                                         ? plot::decode_within(*options.fastest, plot.strokes, decoding)
-                                         : plot::decode(plot.strokes, decoding);
+    return options.fastest ? plot::decode_within(*options.fastest, plot.strokes, decoding)
+                           : plot::decode(plot.strokes, decoding);
+}
+
+int decode(const Options& options) {
+    const std::vector<Vec3> points = points_of(options);
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
                counted(points.size(), "point", "points"),
@@ -234,15 +259,20 @@ int decode(const Options& options) {
 }
 
 int view(const Options& options) {
+    const plot::AirInSvg air = options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown;
+    if (is_program(options)) {
+        return program_view(options.file, program_reading(options), air, options.out);
+    }
     const Plot plot = read_to_use(options);
-    write_file(
-        options.out,
-        plot::svg_text(plot.strokes, options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown));
+    write_file(options.out, plot::svg_text(plot.strokes, air));
     fmt::print("{}\n", strokes_of_pens(plot));
     return 0;
 }
 
 int toolpath(const Options& options) {
+    if (is_program(options)) {
+        return program_toolpath(options.file, program_reading(options), options.cutting, *options.command);
+    }
     const Plot plot = read_to_use(options);
     cut_strokes(plot.strokes,
                 plot.end,
@@ -254,7 +284,7 @@ int toolpath(const Options& options) {
 CLI::App&
 add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("FILE", options->file, "HPGL plot file")->required();
+    command.add_option("FILE", options->file, "HPGL plot, or a G-code program of X, Y and Z")->required();
     command
         .add_option("--unit",
                     options->unit,
@@ -275,12 +305,33 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
         ->type_name(listed(by_id(project::line_ends())))
         ->default_str("automatic");
     command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
+    add_program_options(command, options->program);
     return command;
+}
+
+void on_call(CLI::App& command,
+             const std::shared_ptr<Options>& options,
+             Command& chosen,
+             int (*act)(const Options&)) {
+    command.callback([&command, &chosen, options, act] {
+        options->command = &command;
+        chosen = [options, act] { return act(*options); };
+    });
+}
+
+/// Plots are cut at a height that `toolpath` sets; programs have their own.
+void add_safe_height(CLI::App& command, const std::shared_ptr<Options>& options) {
+    command
+        .add_option("--safe-height",
+                    options->cutting.cutting.safe_height,
+                    "Of a G-code program: feeds across are in the air from there on, mm")
+        ->check(finite_number());
 }
 
 void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command =
         add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
+    add_safe_height(command, options);
     plot::DecodeSettings& decoding = options->decode;
     command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")
         ->check(above_zero())
@@ -308,35 +359,37 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     command.add_option("--decimals", options->decimals, "Of the point file")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
-    command.callback([&chosen, options] { chosen = [options] { return decode(*options); }; });
+    on_call(command, options, chosen, decode);
 }
 
 void add_info(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "info", "Say what is in it and how long it takes", options);
+    add_safe_height(command, options);
     command.add_flag("--json", options->json, "Print the answer as JSON");
-    command.callback([&chosen, options] { chosen = [options] { return info(*options); }; });
+    on_call(command, options, chosen, info);
 }
 
 void add_view(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command =
         add_reader(group, "view", "Draw it as a picture, by the colours of its pens", options);
+    add_safe_height(command, options);
     command.add_option("--out", options->out, "SVG file")->required();
     command.add_flag("--no-air", options->no_air, "Without the travel with the pen up");
-    command.callback([&chosen, options] { chosen = [options] { return view(*options); }; });
+    on_call(command, options, chosen, view);
 }
 
 void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
     command.add_option("--out", options->cutting.cutting.out, "G-code file")->required();
     add_stroke_options(command, options->cutting);
-    command.callback([&chosen, options] { chosen = [options] { return toolpath(*options); }; });
+    on_call(command, options, chosen, toolpath);
 }
 
 } // namespace
 
 void add_plot_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
-    CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot file");
+    CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot, or a G-code program as one");
     group.require_subcommand(1);
     add_decode(group, options, chosen);
     add_info(group, options, chosen);

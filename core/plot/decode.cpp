@@ -1,6 +1,7 @@
 #include "core/plot/decode.h"
 
 #include "core/base/error.h"
+#include "core/plot/decode_path.h"
 #include "core/plot/decode_within.h"
 #include "core/plot/internal/speed_profile.h"
 
@@ -61,9 +62,9 @@ double sample_count(double q, double slack, SampleRounding rounding) {
 
 class Decoder {
 public:
-    Decoder(const DecodeSettings& settings, const std::optional<double>& fastest, const Vec2& start)
+    Decoder(const DecodeSettings& settings, const std::optional<double>& fastest, const Vec3& start)
         : settings_(settings), fastest_(fastest) {
-        points_.emplace_back(start.x(), start.y(), settings.pen_up_z);
+        points_.push_back(start);
     }
 
     void travel(const Vec2& to) {
@@ -74,16 +75,51 @@ public:
     void stroke(const Stroke& stroke) {
         travel(stroke.points.front());
         lift(settings_.pen_down_z);
+        std::vector<Vec3> way;
+        way.reserve(stroke.points.size());
+        for (const Vec2& p : stroke.points) {
+            way.emplace_back(p.x(), p.y(), settings_.pen_down_z);
+        }
+        cut(way);
+    }
+
+    /// Along a way that begins where the last point is.
+    void cut(const std::vector<Vec3>& way) {
         if (settings_.mode == DecodeMode::path) {
-            if (settings_.acceleration && stroke.points.size() > 1) {
-                limited_path(stroke);
+            if (settings_.acceleration && way.size() > 1) {
+                limited_path(way);
             } else {
-                whole_path(stroke);
+                whole_path(way);
             }
             return;
         }
-        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
-            segment(at(stroke.points[n]), settings_.velocity, settings_.rounding);
+        for (std::size_t n = 1; n < way.size(); ++n) {
+            segment(way[n], settings_.velocity, settings_.rounding);
+        }
+    }
+
+    /// As a path says; its heights, and its own begin and end.
+    void follow(const CutPath& path) {
+        for (std::size_t n = 0; n < path.size(); ++n) {
+            switch (path[n].move) {
+            case CutMove::rapid:
+                line(path[n].at, settings_.travel_velocity.value_or(settings_.velocity));
+                break;
+            case CutMove::plunge:
+            case CutMove::retract:
+                line(path[n].at, settings_.plunge_velocity.value_or(settings_.velocity));
+                break;
+            case CutMove::cut: {
+                std::vector<Vec3> way{points_.back(), path[n].at};
+                while (n + 1 < path.size() && path[n + 1].move == CutMove::cut) {
+                    way.push_back(path[++n].at);
+                }
+                cut(way);
+                break;
+            }
+            case CutMove::tool_change:
+                break;
+            }
         }
     }
 
@@ -129,7 +165,7 @@ private:
         if (!(distance > 0.0)) {
             return;
         }
-        const internal::SpeedProfile profile({Vec2(0.0, 0.0), Vec2(distance, 0.0)}, limits(velocity));
+        const internal::SpeedProfile profile({Vec3::Zero(), Vec3(distance, 0.0, 0.0)}, limits(velocity));
         reserve(profile.duration() / settings_.period);
         double way = 0.0;
         for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
@@ -167,24 +203,22 @@ private:
         return fastest_ ? std::max(wanted, count(*fastest_, SampleRounding::up)) : wanted;
     }
 
-    /// Points at whole multiples of the step along the stroke.
-    void whole_path(const Stroke& stroke) {
+    /// Points at whole multiples of the step along the way.
+    void whole_path(const std::vector<Vec3>& way) {
         const double step = settings_.velocity * settings_.period;
-        reserve(length(stroke) / step);
-        const double z = settings_.pen_down_z;
-        double passed = 0.0; // length of the stroke up to the segment
+        reserve(length_of(way) / step);
+        double passed = 0.0; // length of the way up to the segment
         double k = 1.0;      // the next multiple
-        for (std::size_t n = 1; n < stroke.points.size(); ++n) {
-            const Vec2& a = stroke.points[n - 1];
-            const Vec2& b = stroke.points[n];
+        for (std::size_t n = 1; n < way.size(); ++n) {
+            const Vec3& a = way[n - 1];
+            const Vec3& b = way[n];
             const double distance = (b - a).norm();
             for (; k * step < passed + distance; k += 1.0) {
-                const Vec2 p = a + (k * step - passed) / distance * (b - a);
-                points_.emplace_back(p.x(), p.y(), z);
+                points_.emplace_back(a + (k * step - passed) / distance * (b - a));
             }
             passed += distance;
         }
-        const Vec3 end = at(stroke.points.back());
+        const Vec3& end = way.back();
         if ((points_.back() - end).norm() > noise(points_.back(), end)) {
             points_.push_back(end);
         } else {
@@ -193,25 +227,32 @@ private:
     }
 
     /// Points at whole multiples of the period, within the limits of acceleration and jerk.
-    void limited_path(const Stroke& stroke) {
-        const internal::SpeedProfile profile(stroke.points, limits(settings_.velocity));
+    void limited_path(const std::vector<Vec3>& points) {
+        const internal::SpeedProfile profile(points, limits(settings_.velocity));
         reserve(profile.duration() / settings_.period);
-        double passed = 0.0; // length of the stroke up to the segment
+        double passed = 0.0; // length of the way up to the segment
         std::size_t n = 1;
         double way = 0.0;
         for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
             way = next_way(profile, k, way, settings_.velocity);
-            double distance = (stroke.points[n] - stroke.points[n - 1]).norm();
-            while (passed + distance < way && n + 1 < stroke.points.size()) {
+            double distance = (points[n] - points[n - 1]).norm();
+            while (passed + distance < way && n + 1 < points.size()) {
                 passed += distance;
                 ++n;
-                distance = (stroke.points[n] - stroke.points[n - 1]).norm();
+                distance = (points[n] - points[n - 1]).norm();
             }
             const double t = distance > 0.0 ? std::min(1.0, (way - passed) / distance) : 1.0;
-            const Vec2 p = stroke.points[n - 1] + t * (stroke.points[n] - stroke.points[n - 1]);
-            points_.emplace_back(p.x(), p.y(), settings_.pen_down_z);
+            points_.emplace_back(points[n - 1] + t * (points[n] - points[n - 1]));
         }
-        points_.push_back(at(stroke.points.back()));
+        points_.push_back(points.back());
+    }
+
+    static double length_of(const std::vector<Vec3>& way) {
+        double sum = 0.0;
+        for (std::size_t n = 1; n < way.size(); ++n) {
+            sum += (way[n] - way[n - 1]).norm();
+        }
+        return sum;
     }
 
     void reserve(double count) const {
@@ -238,7 +279,7 @@ std::vector<Vec3> decoded(const Strokes& strokes,
                           const DecodeSettings& settings,
                           const std::optional<double>& fastest,
                           const Vec2& start) {
-    Decoder decoder(settings, fastest, start);
+    Decoder decoder(settings, fastest, {start.x(), start.y(), settings.pen_up_z});
     for (const Stroke& stroke : strokes) {
         decoder.stroke(stroke);
     }
@@ -261,6 +302,20 @@ decode_within(double fastest, const Strokes& strokes, const DecodeSettings& sett
     check(settings);
     check(fastest, settings);
     return decoded(strokes, settings, fastest, start);
+}
+
+std::vector<Vec3> decode_path(const CutPath& path,
+                              const DecodeSettings& settings,
+                              const std::optional<double>& fastest,
+                              const Vec2& start) {
+    check(settings);
+    if (fastest) {
+        check(*fastest, settings);
+    }
+    const double above = path.empty() ? 0.0 : path.front().at.z();
+    Decoder decoder(settings, fastest, {start.x(), start.y(), above});
+    decoder.follow(path);
+    return decoder.take();
 }
 
 } // namespace millwright::plot

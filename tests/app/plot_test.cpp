@@ -184,15 +184,7 @@ TEST(PlotCommand, FilesThatAreNoPlotsAreTakenForWhatTheyAre) {
     const std::string out = (folder / "out").string();
     write_content(folder / "other.path",
                   "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n");
-    write_content(folder / "nc.plt",
-                  "%\n(PROGRAM NAME - PLATE)\n; made by hand\n\nN1 G21\nN2 G0 X10 Y10\n%\n");
-    write_content(folder / "words.nc", "x10 y5 f200\n");
     const std::vector<std::array<std::string, 3>> others{
-        {"assets/samples/gcode/thesis-plate.ngc",
-         "this is a G-code program, no plot",
-         "millwright gcode time"},
-        {(folder / "nc.plt").string(), "this is a G-code program, no plot", "--driver records"},
-        {(folder / "words.nc").string(), "this is a G-code program, no plot", "millwright send"},
         {(folder / "other.path").string(), "this is a path file, no plot", "millwright send"},
         {"assets/samples/pictures/boat.png", "this is a picture, no plot", "millwright picture relief"}};
     for (const auto& [file, what, hint] : others) {

@@ -7,11 +7,11 @@ namespace millwright::plot::internal {
 namespace {
 
 /// 2 sin(theta / 2) of the turn at a corner: how much a unit velocity changes there.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+double turn(const Vec3& a, const Vec3& b, const Vec3& c) {
     return ((c - b).normalized() - (b - a).normalized()).norm();
 }
 
-std::vector<double> lengths_of(const std::vector<Vec2>& points) {
+std::vector<double> lengths_of(const std::vector<Vec3>& points) {
     std::vector<double> lengths;
     for (std::size_t n = 1; n < points.size(); ++n) {
         lengths.push_back((points[n] - points[n - 1]).norm());
@@ -31,7 +31,7 @@ bool bends(double change) {
 }
 
 /// How fast the way may become faster.
-double along(const std::vector<Vec2>& points, const SpeedLimits& limits) {
+double along(const std::vector<Vec3>& points, const SpeedLimits& limits) {
     for (std::size_t n = 1; n + 1 < points.size(); ++n) {
         if (bends(turn(points[n - 1], points[n], points[n + 1]))) {
             return along_share * limits.acceleration;
@@ -43,7 +43,7 @@ double along(const std::vector<Vec2>& points, const SpeedLimits& limits) {
 /// The speed through each point. A bend may change the velocity by what its share of the acceleration does in
 /// a period; the short chords of an arc count as the arc that they stand for. A corner is stopped at; with a
 /// limit of the jerk also a bend that is no arc.
-std::vector<double> corner_speeds(const std::vector<Vec2>& points,
+std::vector<double> corner_speeds(const std::vector<Vec3>& points,
                                   const std::vector<double>& lengths,
                                   const SpeedLimits& limits,
                                   double acceleration) {
@@ -73,7 +73,7 @@ std::vector<double> corner_speeds(const std::vector<Vec2>& points,
 
 } // namespace
 
-SpeedProfile::SpeedProfile(const std::vector<Vec2>& points, const SpeedLimits& limits) {
+SpeedProfile::SpeedProfile(const std::vector<Vec3>& points, const SpeedLimits& limits) {
     const std::vector<double> lengths = lengths_of(points);
     const double acceleration = along(points, limits);
     const std::vector<double> speeds = corner_speeds(points, lengths, limits, acceleration);

@@ -19,7 +19,7 @@ struct SpeedLimits {
 
 class SpeedProfile {
 public:
-    SpeedProfile(const std::vector<Vec2>& points, const SpeedLimits& limits);
+    SpeedProfile(const std::vector<Vec3>& points, const SpeedLimits& limits);
 
     [[nodiscard]] double duration() const { return duration_; }
     /// How far along, mm; never falling, from 0 to the length.

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot/decode_path.h"
 #include "core/plot/decode_within.h"
 #include "core/plot/point_file.h"
 #include "tests/support/without_traps.h"
@@ -390,6 +391,48 @@ TEST(LimitedDecoding, LimitsNeedTheModePath) {
     settings.acceleration.reset();
     settings.jerk = 1.0;
     EXPECT_THROW(static_cast<void>(decode(diagonal(), settings)), Error);
+}
+
+/// Down, a ramp with a corner, up and back.
+CutPath ramp() {
+    return {{.at = {2, 0, 5}},
+            {.at = {2, 0, 0}, .speed = 1.0, .move = CutMove::plunge},
+            {.at = {5, 4, -1}, .speed = 1.0, .move = CutMove::cut},
+            {.at = {9, 4, -1}, .speed = 1.0, .move = CutMove::cut},
+            {.at = {9, 4, 5}, .speed = 1.0, .move = CutMove::retract},
+            {.at = {0, 0, 5}}};
+}
+
+TEST(PathDecoding, StepsAreAlikeInSpaceAndAtTheSpeedOfTheirMove) {
+    DecodeSettings settings = steps_of(0.3);
+    settings.mode = DecodeMode::path;
+    settings.travel_velocity = 100.0;
+    settings.plunge_velocity = 10.0;
+    const std::vector<Vec3> points = decode_path(ramp(), settings);
+    EXPECT_EQ(points.front(), Vec3(0, 0, 5));
+    EXPECT_EQ(points.back(), Vec3(0, 0, 5));
+    for (const CutPoint& point : ramp()) {
+        const bool corner = point.at == Vec3(5, 4, -1); // the rest is carried over
+        EXPECT_EQ(std::ranges::find(points, point.at) == points.end(), corner);
+    }
+    const double ramp_length = std::sqrt(9.0 + 16.0 + 1.0);
+    const auto first = std::ranges::find(points, Vec3(2, 0, 0));
+    const auto last = std::ranges::find(points, Vec3(9, 4, -1));
+    EXPECT_EQ(last - first, std::ceil((ramp_length + 4.0) / 0.3));
+    EXPECT_NEAR((first[1] - first[0]).norm(), 0.3, 1e-12);
+    EXPECT_NEAR((first[0] - first[-1]).norm(), 0.1, 1e-12);
+    EXPECT_NEAR((points[1] - points[0]).norm(), 1.0, 1e-12);
+}
+
+TEST(PathDecoding, KeepsTheAccelerationInSpace) {
+    DecodeSettings settings = steps_of(0.3);
+    settings.mode = DecodeMode::path;
+    settings.acceleration = 50.0;
+    const std::vector<Vec3> points = decode_path(ramp(), settings);
+    const double most = 50.0 * settings.period * settings.period;
+    for (std::size_t n = 2; n < points.size(); ++n) {
+        EXPECT_LE((points[n] - 2.0 * points[n - 1] + points[n - 2]).norm(), most * 1.001) << n;
+    }
 }
 
 TEST(Decoding, RefusesWhatIsNoSpeedAndTooManyPoints) {

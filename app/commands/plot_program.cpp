@@ -1,0 +1,313 @@
+#include "app/commands/plot_program.h"
+
+#include "app/finite_number.h"
+#include "app/other_than_plot.h"
+#include "app/usage_error.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/plot/decode_path.h"
+#include "core/plot/decode_within.h"
+#include "core/plot/work_time.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <span>
+
+namespace millwright::app {
+
+namespace {
+
+using gcode::CutLevel;
+using gcode::CutProgram;
+
+constexpr std::array plots_alone{"--unit", "--fill", "--solid", "--line-ends", "--strict"};
+constexpr std::array programs_alone{"--tools", "--chord-length"};
+/// Of `toolpath`: what is not as the program has it.
+constexpr std::array shaping{"--side",
+                             "--hatch",
+                             "--contours",
+                             "--order",
+                             "--link",
+                             "--depth",
+                             "--passes",
+                             "--level",
+                             "--tabs",
+                             "--feed",
+                             "--plunge",
+                             "--safe-height"};
+
+bool given(const CLI::App& command, const char* option) {
+    const CLI::Option* found = command.get_option_no_throw(option);
+    return found != nullptr && found->count() > 0;
+}
+
+void expect_none_of(std::span<const char* const> options, const CLI::App& command, const char* whose) {
+    for (const char* option : options) {
+        if (given(command, option)) {
+            throw UsageError(fmt::format("{} is for {}", option, whose));
+        }
+    }
+}
+
+CutProgram read(const std::string& file, const ProgramReading& reading) {
+    gcode::CutProgramSettings settings;
+    if (!reading.tools.empty()) {
+        settings.tools = gcode::read_tool_table(reading.tools);
+    }
+    settings.chord_length = reading.chord_length;
+    settings.chord_tolerance = reading.chord_tolerance.value_or(settings.chord_tolerance);
+    settings.safe_height = reading.safe_height;
+    return gcode::read_cut_program(read_file(file), file, settings);
+}
+
+CutProgram read_to_use(const std::string& file, const ProgramReading& reading) {
+    CutProgram program = read(file, reading);
+    for (const Diagnostic& notice : program.notices) {
+        fmt::print(stderr, "millwright: {}\n", to_text(notice));
+    }
+    return program;
+}
+
+std::string counted(std::size_t count, std::string_view one) {
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::size_t tool_count(const CutProgram& program) {
+    std::set<int> tools;
+    for (const CutLevel& level : program.levels) {
+        tools.insert(level.tool);
+    }
+    return tools.size();
+}
+
+std::string strokes_of_levels(const CutProgram& program) {
+    const std::string heights =
+        program.uneven ? "heights that change" : counted(program.levels.size(), "level");
+    return fmt::format("{} at {}, {}",
+                       counted(program.strokes.size(), "stroke"),
+                       heights,
+                       counted(tool_count(program), "tool"));
+}
+
+/// As fast as programmed; rapids as fast as the machine of the thesis travels.
+double seconds_of(const CutProgram& program) {
+    return program.feed_time + program.dwell_time +
+           plot::lengths(program.path).travel / plot::TimeModel().travelling;
+}
+
+/// Lowest and highest of what is cut.
+std::array<double, 2> heights_of(const CutProgram& program) {
+    std::array<double, 2> heights{};
+    bool first = true;
+    for (const plot::CutPoint& point : program.path) {
+        if (point.move == plot::CutMove::cut || point.move == plot::CutMove::plunge) {
+            heights =
+                first ? std::array{point.at.z(), point.at.z()}
+                      : std::array{std::min(heights[0], point.at.z()), std::max(heights[1], point.at.z())};
+            first = false;
+        }
+    }
+    return heights;
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json json_of(const CutProgram& program) {
+    nlohmann::ordered_json answer;
+    answer["commands"] = program.lines;
+    answer["pens"] = nlohmann::ordered_json::array();
+    const auto box = plot::extents(program.strokes);
+    answer["extents_mm"] = {box->lower.x(), box->lower.y(), box->upper.x(), box->upper.y()};
+    answer["z_mm"] = heights_of(program);
+    const plot::WorkTime time = plot::work_time(program.strokes, {}, Vec2::Zero(), program.end);
+    const plot::PathLengths lengths = plot::lengths(program.path);
+    answer["draw_mm"] = time.cut_length;
+    answer["air_mm"] = time.travel_length;
+    answer["lifts"] = time.runs;
+    answer["time_s"] = seconds_of(program);
+    answer["strokes"] = program.strokes.size();
+    answer["feed_mm"] = lengths.cut;
+    answer["feed_s"] = program.feed_time;
+    answer["rapid_mm"] = lengths.travel;
+    answer["travel_z_mm"] = or_null(program.safe_height);
+    answer["pen_use"] = nlohmann::ordered_json::array();
+    for (const CutLevel& level : program.levels) {
+        double length = 0.0;
+        for (const plot::Stroke& stroke : program.strokes) {
+            length += stroke.pen == level.pen ? plot::length(stroke) : 0.0;
+        }
+        answer["pens"].push_back(level.pen);
+        answer["pen_use"].push_back({{"pen", level.pen},
+                                     {"draw_mm", length},
+                                     {"speed_mm_s", level.cutting},
+                                     {"tool", level.tool},
+                                     {"z_mm", or_null(level.z)}});
+    }
+    answer["diagnostics"] = nlohmann::ordered_json::array();
+    for (const Diagnostic& notice : program.notices) {
+        answer["diagnostics"].push_back({{"line", notice.place.line}, {"message", notice.message}});
+    }
+    return answer;
+}
+
+/// As the program cuts each pen, but for what was asked for. Throws Error where that is no depth.
+std::vector<plot::Level>
+levels_of(const CutProgram& program, const StrokeCutting& cutting, const CLI::App& command) {
+    std::vector<plot::Level> levels;
+    for (const CutLevel& cut : program.levels) {
+        plot::Level level;
+        level.pen = cut.pen;
+        level.tool = cut.tool;
+        level.passes = cutting.passes;
+        level.tabs = cutting.tabs;
+        level.depth = given(command, "--depth") ? cutting.depth : -cut.z.value_or(0.0);
+        level.cutting =
+            given(command, "--feed") ? from_mm_per_min(cutting.cutting.feed_mm_per_min) : cut.cutting;
+        level.plunging =
+            given(command, "--plunge") ? from_mm_per_min(cutting.cutting.plunge_mm_per_min) : cut.plunging;
+        if (level.depth < 0.0) {
+            throw Error(fmt::format("it cuts at z {:.3f} mm, above the top of the work", *cut.z),
+                        {},
+                        "give --depth, or nothing that shapes it: then it is cut as it stands");
+        }
+        levels.push_back(level);
+    }
+    return levels;
+}
+
+void expect_even(const CutProgram& program, const char* option) {
+    if (program.uneven) {
+        Diagnostic found = *program.uneven;
+        found.message += fmt::format(": {} is for strokes of one height each", option);
+        found.hint = "without options that shape strokes it is cut as it stands, with its heights";
+        throw Error(found);
+    }
+}
+
+} // namespace
+
+void add_program_options(CLI::App& command, ProgramReading& reading) {
+    constexpr double shortest_chord = 1e-3;
+    constexpr double longest_chord = 1e3;
+    command
+        .add_option("--chord-length",
+                    reading.chord_length,
+                    "Of a G-code program: arcs in equal parts no longer than so many mm")
+        ->check(CLI::Range(shortest_chord, longest_chord));
+    command.add_option("--tools", reading.tools, "Of a G-code program: LinuxCNC tool table file")
+        ->type_name("FILE");
+}
+
+bool takes_program(const CLI::App& command, const std::string& file) {
+    expect_no_other_than_plot(file);
+    if (is_gcode_file(file)) {
+        expect_none_of(plots_alone, command, "HPGL plots; this is a G-code program");
+        if (given(command, "--chord-length") && given(command, "--arc-tolerance")) {
+            throw UsageError("--chord-length and --arc-tolerance are two ways to cut an arc: give one");
+        }
+        return true;
+    }
+    expect_none_of(programs_alone, command, "G-code programs");
+    return false;
+}
+
+int program_info(const std::string& file, const ProgramReading& reading, bool json) {
+    if (json) {
+        fmt::print("{}\n",
+                   json_of(read(file, reading))
+                       .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return 0;
+    }
+    const CutProgram program = read_to_use(file, reading);
+    const plot::WorkTime time = plot::work_time(program.strokes, {}, Vec2::Zero(), program.end);
+    const plot::PathLengths lengths = plot::lengths(program.path);
+    const auto box = plot::extents(program.strokes);
+    const auto [low, high] = heights_of(program);
+    fmt::print(
+        "{}, {}\n", counted(static_cast<std::size_t>(program.lines), "line"), strokes_of_levels(program));
+    fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm, z {:.3f} to {:.3f} mm\n",
+               box->lower.x(),
+               box->upper.x(),
+               box->lower.y(),
+               box->upper.y(),
+               low,
+               high);
+    fmt::print("{}\n", way_for_people(time));
+    constexpr double m = 1e-3;
+    fmt::print("{:.3f} m at a feed in {}, {:.3f} m at rapid; {} with rapids of {:.0f} mm/s\n",
+               m * lengths.cut,
+               plot::time_for_people(program.feed_time),
+               m * lengths.travel,
+               plot::time_for_people(seconds_of(program)),
+               plot::TimeModel().travelling);
+    return 0;
+}
+
+int program_view(const std::string& file,
+                 const ProgramReading& reading,
+                 plot::AirInSvg air,
+                 const std::string& out) {
+    const CutProgram program = read_to_use(file, reading);
+    write_file(out, plot::svg_text(program.strokes, air));
+    fmt::print("{}\n", strokes_of_levels(program));
+    return 0;
+}
+
+std::vector<Vec3> program_points(const std::string& file,
+                                 const ProgramReading& reading,
+                                 plot::DecodeSettings decoding,
+                                 const std::optional<double>& fastest,
+                                 bool flat) {
+    const CutProgram program = read_to_use(file, reading);
+    if (std::ranges::find(program.path, plot::CutMove::tool_change, &plot::CutPoint::move) !=
+        program.path.end()) {
+        fmt::print(stderr,
+                   "millwright: {}: {} tools: points have no tool change, and go on without one\n",
+                   file,
+                   tool_count(program));
+    }
+    if (flat) {
+        decoding.end = program.end;
+        return fastest ? plot::decode_within(*fastest, program.strokes, decoding)
+                       : plot::decode(program.strokes, decoding);
+    }
+    return plot::decode_path(program.path, decoding, fastest);
+}
+
+int program_toolpath(const std::string& file,
+                     const ProgramReading& reading,
+                     StrokeCutting cutting,
+                     const CLI::App& command) {
+    const CutProgram program = read_to_use(file, reading);
+    if (!given(command, "--spindle") && program.spindle_rpm > 0.0) {
+        cutting.cutting.spindle_rpm = program.spindle_rpm;
+    }
+    const std::vector<std::string> header{"program: " + std::filesystem::path(file).filename().string()};
+    const auto* const shaped =
+        std::ranges::find_if(shaping, [&](const char* option) { return given(command, option); });
+    if (shaped == shaping.end()) {
+        write_program(program.path,
+                      cutting.cutting,
+                      {.kind = plot::TipKind::flat, .diameter = cutting.plan.tool_diameter},
+                      header);
+        return 0;
+    }
+    expect_even(program, *shaped);
+    cutting.drawn_levels = levels_of(program, cutting, command);
+    cut_strokes(program.strokes, program.end, cutting, header);
+    return 0;
+}
+
+} // namespace millwright::app

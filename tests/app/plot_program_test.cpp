@@ -1,0 +1,185 @@
+// G-code programs as plots: the samples of the KMITL master's thesis of 2006 by the same commands.
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace millwright::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string simple = "assets/samples/gcode/thesis-simple.ngc";
+const std::string space = "assets/samples/gcode/thesis-3d.ngc";
+const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
+
+/// Those of a path file: x, y, z, speed, move, tool.
+std::vector<std::vector<std::string>> records_of(const std::string& path_file) {
+    std::istringstream in(path_file);
+    std::vector<std::vector<std::string>> records;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream fields(line);
+        records.emplace_back();
+        for (std::string field; std::getline(fields, field, ',');) {
+            records.back().push_back(field);
+        }
+    }
+    records.erase(records.begin()); // the title
+    return records;
+}
+
+TEST(ProgramsAsPlots, InfoTellsWaysAndTimesOfTheThesis) {
+    struct Known {
+        std::string file;
+        double feed, feed_s, rapid;
+        std::array<double, 4> extents;
+        double z;
+    };
+    for (const Known& known : {Known{simple, 74.0, 148.0, 28.2842, {10, 10, 22, 20}, -10},
+                               Known{space, 438.2848, 81.828, 80.2905, {10, 10, 90, 90}, 0},
+                               Known{plate, 579.8006, 1159.601, 106.2665, {-7, -7, 110, 110}, -2}}) {
+        const Ended ended = run({"plot", "info", known.file, "--json", "--arc-tolerance", "0.0001"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const auto told = nlohmann::json::parse(ended.out);
+        EXPECT_NEAR(told.at("feed_mm"), known.feed, 2e-3) << known.file;
+        EXPECT_NEAR(told.at("feed_s"), known.feed_s, 3e-3) << known.file;
+        EXPECT_NEAR(told.at("rapid_mm"), known.rapid, 1e-4) << known.file;
+        EXPECT_NEAR(told.at("time_s"), known.feed_s + known.rapid / 10.0, 3e-3) << known.file;
+        EXPECT_EQ(told.at("extents_mm"), nlohmann::json(known.extents)) << known.file;
+        EXPECT_EQ(told.at("z_mm"), nlohmann::json({known.z, known.z})) << known.file;
+    }
+    EXPECT_EQ(run({"plot", "info", space}).out,
+              "24 lines, 2 strokes at 1 level, 1 tool\n"
+              "x 10.000 to 90.000 mm, y 10.000 to 90.000 mm, z 0.000 to 0.000 mm\n"
+              "0.469 m (0.418 m drawn, 0.050 m in the air), 2 lifts\n"
+              "0.438 m at a feed in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
+}
+
+// n = 41, 15, 27 and 17 parts of 1 mm are what the rule of the thesis makes of the four arcs.
+TEST(ProgramsAsPlots, ToolpathKeepsHeightsAndFeedsAndCutsArcsByTheRuleOfTheThesis) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.ngc").string();
+    const std::string path = (folder / "out.path").string();
+    const Ended ended = run({"plot", "toolpath", space, "--out", out, "--path", path, "--chord-length", "1"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto records = records_of(content_of(path));
+    const auto cuts = std::ranges::count_if(records, [](const auto& record) { return record[4] == "cut"; });
+    EXPECT_EQ(cuts, 4 + 41 + 15 + 27 + 17);
+    EXPECT_EQ(records[0], (std::vector<std::string>{"10", "10", "10", "0", "rapid", "1"}));
+    EXPECT_EQ(records[1], (std::vector<std::string>{"10", "10", "0", "0.5", "plunge", "1"}));
+    EXPECT_EQ(records[2], (std::vector<std::string>{"90", "10", "0", "10", "cut", "1"}));
+    EXPECT_EQ(run({"gcode", "check", out}).exit_code, 0);
+    const Ended again = run({"plot", "info", out, "--json"});
+    EXPECT_EQ(nlohmann::json::parse(again.out).at("strokes"), 2);
+}
+
+TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.ngc").string();
+    const std::string path = (folder / "out.path").string();
+    const Ended ended = run({"plot",
+                             "toolpath",
+                             plate,
+                             "--out",
+                             out,
+                             "--path",
+                             path,
+                             "--origin",
+                             "50,50",
+                             "--side",
+                             "outside",
+                             "--tool-diameter",
+                             "4"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("as drawn:"));
+    double leftmost = 1e9;
+    for (const auto& record : records_of(content_of(path))) {
+        leftmost = std::min(leftmost, std::stod(record[0]));
+        EXPECT_TRUE(record[2] == "-2" || record[2] == "5") << record[2];
+    }
+    EXPECT_NEAR(leftmost, 50.0 - 7.0 - 2.0, 1e-3);
+    const Ended high = run({"plot", "toolpath", simple, "--out", out, "--path", path, "--depth", "4"});
+    ASSERT_EQ(high.exit_code, 0) << high.err;
+    EXPECT_THAT(content_of(path), HasSubstr(",-4,"));
+}
+
+TEST(ProgramsAsPlots, PointsHaveTheHeightsOfTheProgramOrThoseOfThePen) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "points.csv").string();
+    std::vector<std::string> words{"plot",
+                                   "decode",
+                                   simple,
+                                   "--velocity",
+                                   "10",
+                                   "--period",
+                                   "0.1",
+                                   "--mode",
+                                   "path",
+                                   "--out",
+                                   out,
+                                   "--decimals",
+                                   "3"};
+    ASSERT_EQ(run(words).exit_code, 0);
+    const std::string points = content_of(out);
+    EXPECT_THAT(points, HasSubstr("\n10.000,10.000,0.000\n10.000,10.000,-1.000\n"));
+    EXPECT_THAT(points, HasSubstr("\n10.000,10.000,-10.000\n11.000,10.000,-10.000\n"));
+    EXPECT_TRUE(points.ends_with("0.000,0.000,10.000\n"));
+    words.insert(words.end(), {"--pen-up", "2"});
+    ASSERT_EQ(run(words).exit_code, 0);
+    EXPECT_THAT(content_of(out), HasSubstr("\n11.000,10.000,0.000\n"));
+    EXPECT_THAT(content_of(out), Not(HasSubstr("-10.000")));
+    EXPECT_TRUE(content_of(out).ends_with("0.000,0.000,2.000\n"));
+}
+
+TEST(ProgramsAsPlots, IsDrawnByItsStrokes) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "plate.svg").string();
+    EXPECT_EQ(run({"plot", "view", plate, "--out", out}).out, "2 strokes at 1 level, 1 tool\n");
+    EXPECT_THAT(content_of(out), HasSubstr("<svg"));
+}
+
+TEST(ProgramsAsPlots, WhatIsNoPathIsRefusedWithTheLine) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out").string();
+    write_content(folder / "turn.ngc", "G0 X0 Y0 Z5\nG1 Z-1 F60\nG1 X9 B20\nM2\n");
+    write_content(folder / "ramp.ngc", "G0 X0 Y0 Z5\nG1 Z0 F60\nG1 X9 Z-2\nG0 Z5\nX0\nM2\n");
+    const std::string turn = (folder / "turn.ngc").string();
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"plot", "info", turn},
+                                               {"plot", "info", turn, "--json"},
+                                               {"plot", "view", turn, "--out", out},
+                                               {"plot", "toolpath", turn, "--out", out}}) {
+        const Ended ended = run(command);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr("turn.ngc:3:7: the machine 'X, Y, Z' has no axis B"));
+        EXPECT_EQ(ended.out, "");
+    }
+    const std::string ramp = (folder / "ramp.ngc").string();
+    EXPECT_EQ(run({"plot", "toolpath", ramp, "--out", out}).exit_code, 0);
+    std::filesystem::remove(out);
+    const Ended ended = run({"plot", "toolpath", ramp, "--out", out, "--order"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("ramp.ngc:3: this cut goes from z 0.000 to -2.000 mm: --order is for"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {
+    EXPECT_EQ(run({"plot", "info", plate, "--unit", "table"}).exit_code, 2);
+    EXPECT_EQ(run({"plot", "info", plate, "--strict"}).exit_code, 2);
+    EXPECT_EQ(run({"plot", "info", plate, "--chord-length", "1", "--arc-tolerance", "0.1"}).exit_code, 2);
+    const Ended ended = run({"plot", "info", "assets/samples/plot/arcs.plt", "--chord-length", "1"});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("--chord-length is for G-code programs"));
+}
+
+} // namespace
+} // namespace millwright::test

@@ -1,0 +1,205 @@
+#include "core/gcode/reader/cut_program.h"
+
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "core/gcode/reader/tool_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string simple = "assets/samples/gcode/thesis-simple.ngc";
+const std::string space = "assets/samples/gcode/thesis-3d.ngc";
+const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
+
+CutProgram read(const std::string& text, const CutProgramSettings& settings = {}) {
+    return read_cut_program(text, "part.ngc", settings);
+}
+
+CutProgram by_chords(const std::string& file) {
+    return read(read_file(file), {.chord_length = 1.0});
+}
+
+Diagnostic refusal(const std::string& text, const CutProgramSettings& settings = {}) {
+    try {
+        (void)read(text, settings);
+    } catch (const Error& error) {
+        return error.diagnostic();
+    }
+    ADD_FAILURE() << text;
+    return {};
+}
+
+std::vector<std::size_t> points_of(const CutProgram& program) {
+    std::vector<std::size_t> counts;
+    for (const plot::Stroke& stroke : program.strokes) {
+        counts.push_back(stroke.points.size());
+    }
+    return counts;
+}
+
+// Lengths, chords and times that the listings of the thesis of 2006 have.
+TEST(CutPrograms, OfTheThesisHaveTheirWaysAndTimes) {
+    const CutProgram a = by_chords(simple);
+    EXPECT_NEAR(plot::lengths(a.path).cut, 74.0, 1e-4);
+    EXPECT_NEAR(plot::lengths(a.path).travel, 28.2842, 1e-4);
+    EXPECT_NEAR(a.feed_time, 148.0, 1e-6);
+    EXPECT_EQ(points_of(a), (std::vector<std::size_t>{5}));
+
+    const CutProgram b = by_chords(space);
+    EXPECT_NEAR(plot::lengths(b.path).cut, 438.2848, 0.02); // chords are shorter than their arcs
+    EXPECT_NEAR(plot::lengths(b.path).travel, 80.2905, 1e-4);
+    EXPECT_NEAR(b.feed_time, 81.828, 2e-3);
+    EXPECT_EQ(points_of(b), (std::vector<std::size_t>{5, 41 + 15 + 27 + 17 + 1}));
+
+    const CutProgram c = by_chords(plate);
+    EXPECT_NEAR(plot::lengths(c.path).cut, 579.8006, 0.06);
+    EXPECT_NEAR(plot::lengths(c.path).travel, 106.2665, 1e-4);
+    EXPECT_NEAR(c.feed_time, 1159.601, 0.12);
+    EXPECT_EQ(points_of(c), (std::vector<std::size_t>{4 * 32 + 4 + 1, 50 + 50 + 1}));
+}
+
+TEST(CutPrograms, StrokesOfTheThesisAreClosedOutlinesAtOneHeight) {
+    for (const auto& [file, z] : {std::pair(simple, -10.0), std::pair(space, 0.0), std::pair(plate, -2.0)}) {
+        const CutProgram program = read(read_file(file));
+        EXPECT_EQ(program.safe_height, 10.0) << file;
+        EXPECT_FALSE(program.uneven) << file;
+        ASSERT_EQ(program.levels.size(), 1U) << file;
+        EXPECT_EQ(program.levels[0].z, z);
+        EXPECT_NEAR(to_mm_per_min(program.levels[0].plunging), 30.0, 1e-9);
+        for (const plot::Stroke& stroke : program.strokes) {
+            EXPECT_EQ(stroke.points.front(), stroke.points.back()) << file;
+        }
+    }
+}
+
+TEST(CutPrograms, ArcsKeepTheToleranceThatWasAskedFor) {
+    for (const double tolerance : {0.2, 0.02, 0.002}) {
+        const CutProgram program = read(read_file(plate), {.chord_tolerance = tolerance});
+        const std::vector<Vec2>& hole = program.strokes[1].points; // around 50, 50
+        double farthest = 0.0;
+        for (std::size_t n = 1; n < hole.size(); ++n) {
+            farthest = std::max(farthest, 15.619 - (0.5 * (hole[n - 1] + hole[n]) - Vec2(50, 50)).norm());
+        }
+        EXPECT_LE(farthest, tolerance);
+        EXPECT_GT(farthest, 0.2 * tolerance);
+    }
+}
+
+// Before N5 the 3D program of the thesis has no height: across at zero would be through what lies there.
+TEST(CutPrograms, BeginWhereAllThreeAxesAreNamed) {
+    EXPECT_EQ(read(read_file(space)).path.front(), (plot::CutPoint{.at = {10, 10, 10}}));
+    EXPECT_EQ(read(read_file(simple)).path.front(), (plot::CutPoint{.at = {10, 10, 0}}));
+    const CutProgram low = read("G0 X10 Y20\nG1 Z-1 F60\nX30\nG0 Z8\nX0\nM2\n");
+    ASSERT_GE(low.path.size(), 3U);
+    EXPECT_EQ(low.path[0], (plot::CutPoint{.at = {10, 20, 8}}));
+    EXPECT_EQ(low.path[1], (plot::CutPoint{{10, 20, 0}, 1.0, plot::CutMove::plunge}));
+    EXPECT_EQ(low.path[2], (plot::CutPoint{{10, 20, -1}, 1.0, plot::CutMove::plunge}));
+}
+
+TEST(CutPrograms, FeedsAtTheHeightOfTravelAreInTheAir) {
+    const std::string text =
+        "G0 X0 Y0 Z5\nX10\nG1 Z-1 F60\nX20 F120\nZ5\nX40 F600\nZ-1 F60\nX50 F120\nZ5\nM2\n";
+    const CutProgram program = read(text);
+    EXPECT_EQ(points_of(program), (std::vector<std::size_t>{2, 2}));
+    EXPECT_EQ(std::ranges::count_if(program.path,
+                                    [](const plot::CutPoint& point) {
+                                        return point.move == plot::CutMove::rapid && point.speed > 0.0;
+                                    }),
+              1);
+    EXPECT_EQ(points_of(read(text, {.safe_height = 6.0})), (std::vector<std::size_t>{2, 2, 2}));
+    EXPECT_THAT(refusal(text, {.safe_height = -2.0}).message,
+                HasSubstr("nothing to cut in it below z -2.000"));
+    // A pen plotter's: all in one plane.
+    EXPECT_EQ(points_of(read("G0 Z0\nG0 X5 Y5\nX0\nG1 X10 F60\nY10\nM2\n")), (std::vector<std::size_t>{3}));
+}
+
+TEST(CutPrograms, HeightsAndToolsAreLevels) {
+    const CutProgram program = read("T3 M6\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX10 F300\nZ-2 F30\nX0 F200\nG0 Z5\n"
+                                    "T7 M6\nG0 X3\nG1 Z-1 F90\nX20\nG0 Z5\nX1\nM2\n");
+    ASSERT_EQ(program.levels.size(), 3U);
+    EXPECT_EQ(program.levels[0], (CutLevel{1, 3, -1.0, 5.0, 1.0}));
+    EXPECT_EQ(program.levels[1], (CutLevel{2, 3, -2.0, from_mm_per_min(200.0), 0.5}));
+    EXPECT_EQ(program.levels[2], (CutLevel{3, 7, -1.0, 1.5, 1.5}));
+    EXPECT_EQ(std::ranges::count(program.path, plot::CutMove::tool_change, &plot::CutPoint::move), 1);
+    EXPECT_EQ(program.path.front().tool, 3);
+    EXPECT_EQ(program.path.back().tool, 7);
+    EXPECT_EQ(program.end, Vec2(1, 0));
+}
+
+TEST(CutPrograms, HolesAreDotsAtTheirDeepest) {
+    const CutProgram program =
+        read("G0 X0 Y0 Z5\nG81 X5 Y5 Z-3 R1 F60\nX9\nG80\nG0 X20\nG1 Z1\nZ-1\nZ0\nZ-2\nG0 Z5\nX0\nM2\n");
+    EXPECT_EQ(points_of(program), (std::vector<std::size_t>{1, 1, 1}));
+    EXPECT_EQ(program.strokes[0].points[0], Vec2(5, 5));
+    EXPECT_EQ(program.strokes[2].points[0], Vec2(20, 5));
+    ASSERT_EQ(program.levels.size(), 2U);
+    EXPECT_EQ(program.levels[0].z, -3.0);
+    EXPECT_EQ(program.levels[1].z, -2.0);
+}
+
+TEST(CutPrograms, HeightsThatChangeAlongACutAreToldWithTheLine) {
+    const CutProgram program = read("G0 X0 Y0 Z5\nX1\nG1 Z0 F60\nX10 Z-2\nX20\nG0 Z5\nM2\n");
+    ASSERT_TRUE(program.uneven);
+    EXPECT_EQ(program.uneven->place.line, 4);
+    EXPECT_EQ(program.uneven->message, "this cut goes from z 0.000 to -2.000 mm");
+    EXPECT_FALSE(program.levels[0].z);
+    EXPECT_EQ(program.path[program.path.size() - 3].at, Vec3(10, 0, -2));
+}
+
+TEST(CutPrograms, WhatHasNoMeaningAsAPathIsRefusedWithItsLine) {
+    const auto at_line = [](const std::string& text) {
+        const Diagnostic found = refusal(text);
+        return std::to_string(found.place.line) + ": " + found.message;
+    };
+    EXPECT_EQ(at_line("G0 X0 Y0 Z5\nG1 Z-1 F60\nG1 X10 A90\nM2\n"), "3: the machine 'X, Y, Z' has no axis A");
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG1 Z-1\nM2\n"), HasSubstr("2: "));
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG38.2 Z-1 F60\nM2\n"), HasSubstr("2: nothing is probed"));
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG2 X10 Y0 I9 F60\nM2\n"), HasSubstr("2: "));
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nM2\n"), HasSubstr("there is nothing to cut in it"));
+    EXPECT_THAT(at_line(""), HasSubstr("there is nothing in the program"));
+}
+
+// Without a diameter the contour itself was cut.
+TEST(CutPrograms, CompensationNeedsTheToolsDiameter) {
+    const std::string text = "T1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG41 D1 X10\nX20\nY10\nG40 X30\nM2\n";
+    const Diagnostic found = refusal(text);
+    EXPECT_EQ(found.place.line, 4);
+    EXPECT_THAT(found.hint, HasSubstr("--tools"));
+    CutProgramSettings settings;
+    settings.tools = parse_tool_table("T1 P1 D4\n", "tools.tbl");
+    EXPECT_EQ(read(text, settings).strokes[0].points[1], Vec2(10, 2));
+}
+
+TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
+    const CutProgram program = read("S8000 M3\nM8\nG0 X0 Y0 Z5\nG4 P2\nG1 Z-1 F60\nG4 P0.5\nX5\nM0\nM2\n");
+    EXPECT_EQ(program.spindle_rpm, 8000.0);
+    EXPECT_EQ(program.dwell_time, 2.5);
+    std::string told;
+    for (const Diagnostic& notice : program.notices) {
+        told += to_text(notice) + "\n";
+    }
+    EXPECT_EQ(told,
+              "part.ngc:2: a path has no coolant: left out\n"
+              "part.ngc:4: a path has no dwells: left out 2 times\n"
+              "part.ngc:8: a path has no stops for a person: left out\n");
+}
+
+TEST(CutPrograms, AreKnownByTheirFirstWord) {
+    EXPECT_TRUE(is_gcode("%\n(a plate)\n\n/N1 G21\n"));
+    EXPECT_TRUE(is_gcode("x10 y5 f200\n"));
+    EXPECT_FALSE(is_gcode("IN;SP1;PU0,0;PD400,0;"));
+    EXPECT_FALSE(is_gcode("; nothing\n"));
+}
+
+} // namespace
+} // namespace millwright::gcode
