@@ -134,58 +134,67 @@ private:
     void watch_killed();
     void watch_power();
     void watch_following(double now);
-    void watch_stage();
-    void watch_program(bool stands);
-    void watch_homing();
-    void watch_stopping();
     void watch_way_home();
-    void home_axis(std::size_t axis);
-    void rest();
     void watch_limits();
     void watch_zone();
     void watch_rest();
     [[nodiscard]] std::vector<double> axes_deg() const;
+    /// `now`: of what is under way alone; a motor that was killed before tells its old one.
+    [[nodiscard]] std::string reason_of_kill(bool now) const;
+    /// As a person knows it: the arm's joint, or the axis.
+    [[nodiscard]] std::string name_of(std::size_t axis) const;
+
+    // pmac_stages.cpp: how what is under way goes on and ends
+    [[nodiscard]] bool standing() const;
+    void watch_stage();
+    void watch_program(bool stands);
+    void watch_homing();
+    void watch_stopping();
+    void rest();
     [[nodiscard]] std::string astray_sentence() const;
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
-    [[nodiscard]] std::string unheard() const;
-    /// `now`: of what is under way alone; a motor that was killed before tells its old one.
-    [[nodiscard]] std::string reason_of_kill(bool now) const;
     [[nodiscard]] std::string commanded_limit() const;
+    [[nodiscard]] std::string unheard() const;
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
     void kill();
 
     // pmac_requests.cpp: what a person wants
     [[nodiscard]] bool active() const;
-    [[nodiscard]] bool standing() const;
     [[nodiscard]] bool rests() const; ///< nothing of ours is under way
+    void halt();
+    void brake();
+    void forget_queue();
+    void home_axis(std::size_t axis);
+    void require_rest(std::string_view what) const;
+    void require_enabled(std::string_view what) const;
+    [[nodiscard]] std::string every_motor(std::string_view command) const;
+
+    // pmac_jogs.cpp
+    void jog_axis(std::size_t axis, double target, double speed_deg_per_s);
+    void let_go_of(std::size_t axis);
+    void halt_jog();
+    [[nodiscard]] std::string leaves_limits(const std::vector<double>& from,
+                                            const std::vector<double>& targets) const;
+    [[nodiscard]] double share_within(const std::vector<double>& from, const std::vector<double>& way) const;
+    void set_jog_speed(std::size_t axis, double counts_per_ms);
+    void slow_down(const std::vector<std::string>& jog_speeds);
+    void give_jog_speeds_back();
+    [[nodiscard]] double most_jog_speed(std::size_t axis) const;
+
+    // pmac_commands.cpp: lines that are typed, or of a file
     void check_command(const std::vector<std::string>& lines) const;
     void check_goals(const std::vector<std::string>& lines) const;
     void begin_command(const std::vector<std::string>& lines, bool all);
     bool stopped_by_command(const std::vector<std::string>& lines);
     [[nodiscard]] std::optional<std::size_t> given_power(const std::vector<std::string>& lines) const;
     bool brakes_instead(const std::vector<std::string>& lines);
-    void halt();
-    void halt_jog();
-    void brake();
-    void forget_queue();
-    void require_rest(std::string_view what) const;
-    void require_enabled(std::string_view what) const;
+
+    // pmac_status.cpp: in the words of the Driver interface
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
-    [[nodiscard]] std::string every_motor(std::string_view command) const;
-    void jog_axis(std::size_t axis, double target, double speed_deg_per_s);
-    [[nodiscard]] std::string leaves_limits(const std::vector<double>& from,
-                                            const std::vector<double>& targets) const;
-    [[nodiscard]] double share_within(const std::vector<double>& from, const std::vector<double>& way) const;
-    /// As a person knows it: the arm's joint, or the axis.
-    [[nodiscard]] std::string name_of(std::size_t axis) const;
-    void let_go_of(std::size_t axis);
-    void set_jog_speed(std::size_t axis, double counts_per_ms);
-    void slow_down(const std::vector<std::string>& jog_speeds);
-    void give_jog_speeds_back();
-    [[nodiscard]] double most_jog_speed(std::size_t axis) const;
+    [[nodiscard]] int sent_lines() const;
 
     PmacSettings settings_;
     GuardedLine talk_;

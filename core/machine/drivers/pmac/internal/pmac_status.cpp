@@ -56,6 +56,16 @@ std::optional<Diagnostic> PmacSession::stranger() const {
         {}, message_, link_lost_ ? "" : "is the card on, and the baud rate of a serial port the card's?"};
 }
 
+/// Of the program, into the card's buffer; each of them may have its mark with it.
+int PmacSession::sent_lines() const {
+    if (stage_ != Stage::loading) {
+        return program_lines_;
+    }
+    constexpr int around = 6; // lines that end the buffer and run it
+    const int waiting = static_cast<int>(std::ssize(queue_)) - around;
+    return std::clamp(program_lines_ - waiting / (marks_tell_ ? 2 : 1), 0, std::max(0, program_lines_ - 1));
+}
+
 DriverStatus PmacSession::status() const {
     DriverStatus status;
     status.message = message_;
@@ -84,6 +94,7 @@ DriverStatus PmacSession::status() const {
     status.overrides = overrides_;
     status.answer = answer_;
     status.executed_blocks = executed_;
+    status.sent_blocks = sent_lines();
     status.block = program_lines_ > 0 ? std::min(executed_, program_lines_ - 1) : -1;
     return status;
 }

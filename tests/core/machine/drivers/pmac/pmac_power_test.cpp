@@ -114,6 +114,30 @@ TEST(PmacPowerF2, MotorsThatTakeNoPowerSaySo) {
     EXPECT_TRUE(wire.powered());
 }
 
+// Sooner or later, by how far its offset drives it: before the card was asked, or long after.
+TEST(PmacPowerF2, AMotorThatTripsAtRestAfterItGotPowerSaysWhy) {
+    for (const char* const limit : {"16", "160", "400", "424", "434"}) { // of 437: where the loop holds it
+        PmacWire wire({}, false, "XYZA", {}, std::string("I129=10\nI111=") + limit + "\n");
+        wire.session.enable(wire.now);
+        ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 2.0)) << limit;
+        wire.pass(0.1);
+        EXPECT_THAT(wire.session.status().message,
+                    testing::StartsWith("motor 1: its following error became too great"))
+            << limit;
+        EXPECT_FALSE(wire.powered());
+    }
+}
+
+TEST(PmacPowerF2, AFaultOfAnAmplifierAtRestIsAnAlarm) {
+    PmacWire wire;
+    wire.pass(1.0);
+    ASSERT_EQ(wire.state(), DriverState::idle);
+    wire.card.raise_alarm();
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 1.0));
+    wire.pass(0.1);
+    EXPECT_EQ(wire.session.status().message, "motor 1: its amplifier reports a fault");
+}
+
 // A report is asked for in the middle of it: what a motor without power tells comes with the next one.
 TEST(PmacPowerF2, AFaultOfAnAmplifierIsTheReasonWheneverItComes) {
     for (int phase = 0; phase < 24; ++phase) {

@@ -1,0 +1,186 @@
+// Lines that a person types, or has in a file: what may be sent of them, and when.
+#include "core/base/error.h"
+#include "core/machine/drivers/pmac/internal/command_kind.h"
+#include "core/machine/drivers/pmac/internal/pmac_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::machine::pmac {
+
+void PmacSession::check_command(const std::vector<std::string>& lines) const {
+    if (lines.empty()) {
+        throw Error("there is nothing in the command");
+    }
+    for (const std::string& line : lines) {
+        constexpr std::size_t longest = 240;
+        const bool plain = std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~'; });
+        if (!plain || line.empty() || line.size() > longest) {
+            throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
+        }
+        if (line.front() == '^') {
+            throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
+                        {},
+                        "Stop, emergency stop and unlock do what ^A, ^K and others would");
+        }
+        if (jogs_without_end(line)) {
+            throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
+                        {},
+                        "the jog buttons stop when they are let go of; J:500 goes 500 counts");
+        }
+        if (opens_loop(line)) {
+            throw Error(fmt::format("'{}' would drive a motor without its loop: no speed, no limit and no "
+                                    "watchdog holds it",
+                                    line),
+                        {},
+                        "J:500 goes 500 counts");
+        }
+    }
+}
+
+/// Goals are known before anything moves; what a program does is watched.
+void PmacSession::check_goals(const std::vector<std::string>& lines) const {
+    int motor = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<double> from;
+    for (const MotorState& state : motors_) {
+        from.push_back(state.counts);
+    }
+    std::vector<double> targets = from;
+    for (const std::string& line : lines) {
+        for (const MotorGoal& goal : goals_of(line, motor)) {
+            const auto axis = std::ranges::find(settings_.axes, goal.motor, &PmacAxis::motor);
+            const auto n = static_cast<std::size_t>(axis - settings_.axes.begin());
+            if (n < targets.size()) {
+                targets[n] = goal.counts + (goal.from_here ? targets[n] : 0.0);
+            }
+        }
+        if (const std::string why = leaves_limits(from, targets); !why.empty()) {
+            throw Error(fmt::format("'{}' is not sent: {}", line, why));
+        }
+    }
+}
+
+/// Whether that is all there is to do about `lines`.
+bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
+    if (!active() || stage_ == Stage::loading) {
+        return false;
+    }
+    if (std::all_of(lines.begin(), lines.end(), only_kills)) {
+        fail("a command took the power away");
+    } else if (std::all_of(lines.begin(), lines.end(), only_stops)) {
+        halt();
+    } else {
+        return false;
+    }
+    answer_ = {answer_.number + 1, CommandAnswer::State::done, {}};
+    return true;
+}
+
+/// The first motor without power that `lines` would give it to.
+std::optional<std::size_t> PmacSession::given_power(const std::vector<std::string>& lines) const {
+    int addressed = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<char> powered;
+    for (const MotorState& motor : motors_) {
+        powered.push_back(motor.enabled() ? 1 : 0);
+    }
+    bool stored = false;
+    for (const std::string& line : lines) {
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+        if (stored) {
+            continue;
+        }
+        for (const PowerChange& change : power_changes_of(line, addressed)) {
+            for (std::size_t n = 0; n < powered.size(); ++n) {
+                if (change.motor && *change.motor != settings_.axes[n].motor) {
+                    continue;
+                }
+                if (change.given && powered[n] == 0) {
+                    return n;
+                }
+                powered[n] = change.given ? 1 : 0;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// Stops that were typed would give power to motors without: those that have it brake, and that is all.
+/// Throws Error where nothing is to be stopped, and for lines that do more.
+bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
+    const auto to = given_power(lines);
+    if (!to || lines_may_power_ || stage_ == Stage::alarm) { // which takes none of them anyway
+        return false;
+    }
+    const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
+    if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
+        throw Error(
+            fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),
+            {},
+            "look at the machine, then give its motors power: --power on the command line");
+    }
+    command_lines_.clear();
+    finish(Stage::stopping);
+    unbraked_ = true; // the next report tells which move
+    answer_ = {answer_.number + 1, CommandAnswer::State::done, {}};
+    return true;
+}
+
+int PmacSession::load(const std::vector<std::string>& lines) {
+    if (std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); })) {
+        throw Error("the motors have power, and a wrong gain or limit would move them at once",
+                    {},
+                    "take it away first, and give it again when the settings were looked at");
+    }
+    return command(lines, true);
+}
+
+int PmacSession::command(const std::vector<std::string>& lines, bool all) {
+    check_command(lines);
+    check_goals(lines);
+    if (stopped_by_command(lines) || brakes_instead(lines)) {
+        return answer_.number;
+    }
+    const bool waits = answer_.state == CommandAnswer::State::pending;
+    const bool asks = std::all_of(lines.begin(), lines.end(), only_asks);
+    if (!asks && rests()) {
+        give_jog_speeds_back();
+    }
+    const bool stops = std::all_of(
+        lines.begin(), lines.end(), [](const auto& line) { return only_stops(line) || only_kills(line); });
+    if (stage_ == Stage::astir && stops) {
+        finish(Stage::commanding);
+    } else if (stage_ == Stage::alarm && !waits && !link_lost_ &&
+               std::all_of(lines.begin(), lines.end(), only_sets)) {
+        // nothing has power: what a test of a motor had borrowed is given back
+    } else if (waits || !asks || !(active() || stage_ == Stage::astir) || stage_ == Stage::loading) {
+        require_rest("command");
+        finish(Stage::commanding);
+    }
+    begin_command(lines, all);
+    return answer_.number;
+}
+
+void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
+    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    command_goes_on_ = all;
+    command_refused_ = false;
+    command_lines_.assign(lines.begin(), lines.end());
+    only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
+    int addressed = 0;
+    closes_loops_ = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        const auto changes = power_changes_of(line, addressed);
+        return std::any_of(changes.begin(), changes.end(), [](const PowerChange& c) { return c.given; });
+    });
+    commanded_.clear();
+    for (const std::string& line : lines) {
+        commanded_ += line + "\n";
+    }
+    commanded_from_.clear();
+    for (const MotorState& motor : motors_) {
+        commanded_from_.push_back(motor.counts);
+    }
+    next_command();
+}
+
+} // namespace millwright::machine::pmac
