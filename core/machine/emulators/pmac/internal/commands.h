@@ -31,6 +31,10 @@ public:
     [[nodiscard]] std::string motor_states() const;
     [[nodiscard]] std::string system_states() const;
     [[nodiscard]] std::string global_state() const;
+    /// The words whose addresses are I21 to I44, as far as I20 chooses them: in bytes, the highest first.
+    [[nodiscard]] std::string gathered() const;
+    /// The line that the host has put into the dual-ported RAM.
+    [[nodiscard]] std::string shared_line() const;
 
 private:
     enum class Buffer { none, program, rotary, plc };

@@ -129,4 +129,47 @@ Commands::Code Commands::memory(Words& words) {
     return 0;
 }
 
+std::string Commands::gathered() const {
+    constexpr int mask_index = 20, sources = 24, bytes = 3;
+    constexpr std::uint32_t x_side = 1U << 22, both_sides = 1U << 23;
+    std::string result;
+    const auto put = [&](char side, std::uint32_t source) {
+        const std::uint32_t word = card_.memory().word(side, static_cast<int>(source & greatest_address));
+        for (int n = bytes - 1; n >= 0; --n) {
+            result += static_cast<char>(word >> (8 * n) & 0xFFU);
+        }
+    };
+    const auto mask = static_cast<std::uint32_t>(card_.i(mask_index));
+    for (int n = 0; n < sources; ++n) {
+        if ((mask >> n & 1U) == 0) {
+            continue;
+        }
+        const auto source = static_cast<std::uint32_t>(card_.i(mask_index + 1 + n));
+        if ((source & (x_side | both_sides)) != 0) {
+            put('X', source);
+        }
+        if ((source & x_side) == 0 || (source & both_sides) != 0) {
+            put('Y', source);
+        }
+    }
+    return result;
+}
+
+std::string Commands::shared_line() const {
+    constexpr int begin = 0xD18C, end = 0xD1B4; // behind the word of control
+    std::string line;
+    for (int address = begin; address < end; ++address) {
+        for (const char side : {'Y', 'X'}) {
+            const std::uint32_t word = card_.memory().word(side, address);
+            for (const std::uint32_t letter : {word & 0xFFU, word >> 8 & 0xFFU}) {
+                if (letter == 0) {
+                    return line;
+                }
+                line += static_cast<char>(letter);
+            }
+        }
+    }
+    return line;
+}
+
 } // namespace millwright::machine::pmac_card

@@ -36,6 +36,9 @@ std::string Port::take_output() {
 void Port::take(char character) {
     const auto code = static_cast<unsigned char>(character);
     constexpr unsigned char first_printable = 32, last_ascii = 127;
+    if (echoes_ && (code >= first_printable || character == cr)) {
+        output_ += character;
+    }
     if (character == cr) {
         const std::string line = std::exchange(line_, {});
         const bool overrun = std::exchange(overrun_, false);
@@ -132,10 +135,33 @@ void Port::reset() {
     of_programs_.reset();
     line_.clear();
     output_.clear();
-    overrun_ = bad_character_ = false;
+    overrun_ = bad_character_ = echoes_ = false;
+}
+
+/// What a control character asks of all motors or systems; nothing: it asks nothing.
+std::optional<std::string> Port::report(char character) const {
+    switch (character | '@') {
+    case 'B':
+        return commands_.motor_states();
+    case 'C':
+        return commands_.system_states();
+    case 'F':
+        return commands_.following_errors();
+    case 'G':
+        return commands_.global_state();
+    case 'P':
+        return commands_.positions();
+    case 'V':
+        return commands_.velocities();
+    default:
+        return std::nullopt;
+    }
 }
 
 void Port::control(char character) {
+    if (const auto told = report(character)) {
+        return answer({*told}, true);
+    }
     const auto each_system = [&](auto&& act) {
         for (int n = 0; n < Card::systems; ++n) {
             act(card_.system(n));
@@ -146,22 +172,13 @@ void Port::control(char character) {
         card_.abort_all();
         card_.asked().clear();
         break;
-    case 'B':
-        answer({commands_.motor_states()}, true);
-        break;
-    case 'C':
-        answer({commands_.system_states()}, true);
-        break;
     case 'D':
         for (int n = 0; n < Card::plcs; ++n) {
             card_.enable_plc(n, false);
         }
         break;
-    case 'F':
-        answer({commands_.following_errors()}, true);
-        break;
-    case 'G':
-        answer({commands_.global_state()}, true);
+    case 'E':
+        output_ += commands_.gathered();
         break;
     case 'H':
         if (!line_.empty()) {
@@ -180,9 +197,6 @@ void Port::control(char character) {
     case 'O':
         each_system([](CoordinateSystem& system) { system.hold(); });
         break;
-    case 'P':
-        answer({commands_.positions()}, true);
-        break;
     case 'Q':
         each_system([](CoordinateSystem& system) { system.quit(); });
         break;
@@ -192,15 +206,21 @@ void Port::control(char character) {
     case 'S':
         each_system([](CoordinateSystem& system) { (void)system.run(true); });
         break;
-    case 'V':
-        answer({commands_.velocities()}, true);
+    case 'T':
+        echoes_ = !echoes_;
+        break;
+    case 'U':
+        (void)commands_.execute("OPEN ROT");
+        break;
+    case 'W':
+        enter(commands_.shared_line());
         break;
     case 'X':
         output_.clear();
         line_.clear();
         overrun_ = bad_character_ = false;
         break;
-    default: // E, T, U, W and Z have nothing to act on here
+    default: // ^Z: this is the only port
         break;
     }
 }

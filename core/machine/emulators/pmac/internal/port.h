@@ -4,6 +4,7 @@
 
 #include "core/machine/emulators/pmac/internal/commands.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,7 @@ public:
 private:
     void take(char character);
     void control(char character);
+    [[nodiscard]] std::optional<std::string> report(char character) const;
     void enter(const std::string& line);
     void answer(const std::vector<std::string>& lines, bool closes);
     void refuse(int error, bool of_program);
@@ -34,6 +36,7 @@ private:
     Commands of_programs_; ///< with addresses of their own
     std::string line_, last_line_, output_;
     bool overrun_ = false, bad_character_ = false;
+    bool echoes_ = false; ///< full duplex: it repeats what it gets
 };
 
 } // namespace millwright::machine::pmac_card

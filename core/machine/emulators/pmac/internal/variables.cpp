@@ -115,8 +115,10 @@ double IVariables::factory(int index) {
 }
 
 bool IVariables::is_address(int index) {
+    constexpr int first_gathered = 20, last_gathered = 44; // the mask of the sources, then those
     const int own = index % hundred;
-    return index >= first_motor && index <= last_motor && (own == 2 || own == 3 || own == 4 || own == 25);
+    return (index >= first_gathered && index <= last_gathered) ||
+           (index >= first_motor && index <= last_motor && (own == 2 || own == 3 || own == 4 || own == 25));
 }
 
 void IVariables::set(int index, double value) {

@@ -161,10 +161,53 @@ TEST(PmacHandshakeP3, ReportsStatusAsInTheManual) {
     EXPECT_EQ(pmac.ask("&2??"), "A80020000000"); // X Y Z in the feed, circle vectors incremental
 }
 
+TEST(PmacHandshakeP3, TellsInBinaryWhatIsGathered) {
+    PmacCard pmac;
+    EXPECT_EQ(pmac.control('\x05'), ""); // I20 chooses nothing
+    ASSERT_EQ(pmac.send("WY:$D300,$123456\nWX:$D300,$ABCDEF\nWY:$D301,$000001"), "");
+    ASSERT_EQ(pmac.send("I20=$B I21=$D300 I22=$40D300 I23=$D300 I24=$80D300"), "");
+    EXPECT_EQ(pmac.ask("I22"), "$40D300");
+    pmac.card.receive("P1=4\x05");
+    EXPECT_EQ(pmac.card.take_output(), "\x12\x34\x56\xAB\xCD\xEF\xAB\xCD\xEF\x12\x34\x56");
+    pmac.card.receive("2\r"); // the line goes on
+    EXPECT_EQ(pmac.card.take_output(), "\n");
+    EXPECT_EQ(pmac.ask("P1"), "42");
+}
+
+TEST(PmacHandshakeP3, RepeatsWhatItGetsInFullDuplex) {
+    PmacCard pmac;
+    (void)pmac.raw("P1=5");
+    pmac.card.receive("\x14");
+    EXPECT_EQ(pmac.card.take_output(), "");
+    EXPECT_EQ(pmac.raw("P1"), "P1\r\n5\r\n");
+    EXPECT_EQ(pmac.raw("garbage"), "garbage\r\a\r\nERR003\r");
+    pmac.card.receive("\x14");
+    EXPECT_EQ(pmac.raw("P1"), "\n5\r\n");
+    pmac.card.receive("\x14");
+    pmac.card.power_cycle();
+    EXPECT_EQ(pmac.raw("I3"), "\n1\r\n"); // a card that starts is in half duplex
+}
+
+TEST(PmacHandshakeP3, TakesALineFromTheSharedMemory) {
+    PmacCard pmac;
+    const std::string line = "P1=25 P1";
+    for (std::size_t n = 0; n < line.size(); n += 2) {
+        const auto letters = static_cast<std::uint16_t>(line[n] | line[n + 1] << 8);
+        pmac.card.set_shared_16(0x0630 + static_cast<int>(n), letters);
+    }
+    pmac.card.receive("\x17");
+    EXPECT_EQ(pmac.card.take_output(), "\n25\r\n");
+    pmac.card.set_shared_16(0x0630, 'X' | '1' << 8);
+    pmac.card.set_shared_16(0x0632, 0);
+    pmac.card.receive("\x17");
+    EXPECT_EQ(pmac.card.take_output(), "\a\r\nERR005\r");
+}
+
 TEST(PmacHandshakeP3, AnswersTheCommandsOfTheThesis) {
     PmacCard pmac;
     ASSERT_EQ(pmac.send(test::arm_axes + test::arm_program), "");
-    const std::array<const char*, 47> accepted{"@",
+    const std::array<const char*, 58> accepted{"@",
+                                               "@0",
                                                "#",
                                                "#2",
                                                "&",
@@ -210,6 +253,16 @@ TEST(PmacHandshakeP3, AnswersTheCommandsOfTheThesis) {
                                                "P",
                                                "V",
                                                "F",
+                                               "?",
+                                               "???",
+                                               "HM",
+                                               "K",
+                                               "J+",
+                                               "J-",
+                                               "S",
+                                               "R",
+                                               "P1..3",
+                                               "CLOSE",
                                                "TYPE"};
     for (const char* const line : accepted) {
         EXPECT_NE(pmac.raw(line).find('\n'), std::string::npos) << line;
@@ -221,6 +274,16 @@ TEST(PmacHandshakeP3, AnswersTheCommandsOfTheThesis) {
     for (const char character : std::string("\x02\x03\x06\x07\x10\x16")) {
         EXPECT_NE(pmac.control(character), "") << static_cast<int>(character);
     }
+    for (const char character : std::string("\x0F\x11\x12\x13\x01\x0B")) { // they act, and say nothing
+        EXPECT_EQ(pmac.control(character), "") << static_cast<int>(character);
+    }
+    EXPECT_EQ(pmac.ask("#1?").substr(8, 1), "0"); // of a killed motor
+    EXPECT_EQ(pmac.ask("OPEN ROT"), "");
+    EXPECT_EQ(pmac.ask("CLOSE"), "");
+    EXPECT_EQ(pmac.ask("OPEN PROG 7"), "");
+    EXPECT_EQ(pmac.ask("CLEAR"), "");
+    EXPECT_EQ(pmac.ask("SIZE").front(), '-'); // while a buffer is open
+    EXPECT_EQ(pmac.ask("CLOSE"), "");
     EXPECT_EQ(pmac.ask("UNDEFINE"), "");
     EXPECT_EQ(pmac.ask("#1->"), "0");
 }
