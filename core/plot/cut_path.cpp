@@ -100,11 +100,13 @@ public:
         const Tabs& tabs = level.tabs;
         const double part = length(stroke) / tabs.count;
         if (!(tabs.width < part)) {
-            throw Error(fmt::format("pen {}: {} tabs of {} mm do not fit on a stroke of {} mm",
-                                    level.pen,
-                                    tabs.count,
-                                    tabs.width,
-                                    part * tabs.count));
+            throw Error(
+                fmt::format("pen {}: {} tabs do not fit on a stroke of {:.6g} mm: each takes {:.6g} mm of "
+                            "the tool's way, its own width and that of the tool",
+                            level.pen,
+                            tabs.count,
+                            part * tabs.count,
+                            tabs.width));
         }
         double passed = 0.0; // way around up to the segment
         int edge = 0;        // edges of tabs passed: an odd number is on a tab

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
+#include "core/gcode/reader/cut_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/plot/closing.h"
@@ -16,10 +17,14 @@
 #include "core/plot/picture/trace.h"
 #include "core/plot/standing_tabs.h"
 #include "core/project/assets.h"
+#include "core/project/gcode_file.h"
 #include "core/project/internal/failure.h"
 #include "core/project/internal/plot_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -38,6 +43,8 @@ void PlotDerivation::make_path() {
     result_.picture = is_picture_file(result_.input.file);
     if (is_path_file(result_.input.file)) {
         use(plot::read_path(read_file(result_.input.file), result_.input.file));
+    } else if (is_gcode_file(result_.input.file)) {
+        cut_program();
     } else if (result_.picture) {
         cut_picture();
     } else {
@@ -109,6 +116,21 @@ void PlotDerivation::time_as_drawn() {
         failure->message = "there is no time of it as drawn: " + failure->message;
     }
     note(std::move(failure));
+}
+
+/// As it stands, like a path file.
+void PlotDerivation::cut_program() {
+    const gcode::CutProgram read = gcode::read_cut_program(read_file(result_.input.file), result_.input.file);
+    result_.notices = read.notices;
+    if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - settings_.spindle_rpm) > 0.5) {
+        note(
+            Diagnostic{{},
+                       fmt::format("the program turns the spindle {:.0f} times a minute, here it does {:.0f}",
+                                   read.spindle_rpm,
+                                   settings_.spindle_rpm),
+                       "set it under Work"});
+    }
+    use(read.path);
 }
 
 void PlotDerivation::cut_picture() {

@@ -1,6 +1,7 @@
 #include "core/project/plot_input.h"
 
 #include "core/base/units.h"
+#include "core/project/gcode_file.h"
 #include "core/project/level_settings.h"
 
 #include <algorithm>
@@ -31,6 +32,12 @@ bool is_picture_file(const fs::path& file) {
 
 bool is_path_file(const fs::path& file) {
     return ending_of(file) == ".path";
+}
+
+bool is_gcode_file(const fs::path& file) {
+    constexpr std::array<std::string_view, 8> endings{
+        ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
+    return std::ranges::find(endings, ending_of(file)) != endings.end();
 }
 
 bool is_plot_file(const fs::path& file) {

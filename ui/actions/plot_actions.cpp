@@ -30,7 +30,9 @@ Permission can_play(const Workbench& now) {
         return path;
     }
     if (!made->strokes) {
-        return Permission::refused("Points are played of strokes: plots, and outlines of pictures.");
+        return Permission::refused("Points are played of strokes: plots, and outlines of pictures. Of G-code "
+                                   "'millwright plot decode' makes "
+                                   "points.");
     }
     return now.plot.table().playing() ? Permission::refused("The table is moving.") : Permission{};
 }

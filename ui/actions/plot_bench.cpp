@@ -2,6 +2,7 @@
 
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
+#include "core/plot/hpgl/reader.h"
 #include "core/plot/path_file.h"
 #include "core/project/assets.h"
 
@@ -64,6 +65,17 @@ double PlotBench::tool_diameter() const {
     return settings().tip.kind == plot::TipKind::point ? 0.0 : settings().tip.diameter;
 }
 
+namespace {
+
+/// Where the drawing leaves the pen, on the machine: of a plot where its file does.
+Vec2 end_of(const project::PlotResult& made) {
+    const Vec2 end = made.picture ? Vec2(Vec2::Zero())
+                                  : plot::read_hpgl_file(made.input.file, made.input.settings.hpgl).end;
+    return end + made.input.settings.origin;
+}
+
+} // namespace
+
 void PlotBench::play_table() {
     const auto now = latest();
     if (!now || !now->strokes) {
@@ -71,7 +83,9 @@ void PlotBench::play_table() {
     }
     const auto model = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
-    table_->play(table_choice_, *now->strokes, model);
+    TableChoice choice = table_choice_;
+    choice.decoding.end = end_of(*now);
+    table_->play(choice, *now->strokes, model);
 }
 
 namespace {

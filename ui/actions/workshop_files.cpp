@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/sentences.h"
 #include "core/machine/way_on.h"
+#include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
 #include "core/project/strategy_path.h"
@@ -59,7 +60,8 @@ fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& option
 } // namespace
 
 void Workshop::open(const fs::path& file) {
-    if (project::is_plot_file(file)) {
+    const bool is_cut_here = session_.workspace == Workspace::plot && project::is_gcode_file(file);
+    if (project::is_plot_file(file) || is_cut_here) {
         open_plot(file);
         return;
     }

@@ -2,12 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/exchange/surface_file.h"
+#include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
 #include "core/project/plot_input.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace millwright::panels {
 
@@ -18,9 +18,6 @@ namespace {
 using actions::FileQuestion;
 
 constexpr std::string_view extension = ".json";
-
-constexpr std::array<std::string_view, 8> gcode_extensions{
-    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
 
 /// What "Open" can make something of.
 bool is_opened(const fs::path& file) {
@@ -112,10 +109,7 @@ const AskedFile& about(FileQuestion question) {
 }
 
 bool is_gcode(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(
-        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::ranges::find(gcode_extensions, ending) != gcode_extensions.end();
+    return project::is_gcode_file(file);
 }
 
 bool is_listed(const AskedFile& asked, const fs::path& file) {

@@ -1,6 +1,7 @@
 #include "ui/panels/plot_fields.h"
 
 #include "core/base/units.h"
+#include "core/project/gcode_file.h"
 #include "core/project/level_settings.h"
 #include "core/project/plot_choices.h"
 #include "core/project/plot_settings.h"
@@ -264,9 +265,12 @@ void name_choice(Ui& ui,
     }
 }
 
+bool stands_as_it_is(const Workbench& now) {
+    return project::is_path_file(now.plot.file()) || project::is_gcode_file(now.plot.file());
+}
+
 widgets::Permission unless_path(const Workbench& now, const char* reason) {
-    return project::is_path_file(now.plot.file()) ? widgets::Permission::refused(reason)
-                                                  : widgets::Permission{};
+    return stands_as_it_is(now) ? widgets::Permission::refused(reason) : widgets::Permission{};
 }
 
 } // namespace
@@ -281,6 +285,8 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         picture_fields(ui, ask, now.plot.settings(), made.get());
     } else if (project::is_path_file(now.plot.file())) {
         ui.note("A path that was made before: it is cut as it stands.");
+    } else if (project::is_gcode_file(now.plot.file())) {
+        ui.note("A G-code program: it is cut as it stands, with its heights and feeds.");
     } else {
         unit_fields(ui, ask, now.plot.settings());
         reading_fields(ui, ask, now.plot.settings());
@@ -291,7 +297,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     const plot::StrokePlan& plan = set.strokes;
     const widgets::Permission shaping =
-        unless_path(now, "A path file is cut as it stands: this counts for drawings.");
+        unless_path(now, "What has a path of its own is cut as it stands: this counts for drawings.");
     if (const auto section = ui.section("cutter", "Cutter")) {
         numbers(ui, ask, set, {"tool_mm"}); // how wide it cuts is seen of path files, too
         const auto permitted = ui.permitted(shaping);
@@ -351,8 +357,7 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const PlotSettings& set = now.plot.settings();
     {
-        const auto permitted =
-            ui.permitted(unless_path(now, "The path file has its own speeds and heights."));
+        const auto permitted = ui.permitted(unless_path(now, "The file has its own speeds and heights."));
         speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
         speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
         numbers(ui, ask, set, {"safe_height_mm"});

@@ -40,6 +40,9 @@ std::vector<fs::path> samples_in(const fs::path& assets) {
             }
         }
     }
+    for (const char* program : {"thesis-3d.ngc", "thesis-plate.ngc", "thesis-simple.ngc"}) {
+        found.push_back(assets / "samples" / "gcode" / program);
+    }
     std::ranges::sort(found);
     return found;
 }
@@ -188,7 +191,7 @@ void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_source(ui, now, ask);
     if (now.plot.file().empty()) {
-        ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, or a path file.");
+        ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, a path file, or G-code.");
         return;
     }
     draw_progress(ui, now);

@@ -17,6 +17,27 @@ double taper_of(const ToolTip& tip) {
     return rise(tip, radius(tip));
 }
 
+/// In the words of a frame, which no pen draws.
+void expect_tabs_fit(const Tabs& tabs, double plate, double around, double tool) {
+    if (tabs.count < 1) {
+        return;
+    }
+    if (tabs.height > plate) {
+        throw Error(
+            fmt::format("the frame: tabs of {:.6g} mm stand above a plate of {:.6g} mm", tabs.height, plate));
+    }
+    if (!(tabs.count * (tabs.width + tool) < around)) {
+        throw Error(fmt::format("the frame: {} tabs of {:.6g} mm do not fit on a way of {:.6g} mm around it: "
+                                "each takes {:.6g} mm more, the width of the tool",
+                                tabs.count,
+                                tabs.width,
+                                around,
+                                tool),
+                    {},
+                    "fewer or narrower tabs");
+    }
+}
+
 CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     const ReliefSettings& relief = plan.relief;
     if (relief.tip.kind == TipKind::point) {
@@ -36,7 +57,9 @@ CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     settings.levels = with_standing_tabs({level}, relief.tip.diameter);
     settings.safe_height = relief.safe_height;
     settings.change_position.z() = std::max(settings.change_position.z(), settings.safe_height);
-    return cut_path({frame(field, relief.tip.diameter, plan.frame_margin)}, settings);
+    const Stroke around = frame(field, relief.tip.diameter, plan.frame_margin);
+    expect_tabs_fit(plan.tabs, *plan.plate, length(around), relief.tip.diameter);
+    return cut_path({around}, settings);
 }
 
 /// What is deeper than the plate is in the bed.

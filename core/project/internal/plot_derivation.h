@@ -29,6 +29,7 @@ public:
     [[nodiscard]] bool wants_program() const { return result_.path->size() <= most_points_at_once; }
 
 private:
+    void cut_program();
     void cut_picture();
     void cut_relief(const plot::Picture& picture, double pitch);
     void cut_strokes(const plot::Strokes& drawn, const Vec2& end);

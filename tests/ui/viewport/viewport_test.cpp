@@ -39,6 +39,33 @@ TEST_F(ViewportTest, FitsItsContentAtFirst) {
     }
 }
 
+gcode::PreviewPath line(const Vec3& from, const Vec3& to) {
+    gcode::PathChunker chunker;
+    chunker.add({from, 0, gcode::PathKind::start}, 0.0);
+    chunker.add({to, 0, gcode::PathKind::feed}, 0.0);
+    return {{chunker.take_rest()}};
+}
+
+// The program of a plot that was moved is still where the plot was: for as long as the new one was made the
+// view was fitted to both, and stayed so.
+TEST_F(ViewportTest, FitsAPlotAndNotTheProgramThatIsPlayedOfIt) {
+    auto plot = std::make_shared<project::PlotResult>();
+    plot->cuts.push_back({1, line({400, 0, 0}, {500, 80, 0})});
+    scene.plot = plot;
+    frame();
+    const render::CameraPose alone = viewport().camera().pose();
+    auto program = std::make_shared<project::OpenedProgram>();
+    program->path = line({0, 0, 0}, {100, 80, 0});
+    scene.opened = program;
+    viewport().fit();
+    frame();
+    EXPECT_EQ(viewport().camera().pose(), alone);
+    scene.plot.reset();
+    viewport().fit();
+    frame();
+    EXPECT_LT(viewport().camera().pose().target.x, 100.0);
+}
+
 TEST_F(ViewportTest, SelectsTheControlPointThatIsClicked) {
     show(ViewKind::design);
     const widgets::Point at = handle("control_point(1,2)");

@@ -49,7 +49,7 @@ public:
     [[nodiscard]] bool unfinished() const override { return unfinished_; }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        if (!scene.opened || scene.opened->path.empty()) {
+        if (!scene.opened || scene.opened->path.empty() || scene.plot) { // a plot tells where it lies itself
             return {};
         }
         return moved_corners(scene.opened->path.bounds(), scene_from_workpiece(scene));

@@ -417,6 +417,27 @@ TEST(ReliefPlan, IsNotDeeperThanItsPlateUnlessThatIsAllowed) {
 }
 
 // A ball has no width at its end: full width at the underside takes its radius more, into what lies below.
+// It told of pen 1, and of the tabs' width with the tool's.
+TEST(ReliefPlan, TabsThatDoNotFitAreToldOfTheFrameInTheUsersWidth) {
+    const HeightField field = field_of(100, 50, 0.1, [](int, int) { return -0.5; });
+    ReliefPlan plan;
+    plan.relief.tip = {.kind = TipKind::flat, .diameter = 2.0};
+    plan.plate = 3.0;
+    plan.tabs = {.count = 50, .width = 20.0, .height = 1.0};
+    const auto refusal = [&] {
+        try {
+            (void)relief_path(field, plan);
+        } catch (const Error& error) {
+            return error.diagnostic().message;
+        }
+        return std::string();
+    };
+    EXPECT_TRUE(refusal().starts_with("the frame: 50 tabs of 20 mm do not fit on a way of ")) << refusal();
+    EXPECT_TRUE(refusal().ends_with("each takes 2 mm more, the width of the tool")) << refusal();
+    plan.tabs = {.count = 1, .width = 2.0, .height = 4.0};
+    EXPECT_EQ(refusal(), "the frame: tabs of 4 mm stand above a plate of 3 mm");
+}
+
 TEST(ReliefPlan, TellsWhatARoundTipLeavesOfAFrameOrHowDeepItGoes) {
     const HeightField field = field_of(20, 10, 1.0, [](int, int) { return -1.0; });
     const auto bottom = [&](const ReliefPlan& plan) { return deepest(relief_path(field, plan)); };

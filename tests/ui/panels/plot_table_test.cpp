@@ -1,0 +1,91 @@
+// Points that the Plot & Picture workspace plays to a table, with real mouse and keys in real OpenGL.
+#include "tests/ui/panels/plot_person.h"
+#include "tests/ui/panels/table_bench.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace millwright::panels {
+namespace {
+
+using Bench = test::PlotPerson;
+using testing::HasSubstr;
+
+TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().status.points > 3; }));
+    EXPECT_TRUE(bench.person.sees("lower/read_out/X"));
+    EXPECT_TRUE(bench.person.sees("lower/histogram"));
+    bench.person.keep("plot-table");
+    bench.person.click("emergency/machine_emergency_stop");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    const auto stopped = bench.plot().table().view();
+    EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
+    EXPECT_LT(stopped.status.points, stopped.total);
+    EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
+}
+
+TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
+    test::TableBench table({.keep = true});
+    Bench bench("assets/samples/plot/moves.plt");
+    actions::TableChoice choice;
+    choice.port = table.port();
+    choice.record = {};
+    choice.record.answer = "ok";
+    bench.person.workshop().plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    EXPECT_TRUE(bench.person.sees("lower/begins"));
+    bench.person.click("lower/plot_play_table");
+    const auto cuts = [&] { return table.position()[0] > 5.0 && table.position()[2] < 0.5; };
+    bench.person.frames(3);
+    ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
+    ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
+    bench.person.click("lower/plot_stop_table");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    EXPECT_EQ(bench.plot().table().view().status.state, machine::PlayState::stopped);
+    bench.person.frames(2);
+    EXPECT_TRUE(bench.person.sees("lower/begins"));
+    const auto first = static_cast<std::size_t>(table.records());
+    bench.person.frames(2);
+    bench.person.click("lower/plot_play_table");
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return table.records() > static_cast<std::int64_t>(first) + 100; }, 60.0));
+    bench.person.workshop().plot().table().stop();
+    const auto went = table.positions();
+    const double step = choice.decoding.velocity * choice.decoding.period;
+    for (std::size_t n = first; n < first + 100; ++n) {
+        const Vec3 before(went[n - 1][0], went[n - 1][1], went[n - 1][2]);
+        const Vec3 now(went[n][0], went[n][1], went[n][2]);
+        ASSERT_LT((now - before).norm(), 1.01 * step + 1e-3) << n - first;
+        if (n < first + 30) { // up first
+            ASSERT_LT((now - before).head<2>().norm(), 1e-6) << n - first;
+        }
+    }
+}
+
+// As `plot decode` has it: the table stood at the end of the last stroke, in the work.
+TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    std::ofstream(bench.folder / "away.plt") << "IN;SP1;PU400,0;PD800,0;PU;PA0,2000;SP;";
+    bench.drop(bench.folder / "away.plt");
+    bench.person.fill_in("inspector/work/origin_x_mm", "10");
+    bench.settle();
+    actions::TableChoice choice;
+    choice.speed = 100.0;
+    bench.plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }));
+    EXPECT_EQ(bench.plot().table().view().status.position, Vec3(10.0, 50.0, choice.decoding.pen_up_z));
+}
+
+} // namespace
+} // namespace millwright::panels
