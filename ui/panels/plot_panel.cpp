@@ -40,10 +40,10 @@ std::vector<fs::path> samples_in(const fs::path& assets) {
             }
         }
     }
+    std::ranges::sort(found);
     for (const char* program : {"thesis-3d.ngc", "thesis-plate.ngc", "thesis-simple.ngc"}) {
         found.push_back(assets / "samples" / "gcode" / program);
     }
-    std::ranges::sort(found);
     return found;
 }
 

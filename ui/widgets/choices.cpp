@@ -33,6 +33,10 @@ std::optional<int> popup_rows(Ui& ui, const std::string& own, int now, std::span
     for (const Option& option : options) {
         const Slot slot(ui, 0.0F, ui.px(gaps::row));
         const Press pressed = press(ui, option_path(own, option), slot.rect(), option.permission, option.tip);
+        if (index == now) {
+            ImGui::SetItemDefaultFocus(); // the arrows begin there
+        }
+        const bool entered = pressed.focused && pressed.enabled && ui.enter_pressed();
         const Palette& colours = ui.colours();
         const Colour ground = index == now ? colours.selection : pressed.hovered ? colours.hover : Colour{0};
         fill(slot.rect(), ground, ui.px(gaps::rounding));
@@ -43,7 +47,7 @@ std::optional<int> popup_rows(Ui& ui, const std::string& own, int now, std::span
                   words,
                   faded(colours.text, pressed.enabled ? 1.0 : disabled_opacity),
                   with_icon(option));
-        if (pressed.clicked) {
+        if (pressed.clicked || entered) {
             chosen = index;
             ImGui::CloseCurrentPopup();
         }

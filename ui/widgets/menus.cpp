@@ -163,10 +163,12 @@ bool menu_item(Ui& ui,
     draw_text(ui, ui.look().fonts.small, right, faded(colours.muted, opacity), shortcut);
     const Rect words{row.x + tick, row.y, right.x - row.x - tick - ui.px(8.0F), row.h};
     draw_text(ui, ui.look().fonts.text, words, faded(colours.text, opacity), label);
-    if (now.clicked) {
+    const bool entered = now.focused && now.enabled && ui.enter_pressed();
+    if (now.clicked || entered) {
         ImGui::CloseCurrentPopup();
+        ui.state().open_menu_frame = 0; // the mouse may rest on the menu's name, which would open it again
     }
-    return now.clicked;
+    return now.clicked || entered;
 }
 
 bool menu_eye(Ui& ui,

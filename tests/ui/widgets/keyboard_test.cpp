@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,54 @@ TEST(Keyboard, SpacePressesWhatTheArrowsReached) {
     stage.frames(2);
     EXPECT_EQ(first, 1);
     EXPECT_EQ(second, 1);
+}
+
+// Down from the option in force to the next one; the list stayed open, and began above all.
+TEST(Keyboard, EnterTakesTheOptionThatTheArrowsReached) {
+    int now = 1;
+    int answers = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("main", whole);
+        const std::array<Option, 4> options{
+            {{"a", "First"}, {"b", "Second"}, {"c", "Third"}, {"d", "Fourth"}}};
+        if (const auto chosen = ui.choice("list", "List", now, options)) {
+            now = *chosen;
+            ++answers;
+        }
+    });
+    stage.frames(2);
+    stage.click("main/list");
+    stage.frames(3);
+    stage.key(Key::down);
+    stage.frames(2);
+    stage.key(Key::enter);
+    stage.frames(2);
+    EXPECT_EQ(now, 2);
+    EXPECT_EQ(answers, 1);
+    EXPECT_FALSE(stage.ui().place("main/list/a").has_value()); // it is closed
+}
+
+TEST(Keyboard, EnterTakesTheMenuItemThatTheArrowsReached) {
+    int opened = 0;
+    int saved = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("main", whole);
+        if (const auto file = menu(ui, "file", "File")) {
+            opened += menu_item(ui, "open", "Open") ? 1 : 0;
+            saved += menu_item(ui, "save", "Save") ? 1 : 0;
+        }
+    });
+    stage.frames(2);
+    stage.click("main/file");
+    stage.frames(3);
+    stage.key(Key::down);
+    stage.frames(2);
+    stage.key(Key::down);
+    stage.frames(2);
+    stage.key(Key::enter);
+    stage.frames(2);
+    EXPECT_EQ(opened + saved, 1);
+    EXPECT_FALSE(stage.ui().place("main/file/open").has_value());
 }
 
 class TabOrder : public testing::Test {
