@@ -164,6 +164,14 @@ bool in_force(const project::PlotSettings& settings, const plot::CuttingValues& 
     return taken == settings;
 }
 
+/// Above all that scrolls: nothing can be sent.
+void say_what_is_wrong(Ui& ui, const Workbench& now) {
+    const auto made = now.plot.latest();
+    if (made && made->failure) {
+        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, to_text(*made->failure), {}});
+    }
+}
+
 } // namespace
 
 void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -194,6 +202,7 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, a path file, or G-code.");
         return;
     }
+    say_what_is_wrong(ui, now);
     draw_progress(ui, now);
     const std::vector<Level> levels = now.plot.levels();
     if (!levels.empty()) {
@@ -249,11 +258,7 @@ void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::
 void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
     const auto section = ui.section("figures", "Before it is sent");
     const auto made = now.plot.latest();
-    if (!section || !made) {
-        return;
-    }
-    if (made->failure) {
-        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, to_text(*made->failure), {}});
+    if (!section || !made || made->failure) {
         return;
     }
     const double planned = now.in_file() ? now.duration() : 0.0;

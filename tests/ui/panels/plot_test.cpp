@@ -135,7 +135,9 @@ TEST(PlotWorkspace, ADrawingThatIsMovedStaysInSight) {
     ASSERT_GT(before, 1000);
     bench.person.fill_in("inspector/work/origin_x_mm", "400");
     bench.settle();
-    ASSERT_TRUE(bench.made().failure); // X ends at 480
+    ASSERT_TRUE(bench.made().failure);                // X ends at 480
+    ASSERT_TRUE(bench.person.sees("layers/failure")); // it stood below the levels, out of sight
+    EXPECT_LT(bench.person.place("layers/failure").bottom(), 400.0F);
     const int moved = bench.pixels_like(yellow);
     EXPECT_NEAR(moved, before, 0.15 * before);
     bench.person.keep("plot-beyond");
