@@ -67,7 +67,7 @@ CutProgram read(const std::string& file, const ProgramReading& reading) {
     settings.chord_length = reading.chord_length;
     settings.chord_tolerance = reading.chord_tolerance.value_or(settings.chord_tolerance);
     settings.safe_height = reading.safe_height;
-    return gcode::read_cut_program(read_file(file), file, settings);
+    return gcode::read_cut_program_file(file, settings);
 }
 
 CutProgram read_to_use(const std::string& file, const ProgramReading& reading) {

@@ -120,7 +120,7 @@ void PlotDerivation::time_as_drawn() {
 
 /// As it stands, like a path file.
 void PlotDerivation::cut_program() {
-    const gcode::CutProgram read = gcode::read_cut_program(read_file(result_.input.file), result_.input.file);
+    const gcode::CutProgram read = gcode::read_cut_program_file(result_.input.file);
     result_.notices = read.notices;
     if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - settings_.spindle_rpm) > 0.5) {
         note(

@@ -140,6 +140,15 @@ TEST(ProgramsAsPlots, PointsHaveTheHeightsOfTheProgramOrThoseOfThePen) {
     EXPECT_TRUE(content_of(out).ends_with("0.000,0.000,2.000\n"));
 }
 
+TEST(ProgramsAsPlots, SubroutinesBesideTheProgramAreFound) {
+    const ScratchFolder folder;
+    write_content(folder / "cut.ngc", "O<cut> sub\nG1 Z-1 F60\nG1 X[#1 + 9]\nG0 Z5\nO<cut> endsub\nM2\n");
+    write_content(folder / "main.ngc", "G0 Z5\nG0 X0 Y0\nO<cut> call [1]\nG0 Y4\nO<cut> call [2]\nM2\n");
+    const Ended ended = run({"plot", "info", (folder / "main.ngc").string(), "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("strokes"), 2);
+}
+
 TEST(ProgramsAsPlots, IsDrawnByItsStrokes) {
     const ScratchFolder folder;
     const std::string out = (folder / "plate.svg").string();

@@ -379,31 +379,25 @@ bool begins_with_word(std::string_view line) {
            std::string_view("0123456789.+-#[<").find(line[number]) != std::string_view::npos;
 }
 
-} // namespace
-
-CutProgram read_cut_program(std::string_view text,
-                            const std::filesystem::path& file,
-                            const CutProgramSettings& settings) {
-    const kinematics::MachineModel machine = path_machine();
-    ProgramAndTools sink(machine, file, settings);
+ReaderSettings reader_settings(const CutProgramSettings& settings) {
     ReaderSettings reading;
     reading.tools = settings.tools.value_or(ToolTable());
     reading.any_tool = !settings.tools;
     reading.block_delete = settings.block_delete;
-    Interpreter interpreter(text, file, std::move(reading), sink);
-    while (interpreter.step()) {
-        expect_known_diameter(interpreter, file);
-    }
-    throw_first(interpreter.errors());
-    const MachineProgram read = sink.take();
+    return reading;
+}
+
+CutProgram made_of(const MachineProgram& read,
+                   const ProgramAndTools& tools,
+                   const std::filesystem::path& file,
+                   const CutProgramSettings& settings) {
     throw_first(read.faults);
     throw_first(read.lost);
     CutProgramBuilder cut(read.program, file, settings.safe_height);
     for (std::size_t n = 0; n < read.program.blocks.size(); ++n) {
-        cut.add(read.program.blocks[n], sink.tool_of(n));
+        cut.add(read.program.blocks[n], tools.tool_of(n));
     }
     CutProgram made = cut.take();
-    made.lines = interpreter.line_count();
     made.notices.insert(made.notices.begin(), read.simplified.begin(), read.simplified.end());
     if (made.strokes.empty()) {
         throw Error(made.safe_height
@@ -412,6 +406,37 @@ CutProgram read_cut_program(std::string_view text,
                     file);
     }
     return made;
+}
+
+/// `begin` makes the interpreter for a sink.
+template <class Begin>
+CutProgram
+read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramSettings& settings) {
+    const kinematics::MachineModel machine = path_machine();
+    ProgramAndTools sink(machine, file, settings);
+    Interpreter interpreter = begin(sink);
+    while (interpreter.step()) {
+        expect_known_diameter(interpreter, file);
+    }
+    throw_first(interpreter.errors());
+    CutProgram made = made_of(sink.take(), sink, file, settings);
+    made.lines = interpreter.line_count();
+    return made;
+}
+
+} // namespace
+
+CutProgram read_cut_program(std::string_view text,
+                            const std::filesystem::path& file,
+                            const CutProgramSettings& settings) {
+    return read_by([&](CanonSink& sink) { return Interpreter(text, file, reader_settings(settings), sink); },
+                   file,
+                   settings);
+}
+
+CutProgram read_cut_program_file(const std::filesystem::path& file, const CutProgramSettings& settings) {
+    return read_by(
+        [&](CanonSink& sink) { return Interpreter(file, reader_settings(settings), sink); }, file, settings);
 }
 
 bool is_gcode(std::string_view text) {

@@ -59,6 +59,11 @@ struct CutProgram {
                                           const std::filesystem::path& file,
                                           const CutProgramSettings& settings = {});
 
+/// The file itself, line by line; subroutines are looked for in its folder. Throws Error if it cannot be
+/// read, too.
+[[nodiscard]] CutProgram read_cut_program_file(const std::filesystem::path& file,
+                                               const CutProgramSettings& settings = {});
+
 /// Whether the text begins as G-code does: its first line that is no comment is one of words.
 [[nodiscard]] bool is_gcode(std::string_view text);
 

@@ -93,8 +93,16 @@ public:
 
     void arc(const AxisValues& start, const Move& move) {
         const auto cut = [&](const AxisValues& end) { go(BlockKind::feed, end, move.source); };
+        const double length = settings_.chord_length.value_or(0.0) / frame_.unit();
+        const double count = settings_.chord_length ? internal::chord_count_of_length(start, move, length)
+                                                    : internal::chord_count(start, move, tolerance());
+        if (!(count <= internal::most_chords)) {
+            throw Error(Diagnostic{.place = {.file = file_, .line = move.source.line},
+                                   .message = "this arc would have more than ten million chords",
+                                   .hint = "longer chords, or a larger tolerance"});
+        }
         if (settings_.chord_length) {
-            internal::arc_chords_of_length(start, move, *settings_.chord_length / frame_.unit(), cut);
+            internal::arc_chords_of_length(start, move, length, cut);
         } else {
             internal::arc_chords(start, move, tolerance(), cut);
         }

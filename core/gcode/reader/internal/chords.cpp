@@ -42,8 +42,7 @@ Radii radii_of(const AxisValues& start, const Move& arc) {
 }
 
 void equal_chords(const AxisValues& start, const Move& arc, double wanted, const ChordSink& sink) {
-    constexpr double most = 1e7; // of one arc
-    expects(wanted <= most, "an arc has a finite number of chords");
+    expects(wanted <= most_chords, "an arc has a finite number of chords");
     const auto [first, second] = axes_of(arc.plane);
     const Radii radii = radii_of(start, arc);
     const double angle = std::atan2(start[second] - arc.centre_2, start[first] - arc.centre_1);
@@ -156,17 +155,24 @@ double arc_radius(const AxisValues& start, const Move& arc) {
     return std::max(radii.start, radii.end);
 }
 
+double chord_count(const AxisValues& start, const Move& arc, double tolerance) {
+    const double step = longest_step(std::max(arc_radius(start, arc), tolerance), tolerance);
+    return std::ceil(std::abs(arc.sweep) / step);
+}
+
+double chord_count_of_length(const AxisValues& start, const Move& arc, double length) {
+    constexpr double rounding = 1e-9; // of an arc that is a whole number of chords long
+    return std::ceil(std::abs(arc.sweep) * radii_of(start, arc).start / length - rounding);
+}
+
 void arc_chords(const AxisValues& start, const Move& arc, double tolerance, const ChordSink& sink) {
     expects(tolerance > 0.0, "a chord tolerance is positive");
-    const double step = longest_step(std::max(arc_radius(start, arc), tolerance), tolerance);
-    equal_chords(start, arc, std::ceil(std::abs(arc.sweep) / step), sink);
+    equal_chords(start, arc, chord_count(start, arc, tolerance), sink);
 }
 
 void arc_chords_of_length(const AxisValues& start, const Move& arc, double length, const ChordSink& sink) {
     expects(length > 0.0, "a chord has a length");
-    constexpr double rounding = 1e-9; // of an arc that is a whole number of chords long
-    equal_chords(
-        start, arc, std::ceil(std::abs(arc.sweep) * radii_of(start, arc).start / length - rounding), sink);
+    equal_chords(start, arc, chord_count_of_length(start, arc, length), sink);
 }
 
 void curve_chords(const AxisValues& start, const Curve& curve, double tolerance, const ChordSink& sink) {

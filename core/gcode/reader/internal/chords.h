@@ -21,6 +21,11 @@ void arc_chords(const AxisValues& start, const Move& arc, double tolerance, cons
 /// of the angle phi (rad), R at the start (eqs 2.1 and 2.2).
 void arc_chords_of_length(const AxisValues& start, const Move& arc, double length, const ChordSink& sink);
 
+/// How many chords they make of it, or would: no arc may have more than most_chords.
+[[nodiscard]] double chord_count(const AxisValues& start, const Move& arc, double tolerance);
+[[nodiscard]] double chord_count_of_length(const AxisValues& start, const Move& arc, double length);
+inline constexpr double most_chords = 1e7;
+
 /// The same of a spline, whose first control point is `start`. Halved until the chords are near enough.
 void curve_chords(const AxisValues& start, const Curve& curve, double tolerance, const ChordSink& sink);
 

@@ -194,6 +194,17 @@ TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
               "part.ngc:8: a path has no stops for a person: left out\n");
 }
 
+// It ended as an internal error.
+TEST(CutPrograms, AnArcOfTooManyChordsIsRefusedWithItsLine) {
+    const std::string text = "G0 X0 Y0 Z5\nX1\nG1 Z-1 F9\nG2 X1 Y0 I900000\nM2\n";
+    for (const CutProgramSettings& settings :
+         {CutProgramSettings{.chord_length = 0.001}, CutProgramSettings{.chord_tolerance = 1e-12}}) {
+        const Diagnostic found = refusal(text, settings);
+        EXPECT_EQ(found.place.line, 4);
+        EXPECT_EQ(found.message, "this arc would have more than ten million chords");
+    }
+}
+
 TEST(CutPrograms, AreKnownByTheirFirstWord) {
     EXPECT_TRUE(is_gcode("%\n(a plate)\n\n/N1 G21\n"));
     EXPECT_TRUE(is_gcode("x10 y5 f200\n"));
