@@ -256,9 +256,12 @@ void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::
 }
 
 void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("figures", "Before it is sent");
     const auto made = now.plot.latest();
-    if (!section || !made || made->failure) {
+    if (!made || made->failure) {
+        return;
+    }
+    const auto section = ui.section("figures", "Before it is sent");
+    if (!section) {
         return;
     }
     const double planned = now.in_file() ? now.duration() : 0.0;
