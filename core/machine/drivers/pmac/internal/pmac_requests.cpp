@@ -6,9 +6,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
 namespace millwright::machine::pmac {
+
+namespace {
+
+/// Loops, conditions, jumps, and what is sent as a command: as far as one can see.
+bool may_leave_order(const std::string& line) {
+    constexpr std::array<std::string_view, 6> words{"WHILE", "IF", "GOTO", "GOSUB", "CALL", "\""};
+    std::string upper(line);
+    std::ranges::transform(
+        upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return std::ranges::any_of(words,
+                               [&](std::string_view word) { return upper.find(word) != std::string::npos; });
+}
+
+} // namespace
 
 bool PmacSession::active() const {
     return stage_ == Stage::running || stage_ == Stage::loading || stage_ == Stage::jogging ||
@@ -57,9 +74,7 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     program_lines_ = static_cast<int>(lines.size());
     executed_ = 0;
     mark_ = 0.0;
-    marks_tell_ = std::none_of(lines.begin(), lines.end(), [](const std::string& line) {
-        return line.find_first_of("(\"") != std::string::npos; // loops and conditions, as far as one can see
-    });
+    marks_tell_ = std::none_of(lines.begin(), lines.end(), may_leave_order);
     armed_ = false; // nobody is heard while a buffer is open
     for (const std::string& line : {std::string(disarm_watchdog),
                                     std::string("CLOSE"),

@@ -135,9 +135,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(PmacSession, ClaimsNoMoreLinesThanWereExecuted) {
     PmacWire wire;
-    std::vector<std::string> lines{"INC", "LINEAR", "TM300"};
+    std::vector<std::string> lines{"INC", "FRAX(X,Y)", "LINEAR TM300"}; // brackets make no loop
     for (int n = 0; n < 12; ++n) {
-        lines.push_back("X1");
+        lines.push_back(n % 2 == 0 ? "X1" : "X(P9+1)");
     }
     wire.session.start(lines, wire.now);
     int most = 0;
