@@ -19,6 +19,7 @@ Catalogue::Catalogue() {
     add_arm_actions(actions_);
     add_arm_teach_actions(actions_);
     add_plot_actions(actions_);
+    add_help_actions(actions_);
     add_dialog_actions(actions_);
 }
 

@@ -41,9 +41,9 @@ Permission is_playing(const Workbench& now) {
     return now.plot.table().playing() ? Permission{} : Permission::refused("The table stands.");
 }
 
-template <bool flat> void look(Hands& hands) {
+template <render::StandardView side> void look(Hands& hands) {
     hands.session.workspace = Workspace::plot;
-    hands.session.flat_wanted = flat;
+    hands.session.side_wanted = side;
 }
 
 } // namespace
@@ -53,11 +53,11 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.flat", menu, "Look from above", "The drawing as it lies on the table.", "", ""},
         always,
-        look<true>);
+        look<render::StandardView::top>);
     add(actions,
         {"plot.space", menu, "Look into space", "With depths and travel.", "", ""},
         always,
-        look<false>);
+        look<render::StandardView::iso>);
     add(
         actions,
         {"plot.light",

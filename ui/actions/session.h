@@ -7,6 +7,7 @@
 #include "core/project/project.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/hand_settings.h"
+#include "ui/render/camera.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"
@@ -90,6 +91,9 @@ enum class FileQuestion {
     load_card_settings
 };
 
+/// What the window of help shows; none: it is closed.
+enum class HelpPage { none, workspace, keys, commands, about };
+
 /// A result that a person keeps to compare later ones with: of another grid, machine, set-up or tool.
 struct KeptResult {
     std::string name; ///< "Tracks on ac-table"
@@ -154,14 +158,15 @@ struct Session {
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
-    bool search_wanted = false;           ///< open the palette in the next frame
-    bool fit_wanted = true;               ///< fit the view in the next frame
-    std::optional<bool> flat_wanted;      ///< look at it from above, or into space, in the next frame
-    bool against_light = false;           ///< how a finished plot is looked at
-    bool quit_wanted = false;             ///< a job is running: is it to be stopped?
-    bool quit = false;                    ///< nothing is in the way any more: close the window
-    std::vector<widgets::Notice> notices; ///< to be shown; taken by the window
-    std::vector<std::string> log;         ///< every notice, newest last
+    HelpPage help = HelpPage::none;
+    bool search_wanted = false;                      ///< open the palette in the next frame
+    bool fit_wanted = true;                          ///< fit the view in the next frame
+    std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame
+    bool against_light = false;                      ///< how a finished plot is looked at
+    bool quit_wanted = false;                        ///< a job is running: is it to be stopped?
+    bool quit = false;                               ///< nothing is in the way any more: close the window
+    std::vector<widgets::Notice> notices;            ///< to be shown; taken by the window
+    std::vector<std::string> log;                    ///< every notice, newest last
 
     [[nodiscard]] viewport::Layers& layers_now() { return layers[static_cast<std::size_t>(workspace)]; }
     [[nodiscard]] LowerTab& lower_tab_now() { return lower_tabs[static_cast<std::size_t>(workspace)]; }

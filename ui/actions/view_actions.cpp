@@ -38,6 +38,32 @@ void add_show(Actions& actions, std::string_view id, std::string_view title, std
     add(actions, {id, "View", title, tip, "", ""}, is_there<method>, show<method>, is_shown<method>);
 }
 
+/// In one picture.
+template <render::StandardView side> void look_from(Hands& hands) {
+    hands.session.four_views = false;
+    hands.session.side_wanted = side;
+}
+
+void add_sides(Actions& actions) {
+    using render::StandardView;
+    add(actions,
+        {"view.from_above", "View", "Look from above", "X and Y.", "", ""},
+        always,
+        look_from<StandardView::top>);
+    add(actions,
+        {"view.from_front", "View", "Look from the front", "X and Z.", "", ""},
+        always,
+        look_from<StandardView::front>);
+    add(actions,
+        {"view.from_right", "View", "Look from the right", "Y and Z.", "", ""},
+        always,
+        look_from<StandardView::right>);
+    add(actions,
+        {"view.into_space", "View", "Look into space", "From the front, the right and above.", "", ""},
+        always,
+        look_from<StandardView::iso>);
+}
+
 template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
     hands.session.panes.*pane = !(hands.session.panes.*pane);
 }
@@ -158,6 +184,7 @@ void add_view_actions(Actions& actions) {
         {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
         always,
         [](Hands& hands) { hands.session.fit_wanted = true; });
+    add_sides(actions);
     add(
         actions,
         {"view.four", "View", "Four views", "Top, front, right and free view side by side.", "Ctrl+4", ""},

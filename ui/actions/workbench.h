@@ -95,10 +95,10 @@ struct Workbench {
     [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
     /// Of the plan: why it stops short of a program; empty if it does not.
     [[nodiscard]] std::string failure() const;
-    /// Something is asked over everything else; only the machine listens to keys meanwhile.
+    /// Something is asked or told over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
-        return session.question != FileQuestion::none || session.quit_wanted || !leaving_to.empty() ||
-               !left_behind.empty() || !broken_jobs->empty();
+        return session.question != FileQuestion::none || session.help != HelpPage::none ||
+               session.quit_wanted || !leaving_to.empty() || !left_behind.empty() || !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.

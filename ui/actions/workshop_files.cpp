@@ -143,7 +143,7 @@ void Workshop::open_plot(const fs::path& file) {
              }
          },
          {});
-    session_.flat_wanted = true; // drawings are read from above
+    session_.side_wanted = render::StandardView::top; // drawings are read from above
     session_.workspace = Workspace::plot;
     session_.question = FileQuestion::none;
     session_.fit_wanted = true;

@@ -48,6 +48,8 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_left_behind(ui, now, ask);
     } else if (!now.broken_jobs->empty()) {
         draw_broken_job(ui, now, ask);
+    } else if (now.session.help != actions::HelpPage::none) {
+        help_.draw(ui, now, ask);
     }
 }
 

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "ui/panels/file_panel.h"
+#include "ui/panels/help_panel.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {
 
 class Dialogs final : public Panel {
 public:
-    explicit Dialogs(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    explicit Dialogs(const actions::Catalogue& catalogue) : catalogue_(catalogue), help_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -20,6 +21,7 @@ private:
 
     const actions::Catalogue& catalogue_;
     FilePanel files_;
+    HelpPanel help_;
 };
 
 } // namespace millwright::panels

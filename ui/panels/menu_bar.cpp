@@ -16,8 +16,8 @@ namespace {
 namespace icons = widgets::icons;
 using actions::Workspace;
 
-constexpr std::array<std::string_view, 8> menus{
-    "File", "Edit", "View", "Grid", "Machine", "Processor", "Plot", "Arm"};
+constexpr std::array<std::string_view, 9> menus{
+    "File", "Edit", "View", "Grid", "Machine", "Processor", "Plot", "Arm", "Help"};
 
 constexpr std::array<widgets::Option, actions::workspace_count> workspaces{
     {{"design", "Design", icons::design},
@@ -45,8 +45,8 @@ std::string lower(std::string_view word) {
 
 constexpr float gap_to_stop = 12.0F; // from the search to the emergency stop
 constexpr float tools_width = 300.0F;
-constexpr float narrow_tools = 250.0F;
-constexpr float smallest_tabs = 490.0F;
+constexpr float narrow_tools = 154.0F; // the search without its name
+constexpr float smallest_tabs = 548.0F;
 constexpr float roomy = 940.0F; // tabs with icons, and the tools
 
 /// There is room for those that are wanted in a workspace; everything is in the palette.
@@ -126,11 +126,17 @@ void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
         }
         ui.beside();
     }
-    const auto width = ui.width(ui.rest().w - ui.px(gap_to_stop));
-    if (ui.button("search",
-                  "Search  Ctrl+K",
-                  {},
-                  {icons::search, widgets::Rank::normal, -1.0F, "Every action by a few letters"})) {
+    constexpr float named = 130.0F;
+    const float room = ui.rest().w - ui.px(gap_to_stop);
+    const auto width = ui.width(room);
+    const bool asked =
+        room < ui.px(named)
+            ? ui.icon_button("search", icons::search, "Every action by a few letters (Ctrl+K)")
+            : ui.button("search",
+                        "Search  Ctrl+K",
+                        {},
+                        {icons::search, widgets::Rank::normal, -1.0F, "Every action by a few letters"});
+    if (asked) {
         ask.run("view.search");
     }
 }

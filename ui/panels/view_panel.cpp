@@ -247,17 +247,19 @@ void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// A plane as it is measured, and space as it is seen.
+void ViewPanel::look_from(render::StandardView side, ActionQueue& ask) {
+    view_.look_from(side);
+    view_.set_projection(side == render::StandardView::iso ? render::Projection::perspective
+                                                           : render::Projection::orthographic);
+    view_.fit();
+    ask.show([](actions::Session& session) { session.side_wanted.reset(); });
+}
+
 /// From above at first: a drawing is read that way.
 void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const bool there = made && made->path && made->input.file == now.plot.file();
-    if (now.session.flat_wanted) {
-        const bool flat = *now.session.flat_wanted;
-        view_.look_from(flat ? render::StandardView::top : render::StandardView::iso);
-        view_.set_projection(flat ? render::Projection::orthographic : render::Projection::perspective);
-        view_.fit();
-        ask.show([](actions::Session& session) { session.flat_wanted.reset(); });
-    }
     if (now.session.fit_wanted && there) {
         view_.fit();
         plot_fitted_.reset();
@@ -301,6 +303,10 @@ void ViewPanel::fit_set_up(const viewport::Scene& shown) {
 }
 
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
+    view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
+    if (now.session.side_wanted) {
+        look_from(*now.session.side_wanted, ask);
+    }
     if (now.session.workspace == Workspace::arm) {
         if (now.session.fit_wanted && now.arm.loaded()) {
             view_.fit();
@@ -315,7 +321,6 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
         view_.fit();
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
-    view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
     viewport::Scene shown = scene_of(now);
     fit_set_up(shown);
     const auto beside = scene_beside(now, shown);

@@ -24,6 +24,7 @@ private:
     void fit_set_up(const viewport::Scene& shown);
     void fit_file(const Workbench& now, ActionQueue& ask);
     void fit_plot(const Workbench& now, ActionQueue& ask);
+    void look_from(render::StandardView side, ActionQueue& ask);
     void follow_plot(const project::PlotResult& made);
 
     const actions::Catalogue& catalogue_;

@@ -62,6 +62,7 @@ void add_processor_actions(Actions& actions);
 void add_plot_actions(Actions& actions);
 void add_arm_actions(Actions& actions);
 void add_arm_teach_actions(Actions& actions);
+void add_help_actions(Actions& actions);
 void add_dialog_actions(Actions& actions);
 
 } // namespace millwright::actions

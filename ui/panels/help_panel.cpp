@@ -1,0 +1,105 @@
+#include "ui/panels/help_panel.h"
+
+#include "core/project/version.h"
+#include "ui/panels/manual.h"
+#include "ui/render/imgui_compat.h"
+
+#include <algorithm>
+#include <array>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::HelpPage;
+using widgets::ReadingBlock;
+using widgets::ReadingKind;
+
+constexpr std::array<HelpPage, 4> page_order{
+    HelpPage::workspace, HelpPage::keys, HelpPage::commands, HelpPage::about};
+constexpr std::array<widgets::Option, 4> options{{{"workspace", "This workspace"},
+                                                  {"keys", "Keys"},
+                                                  {"commands", "Commands of a PMAC"},
+                                                  {"about", "About"}}};
+
+/// Of whatever has one, as the menus have it.
+std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
+    std::vector<ReadingBlock> rows{{ReadingKind::head_row, {"Key", "What", "Menu"}}};
+    for (const auto& action : catalogue.all()) {
+        const actions::ActionInfo& info = action->info();
+        if (!info.shortcut.empty()) {
+            std::string keys(info.shortcut);
+            keys += info.second_shortcut.empty() ? "" : ", " + std::string(info.second_shortcut);
+            rows.push_back({ReadingKind::row, {keys, std::string(info.title), std::string(info.menu)}});
+        }
+    }
+    rows.push_back(
+        {ReadingKind::paragraph,
+         {"Everything else is found by a few letters (Ctrl+K), or in the menus. Keys that jog a machine "
+          "are told with its workspace."}});
+    return rows;
+}
+
+std::vector<ReadingBlock> about() {
+    return {{ReadingKind::heading, {"Millwright " + std::string(project::version())}},
+            {ReadingKind::paragraph,
+             {"From a surface, a plot or a picture to a machine at work: toolpaths with the error that the "
+              "machine "
+              "really makes, programs, controllers and their emulators, a robot arm, a CORDIC processor."}},
+            {ReadingKind::paragraph,
+             {"Free software under the GNU General Public License, version 3 or later. It comes without any "
+              "warranty: look at the machine before you move it."}},
+            {ReadingKind::paragraph,
+             {"The whole manual is the folder docs of the source; these pages are a part of it."}}};
+}
+
+std::vector<ReadingBlock> page(HelpPage wanted, actions::Workspace workspace, const actions::Catalogue& all) {
+    switch (wanted) {
+    case HelpPage::keys:
+        return keys_of(all);
+    case HelpPage::commands:
+        return manual_of_commands();
+    case HelpPage::about:
+        return about();
+    default:
+        return manual_of(workspace);
+    }
+}
+
+} // namespace
+
+void HelpPanel::refresh(const Workbench& now) {
+    if (shown_ != now.session.help || workspace_ != now.session.workspace) {
+        shown_ = now.session.help;
+        workspace_ = now.session.workspace;
+        blocks_ = page(shown_, workspace_, catalogue_);
+    }
+}
+
+void HelpPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    constexpr float widest = 900.0F, margin = 80.0F, share = 0.6F;
+    refresh(now);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const auto dialog = ui.dialog("help", "Help", std::min(ui.px(widest), display.x - ui.px(margin)));
+    if (!dialog) {
+        return;
+    }
+    const bool again = render::key_pressed(render::Key::f1);
+    const auto at = std::ranges::find(page_order, now.session.help) - page_order.begin();
+    if (const auto chosen = ui.tabs("pages", static_cast<int>(at), options)) {
+        ask.show([wanted = page_order[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
+            session.help = wanted;
+        });
+    }
+    const std::string name(options[static_cast<std::size_t>(at)].id);
+    widgets::reading(
+        ui, "text", name + std::to_string(static_cast<int>(workspace_)), blocks_, share * display.y);
+    ui.gap();
+    const auto width = ui.width(ui.px(120.0F));
+    if (ui.button("close", "Close", {}, {{}, widgets::Rank::primary, -1.0F, "Esc"}) || ui.escape_pressed() ||
+        again) {
+        ask.show([](actions::Session& session) { session.help = HelpPage::none; });
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,191 @@
+#include "ui/panels/manual.h"
+
+#include "core/base/error.h"
+#include "ui/panels/internal/embedded_manual.h"
+
+#include <array>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using widgets::ReadingBlock;
+using widgets::ReadingKind;
+
+struct Page {
+    std::string_view file;
+    std::string_view heading; ///< of the section; empty: the whole page
+};
+
+/// In the order of actions::Workspace.
+constexpr std::array<Page, actions::workspace_count> pages{{{"user/workbench.md", "## 1. Design (F2)"},
+                                                            {"user/workbench.md", "## 2. Grid (F3)"},
+                                                            {"user/workbench.md", "## 3. Toolpath (F4)"},
+                                                            {"user/workbench.md", "## 4. Program (F5)"},
+                                                            {"user/workbench.md", "## 5. Machine (F6)"},
+                                                            {"user/processor.md", {}},
+                                                            {"user/plots.md", {}},
+                                                            {"user/arm.md", {}}}};
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// Takes the next line off `text`.
+std::string_view next_line(std::string_view& text) {
+    const auto end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return line;
+}
+
+/// The number of # before a heading; 0: it is none.
+std::size_t rank_of(std::string_view line) {
+    const auto rank = line.find_first_not_of('#');
+    return rank != std::string_view::npos && rank > 0 && line[rank] == ' ' ? rank : 0;
+}
+
+/// The address of a link behind its words, `at` being on the bracket that ends them: its last character.
+std::size_t end_of_address(std::string_view text, std::size_t at) {
+    const bool has_one = at + 1 < text.size() && text[at + 1] == '(';
+    const auto end = has_one ? text.find(')', at) : std::string_view::npos;
+    return end == std::string_view::npos ? at : end;
+}
+
+/// Without the marks for code, stress and links; inside of code everything stays as it is.
+std::string plain(std::string_view text) {
+    std::string result;
+    bool code = false;
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        const char c = text[n];
+        if (c == '`') {
+            code = !code;
+        } else if (code || (c != '*' && c != '[' && c != ']')) {
+            result += c;
+        } else if (c == ']') {
+            n = end_of_address(text, n);
+        }
+    }
+    return result;
+}
+
+std::vector<std::string> cells_of(std::string_view row) {
+    std::vector<std::string> cells;
+    bool code = false;
+    std::size_t begin = 1;
+    for (std::size_t n = 1; n < row.size(); ++n) {
+        code = row[n] == '`' ? !code : code;
+        if (row[n] == '|' && !code) {
+            cells.push_back(plain(trimmed(row.substr(begin, n - begin))));
+            begin = n + 1;
+        }
+    }
+    return cells;
+}
+
+/// |---|---|
+bool is_rule(std::string_view line) {
+    return line.find_first_not_of("|-: ") == std::string_view::npos;
+}
+
+/// Goes through the lines of a page, joining those that belong together.
+class Reader {
+public:
+    void line(std::string_view line) {
+        const std::string_view words = trimmed(line);
+        if (words.empty() || words.starts_with("![")) {
+            return end();
+        }
+        if (words.starts_with('|')) {
+            return row(words);
+        }
+        if (const std::size_t rank = rank_of(words); rank > 0) {
+            end();
+            blocks_.push_back({ReadingKind::heading, {plain(words.substr(rank + 1))}});
+        } else if (words.starts_with("- ")) {
+            begin(ReadingKind::item, words.substr(2));
+        } else if (open_) {
+            text_ += " ";
+            text_ += words;
+        } else if (line.starts_with("    ")) {
+            blocks_.push_back({ReadingKind::code, {std::string(words)}});
+        } else {
+            begin(ReadingKind::paragraph, words);
+        }
+    }
+    [[nodiscard]] std::vector<ReadingBlock> blocks() {
+        end();
+        return std::move(blocks_);
+    }
+
+private:
+    void begin(ReadingKind kind, std::string_view words) {
+        end();
+        kind_ = kind;
+        text_ = words;
+        open_ = true;
+    }
+    void end() {
+        if (open_) {
+            blocks_.push_back({kind_, {plain(text_)}});
+        }
+        open_ = false;
+    }
+    void row(std::string_view words) {
+        end();
+        if (is_rule(words)) {
+            if (!blocks_.empty()) {
+                blocks_.back().kind = ReadingKind::head_row;
+            }
+        } else {
+            blocks_.push_back({ReadingKind::row, cells_of(words)});
+        }
+    }
+
+    std::vector<ReadingBlock> blocks_;
+    ReadingKind kind_ = ReadingKind::paragraph;
+    std::string text_; ///< with its marks: those may stand on two lines
+    bool open_ = false;
+};
+
+} // namespace
+
+std::vector<ReadingBlock> reading_of(std::string_view markdown) {
+    Reader reader;
+    while (!markdown.empty()) {
+        reader.line(next_line(markdown));
+    }
+    return reader.blocks();
+}
+
+std::string_view section_of(std::string_view markdown, std::string_view heading) {
+    const std::size_t rank = rank_of(heading);
+    std::string_view rest = markdown;
+    while (!rest.empty() && next_line(rest) != heading) {
+    }
+    const std::string_view section = rest;
+    while (!rest.empty()) {
+        const std::size_t before = section.size() - rest.size();
+        if (const std::size_t other = rank_of(next_line(rest)); other > 0 && other <= rank) {
+            return section.substr(0, before);
+        }
+    }
+    return section;
+}
+
+std::vector<ReadingBlock> manual_of(actions::Workspace workspace) {
+    const Page& page = pages.at(static_cast<std::size_t>(workspace));
+    const std::string_view text = embedded_page(page.file);
+    const auto blocks = reading_of(page.heading.empty() ? text : section_of(text, page.heading));
+    expects(!blocks.empty(), "the manual has a page of every workspace");
+    return blocks;
+}
+
+std::vector<ReadingBlock> manual_of_commands() {
+    return reading_of(section_of(embedded_page("reference/pmac.md"), "## On-line commands"));
+}
+
+} // namespace millwright::panels
