@@ -8,6 +8,7 @@
 #include "core/motion/trajectory.h"
 #include "core/project/arm_input.h"
 #include "ui/actions/arm_path_work.h"
+#include "ui/actions/card_run.h"
 #include "ui/actions/motion_program_bench.h"
 #include "ui/viewport/arm_scene.h"
 
@@ -114,6 +115,10 @@ public:
     /// `known`: a trace begins anew when it becomes so, since homing moves the zero of what was told before.
     void follow(const kinematics::JointPositions& told, bool known = true);
 
+    /// The program that a connected card was sent.
+    [[nodiscard]] CardRun& card_run() { return card_run_; }
+    [[nodiscard]] const CardRun& card_run() const { return card_run_; }
+
     [[nodiscard]] MotionProgramBench& program() { return program_; }
     [[nodiscard]] const MotionProgramBench& program() const { return program_; }
 
@@ -154,6 +159,7 @@ private:
     std::optional<Vec3> held_line_;
     std::shared_ptr<const std::vector<Vec3>> trace_;
     bool follows_unknown_ = false; ///< a controller whose zero means nothing yet
+    CardRun card_run_;
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;

@@ -147,7 +147,7 @@ void run(Hands& hands) {
     if (found.beyond_limits) {
         throw Error(*found.beyond_limits);
     }
-    hands.workshop.run_on_card(arm.program().lines());
+    hands.workshop.run_on_card(arm.program().lines(), found.faults.empty() ? found.duration : 0.0, {});
 }
 
 /// Into the card's buffer without running it.

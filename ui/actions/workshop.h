@@ -121,8 +121,9 @@ public:
     [[nodiscard]] ArmBench& arm() { return *arm_; }
     /// The drawn arm does it, or the connected one. Throws Error with the reason where it cannot.
     void play_on_arm(const motion::Trajectory& motion);
-    /// Gives a program in the card's language to the connected card, which runs it at once. Throws Error.
-    void run_on_card(const std::vector<std::string>& lines);
+    /// Gives a program in the card's language to the connected card, which runs it at once. `duration`: s, 0
+    /// where it is not known; `ends`: of each line, empty where they are not. Throws Error.
+    void run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends);
     /// Lines and arcs of the tool from where the arm stands. Throws Error with the line of what is wrong.
     void play_motion_file(const std::filesystem::path& file);
     /// Sends a file of settings to the card, and tells what is dangerous or refused in it. Throws Error.

@@ -83,6 +83,7 @@ bool Workshop::follow_arm(double seconds) {
     }
     follow_arm_work();
     const ControllerView controller = controller_->view();
+    arm_->card_run().follow(controller.status, seconds);
     if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
         arm_->follow(controller.status.position, controller.status.position_known);
     }
@@ -138,7 +139,9 @@ void Workshop::follow_arm_work() {
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
     if (look().arm_connected()) {
         expect_start(motion, arm_->joints());
-        run_on_card(machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes)));
+        const auto lines =
+            machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes));
+        run_on_card(lines, motion.duration(), machine::line_ends(lines));
     } else {
         arm_->play(play_of(motion));
     }
@@ -157,12 +160,13 @@ void Workshop::play_motion_file(const fs::path& file) {
     play_on_arm(motion::plan(motion.program(), arm, {}, {}));
 }
 
-void Workshop::run_on_card(const std::vector<std::string>& lines) {
+void Workshop::run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends) {
     auto listing = std::make_shared<gcode::Listing>();
     for (const std::string& line : lines) {
         listing->text += line + "\n";
     }
     controller_->tell([&](machine::Driver& driver) { driver.start({nullptr, nullptr, std::move(listing)}); });
+    arm_->card_run().begin({static_cast<int>(lines.size()), duration, std::move(ends)});
 }
 
 void Workshop::load_card_settings(const fs::path& file) {

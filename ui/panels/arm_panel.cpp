@@ -46,6 +46,29 @@ widgets::Permission by_hand(const Workbench& now) {
                : widgets::Permission{};
 }
 
+/// "12 s", from a minute on "00:01:12".
+std::string whole_seconds(double time) {
+    constexpr double minute = 60.0;
+    return time < minute ? fixed(std::floor(time), 0) + " s" : clock_time(time);
+}
+
+/// How far the card is: "Line 12 of 40, 31 %, 7 s of 22 s, 15 s left."
+std::string place_text(const actions::CardPlace& place) {
+    constexpr double whole = 100.0;
+    const std::string share = fmt::format("{:.0f} %", std::floor(whole * place.share));
+    if (place.sending) {
+        return fmt::format("To the card goes line {} of {}, {}.", place.line, place.lines, share);
+    }
+    const std::string line = fmt::format("Line {} of {}", place.line, place.lines);
+    return place.duration > 0.0 ? fmt::format("{}, {}, {} of {}, {} left.",
+                                              line,
+                                              share,
+                                              whole_seconds(place.time),
+                                              whole_seconds(place.duration),
+                                              whole_seconds(place.duration - place.time))
+                                : fmt::format("{}; how long it takes is not known.", line);
+}
+
 bool slides(const kinematics::ArmModel& arm) {
     for (int n = 0; n < arm.joint_count(); ++n) {
         if (arm.joint(n).kind == kinematics::JointKind::prismatic) {
@@ -232,6 +255,8 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
 void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const bool real = now.arm_connected();
     {
+        constexpr float roomy = 480.0F; // all labels stand whole
+        const bool narrow = ui.rest().w < ui.px(roomy);
         const auto row = ui.row(4);
         if (real) {
             action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");
@@ -242,12 +267,20 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
             action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "In a line");
             action_button(ui, now, ask, catalogue_, "arm.stop", widgets::Rank::normal, "Stop");
         }
-        action_button(ui, now, ask, catalogue_, "arm.clear_trace", widgets::Rank::normal, "Clear trace");
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "arm.clear_trace",
+                      widgets::Rank::normal,
+                      narrow ? "Clear" : "Clear trace");
     }
     const machine::DriverStatus& status = now.controller.status;
     const bool alarm = status.state == machine::DriverState::alarm; // which stands above the drawing
     if (real && !status.message.empty() && !alarm) {                // always in sight, and it moves no button
         ui.words(as_sentence(status.message), widgets::Tone::warning);
+    } else if (const auto& place = now.arm.card_run().place(); real && place) {
+        ui.note(place_text(*place));
     } else if (real) {
         ui.note("The picture follows the connected PMAC.");
     } else if (now.arm.duration() > 0.0) {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -135,11 +136,25 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     choose_file("arm_open_points", "ready.json");
     play_points();
     double farthest = 0.0, lowest = 1e9;
+    std::vector<actions::CardPlace> way;
     follow([&] { choose_file("arm_play_file", "thesis.mot"); },
            [&] {
                farthest = std::max(farthest, tip().x());
                lowest = std::min(lowest, tip().z());
+               if (const auto& place = person_.workshop().arm().card_run().place();
+                   place && !place->sending) {
+                   EXPECT_GE(place->time, way.empty() ? 0.0 : way.back().time);
+                   if (way.size() % 300 == 100) {
+                       keep("under-way-" + std::to_string(way.size()));
+                   }
+                   way.push_back(*place);
+               }
            });
+    ASSERT_FALSE(way.empty()); // the window told how far it was
+    EXPECT_GT(way.back().share, 0.9);
+    EXPECT_GT(way.back().line, way.back().lines - 8);
+    EXPECT_LT(way.front().share, 0.3);
+    EXPECT_FALSE(person_.workshop().arm().card_run().place());
     EXPECT_NEAR(farthest, 1100.0, near_mm);
     EXPECT_NEAR(lowest, 550.0, near_mm);
     EXPECT_NEAR((tip() - Vec3(800.0, 0.0, 650.0)).norm(), 0.0, near_mm); // where it began

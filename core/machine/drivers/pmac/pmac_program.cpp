@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace millwright::machine {
 
@@ -129,6 +131,23 @@ pmac_program(const motion::Trajectory& motion, const PmacSettings& settings, dou
         before = end;
     }
     return lines;
+}
+
+std::vector<double> line_ends(const std::vector<std::string>& lines) {
+    constexpr std::string_view time_word = "TM";
+    std::vector<double> ends;
+    ends.reserve(lines.size());
+    double lasts = 0.0, time = 0.0;
+    for (const std::string& line : lines) {
+        if (line.starts_with(time_word)) {
+            (void)std::from_chars(line.data() + time_word.size(), line.data() + line.size(), lasts);
+        } else if (line.size() > 1 &&
+                   std::string_view("-0123456789").find(line[1]) != std::string_view::npos) {
+            time += lasts / ms; // a goal: an axis and its number
+        }
+        ends.push_back(time);
+    }
+    return ends;
 }
 
 } // namespace millwright::machine

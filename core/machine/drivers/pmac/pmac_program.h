@@ -21,4 +21,7 @@ inline constexpr int most_pmac_moves = 9000;
 [[nodiscard]] std::vector<std::string>
 pmac_program(const motion::Trajectory& motion, const PmacSettings& settings, double step = 0.05);
 
+/// When each of those lines has ended, s since the first.
+[[nodiscard]] std::vector<double> line_ends(const std::vector<std::string>& lines);
+
 } // namespace millwright::machine
