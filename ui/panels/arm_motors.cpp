@@ -112,12 +112,12 @@ void arm_motors(Ui& ui, const Workbench& now) {
                                                        {"Position", "\u00b0", 1.2F, true},
                                                        {"Limits", "\u00b0", 1.5F, true},
                                                        {"Speed", "\u00b0/s", 1.2F, true},
-                                                       {"Card's jog", "\u00b0/s", 1.2F, true},
+                                                       {"Ix22", "\u00b0/s", 1.0F, true},
                                                        {"Max", "\u00b0/s", 1.0F, true},
-                                                       {"Max", "\u00b0/s\u00b2", 1.0F, true},
+                                                       {"Max", "\u00b0/s\u00b2", 1.2F, true},
                                                        {"Output", "V", 1.1F, true},
                                                        {"Max", "V", 0.9F, true},
-                                                       {"Lag", "\u00b0", 1.0F, true}}};
+                                                       {"Lag", "\u00b0", 0.9F, true}}};
     const kinematics::ArmModel& arm = now.arm.arm();
     widgets::TableView view;
     view.columns = columns;

@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
 
 namespace millwright::panels {
 namespace {
@@ -270,6 +272,30 @@ TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
     bench.person.frames(3);
     EXPECT_FALSE(bench.person.sees("notices/" + std::to_string(last - 1)));
     EXPECT_TRUE(bench.person.sees("notices/" + std::to_string(last)));
+}
+
+/// No frame comes that would renew the jog, and none that would end it: that is the driver's part, or the
+/// card's own.
+TEST(ArmAtPmacF2, AWindowThatHangsEndsAJogThatIsStillHeldAndBeginsNoneAnew) {
+    constexpr double renewed_deg = 5.0; // as far as a jog goes that nothing ends
+    Bench bench;
+    bench.connect();
+    ASSERT_NO_FATAL_FAILURE(bench.jog("hand/jog/plus_1", 1));
+    const double hung_at = bench.pmac.degrees(1), hung = bench.pmac.time();
+    const auto hangs_long_enough = [&] { // by the card's time, which is never ahead of this computer's
+        return !bench.pmac.moving() && bench.pmac.time() > hung + 1.0;
+    };
+    constexpr int most_looks = 60'000;
+    for (int n = 0; n < most_looks && !hangs_long_enough(); ++n) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_TRUE(hangs_long_enough());
+    EXPECT_LT(bench.pmac.degrees(1) - hung_at, 0.5 * renewed_deg);
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
+    const double there = bench.pmac.degrees(1);
+    bench.person.frames(30); // with the button down
+    EXPECT_NEAR(bench.pmac.degrees(1), there, 0.05);
+    bench.person.hold_button(false);
 }
 
 TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {

@@ -64,6 +64,19 @@ TEST(ArmWorkspace, OpensWithTheArmAtHomeAndShowsEveryPart) {
     }
 }
 
+TEST(ArmWorkspace, CutsNoLabelInASmallWindow) {
+    Bench bench({1100, 700});
+    for (const char* tab :
+         {"lower/tabs/points", "lower/tabs/program", "lower/tabs/console", "lower/tabs/motors"}) {
+        bench.person.click(tab);
+        bench.person.frames(2);
+        for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
+            ADD_FAILURE() << tab << ": " << cut;
+        }
+    }
+    bench.person.keep("arm-smallest");
+}
+
 TEST(ArmWorkspace, ASliderTurnsItsJointWithinItsLimits) {
     Bench bench;
     const Rect slider = bench.person.place("inspector/joints/joint_1");
