@@ -19,7 +19,13 @@ void require_power(const CardTalk& card, int motor) {
     if (!(std::abs(motor_variable(card, motor, active)) > 0.0)) {
         throw Error(fmt::format("motor {} is not there (I{}00=0)", motor, motor));
     }
-    if (!motor_state(card, motor).powered) { // a jog would give it power
+    bool powered = motor_state(card, motor).powered;
+    if (!powered) { // where it was just lost, whoever watches the card then says by what
+        constexpr double until_told = 0.2; // s
+        card.wait(until_told);
+        powered = motor_state(card, motor).powered;
+    }
+    if (!powered) { // a jog would give it power
         throw Error(fmt::format("motor {} has no power", motor),
                     {},
                     "look at the arm, then --power closes the loops of its motors");

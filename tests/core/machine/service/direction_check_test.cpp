@@ -1,5 +1,6 @@
 #include "core/machine/service/direction_check.h"
 
+#include "core/base/error.h"
 #include "tests/core/machine/service/card_talk_to.h"
 #include "tests/support/reason.h"
 
@@ -46,6 +47,22 @@ TEST(DirectionCheckF4, AMotorThatStandsStillDoesNotAgree) {
     test::PmacCard pmac({.plants = {heavy}});
     ASSERT_EQ(pmac.send("I100=1\n#1->120X\n#1J/"), "");
     EXPECT_FALSE(direction_check(test::talk_to(pmac), 1).agree);
+}
+
+// The card tells it sooner than the driver has seen it.
+TEST(DirectionCheckF4, PowerThatWasJustLostIsToldWithItsReason) {
+    test::PmacCard pmac;
+    ASSERT_EQ(pmac.send("I100=1\n#1->120X"), "");
+    bool seen = false;
+    const CardTalk watched{[&, talk = test::talk_to(pmac)](const std::string& line) {
+                               if (seen) {
+                                   throw Error("in alarm: motor 3: its following error became too great");
+                               }
+                               return talk.ask(line);
+                           },
+                           [&](double) { seen = true; }};
+    EXPECT_THAT(reason([&] { (void)direction_check(watched, 1); }),
+                HasSubstr("motor 3: its following error"));
 }
 
 TEST(DirectionCheckF4, GivesNoPowerAndNeedsAnAxis) {

@@ -107,7 +107,7 @@ void PmacSession::watch(double now) {
 }
 
 void PmacSession::watch_motors() {
-    const bool watched = active() || stage_ == Stage::astir || rests();
+    const bool watched = active() || stage_ == Stage::astir || stage_ == Stage::commanding || rests();
     const bool need_power = stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging;
     const auto killed =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });

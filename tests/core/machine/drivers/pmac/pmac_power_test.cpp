@@ -14,6 +14,7 @@ namespace {
 
 using test::jog_of;
 using test::PmacWire;
+using test::refusal;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -126,6 +127,21 @@ TEST(PmacPowerF2, AMotorThatTripsAtRestAfterItGotPowerSaysWhy) {
             << limit;
         EXPECT_FALSE(wire.powered());
     }
+}
+
+// As `arm direction` asks, one line behind the other: nobody looks at a machine at rest.
+TEST(PmacPowerF2, AMotorThatTripsWhileTheCardIsAskedSaysWhy) {
+    PmacWire wire({}, false, "XYZA", {}, "I129=10\nI111=434\n");
+    wire.session.enable(wire.now);
+    for (int n = 0; n < 2000 && wire.state() != DriverState::alarm; ++n) {
+        if (wire.session.status().activity == Activity::none) {
+            (void)refusal([&] { (void)wire.session.command({"I122", "I123", "I124", "I125"}, false); });
+        }
+        wire.step(0.001);
+    }
+    ASSERT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message,
+                testing::StartsWith("motor 1: its following error became too great"));
 }
 
 TEST(PmacPowerF2, AFaultOfAnAmplifierAtRestIsAnAlarm) {
