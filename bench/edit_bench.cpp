@@ -44,7 +44,7 @@ void optimised_grid(benchmark::State& state, Effort effort) {
         const int samples = effort == Effort::live ? live_samples : report_samples;
         const Evaluation uniform = evaluate(workpiece, uniform_outcome(project.grid), samples, Progress());
         benchmark::DoNotOptimize(
-            improved_evaluation(GridMethod::tracks, project.grid, workpiece, uniform, effort, Progress()));
+            improved_evaluation({GridMethod::tracks, project.grid, workpiece, effort}, uniform, Progress()));
     }
 }
 

@@ -29,13 +29,9 @@ bool keeps_promise(const Evaluation& found,
 }
 
 /// One that cannot be made is none.
-std::optional<Evaluation> made(GridMethod method,
-                               const GridInput& input,
-                               const Workpiece& workpiece,
-                               const Evaluation& uniform,
-                               const Progress& progress) {
+std::optional<Evaluation> made(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
     try {
-        return evaluation_by(method, input, workpiece, uniform, Effort::full, progress);
+        return evaluation_by(by, uniform, progress);
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -43,30 +39,25 @@ std::optional<Evaluation> made(GridMethod method,
 
 } // namespace
 
-Evaluation improved_evaluation(GridMethod method,
-                               const GridInput& input,
-                               const Workpiece& workpiece,
-                               const Evaluation& uniform,
-                               Effort effort,
-                               const Progress& progress) {
-    if (method != GridMethod::chain || effort == Effort::live) {
-        return evaluation_by(method, input, workpiece, uniform, effort, progress);
+Evaluation improved_evaluation(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
+    if (by.method != GridMethod::chain || by.effort == Effort::live) {
+        return evaluation_by(by, uniform, progress);
     }
     constexpr double chain = 0.9; // share of the work
-    Evaluation best = evaluation_by(method, input, workpiece, uniform, effort, progress.part(0.0, chain));
-    const double gap = 1.0 + input.chain.gap_percent / 100.0;
+    Evaluation best = evaluation_by(by, uniform, progress.part(0.0, chain));
+    const double gap = 1.0 + by.input.chain.gap_percent / 100.0;
     GridInput standard; // so that the chain depends on its own settings alone
-    standard.nu = input.nu;
-    standard.nv = input.nv;
-    standard.direction = input.direction;
-    standard.tracks = input.tracks;
-    bool kept = keeps_promise(best, uniform, workpiece, gap);
+    standard.nu = by.input.nu;
+    standard.nv = by.input.nv;
+    standard.direction = by.input.direction;
+    standard.tracks = by.input.tracks;
+    bool kept = keeps_promise(best, uniform, by.workpiece, gap);
     double from = chain;
     for (const GridMethod other : others) {
         const double to = from + (1.0 - chain) / static_cast<double>(others.size());
-        auto found = made(other, standard, workpiece, uniform, progress.part(from, to));
+        auto found = made({other, standard, by.workpiece}, uniform, progress.part(from, to));
         from = to;
-        if (!found || keeps_grid(*found, uniform) || !keeps_promise(*found, uniform, workpiece, gap) ||
+        if (!found || keeps_grid(*found, uniform) || !keeps_promise(*found, uniform, by.workpiece, gap) ||
             (kept && score(*found) >= score(best))) {
             continue;
         }

@@ -98,6 +98,11 @@ track_gap(const Workpiece& workpiece, const grid::Grid& grid, toolpath::Strategy
 
 } // namespace
 
+toolpath::KinematicError Workpiece::error_model() const {
+    const bool consistent = angle_mode == kinematics::AngleMode::consistent;
+    return {patch, machine, flipped, tool, consistent ? sequencing : toolpath::SequencingSettings{}};
+}
+
 Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
     return evaluate(workpiece, std::move(outcome), {}, samples, progress);
 }

@@ -55,7 +55,7 @@ struct Workpiece {
     ProgramInput timing = {};                     ///< what SequencingGoal::time is the time of
     geometry::Trim trim = {};                     ///< what of the patch is cut
 
-    [[nodiscard]] toolpath::KinematicError error_model() const { return {patch, machine, flipped, tool}; }
+    [[nodiscard]] toolpath::KinematicError error_model() const;
 };
 
 /// The zigzag over the grid, looked at `samples` times inside each move, as in toolpath::error_field. Throws

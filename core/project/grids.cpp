@@ -136,17 +136,6 @@ double megabytes(std::size_t bytes) {
     return std::ceil(static_cast<double>(bytes) / bytes_a_megabyte);
 }
 
-/// Where the sequencing has put points between the nodes: no improver knows of them.
-std::string added_points_sentence(const Evaluation& found) {
-    const grid::Grid& grid = found.outcome.grid;
-    const auto added = std::ssize(found.toolpath.points) - static_cast<std::ptrdiff_t>(grid.nu()) * grid.nv();
-    return added <= 0 ? std::string()
-                      : fmt::format("Its nodes were placed for moves without the {} {} that the "
-                                    "sequencing added between them.",
-                                    added,
-                                    added == 1 ? "point" : "points");
-}
-
 } // namespace
 
 bool needs_error(const EllipticInput& input) {
@@ -309,51 +298,6 @@ std::string_view title_of_making(GridMethod method) {
         return "Moving all nodes at once";
     }
     return {};
-}
-
-Evaluation evaluation_by(GridMethod method,
-                         const GridInput& input,
-                         const Workpiece& workpiece,
-                         const Evaluation& uniform,
-                         Effort effort,
-                         const Progress& progress) {
-    const toolpath::KinematicError error = workpiece.error_model();
-    const auto improver = make_improver(method, input, error, effort);
-    constexpr double measuring = 0.9; // share of the improvement
-    GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
-    const int samples = effort == Effort::live ? live_samples : report_samples;
-    Evaluation found = evaluate(workpiece, std::move(outcome), samples, progress.part(measuring, 1.0));
-    if (!is_worse(found, uniform, workpiece.machine)) {
-        if (found.outcome.status != grid::ImproverStatus::no_gain) {
-            const std::string added = added_points_sentence(found);
-            found.outcome.note =
-                added.empty() ? found.outcome.note : with_sentence(found.outcome.note, added);
-        }
-        return found;
-    }
-    Evaluation kept = uniform;
-    kept.outcome = {uniform.outcome.grid,
-                    grid::ImproverStatus::no_gain,
-                    found.outcome.rounds,
-                    found.outcome.iterations,
-                    found.outcome.norm,
-                    found.outcome.start_by_curve,
-                    found.outcome.start_by_curve,
-                    "Nothing better than the uniform grid was found on the whole path; it is kept.",
-                    found.outcome.warning};
-    return kept;
-}
-
-bool keeps_grid(const Evaluation& found, const Evaluation& start) {
-    return found.outcome.grid == start.outcome.grid;
-}
-
-bool is_worse(const Evaluation& found, const Evaluation& start, const kinematics::MachineModel& machine) {
-    constexpr double rounding = 1e-9; // of figures that are sums over many moves
-    const bool turns = !machine.rotary_axes().empty();
-    return !(found.closest.mean <= start.closest.mean * (1.0 + rounding)) ||
-           !(found.closest.max <= start.closest.max * (1.0 + rounding)) ||
-           (turns && !(found.closest.axis_max <= start.closest.axis_max * (1.0 + rounding)));
 }
 
 } // namespace millwright::project

@@ -72,24 +72,26 @@ void expect_memory(GridMethod method, const GridInput& input);
 /// What is being done when a grid is made, for people.
 [[nodiscard]] std::string_view title_of_making(GridMethod method);
 
-/// The grid by `method` (not uniform) with its error. Where that is worse than `uniform`, the evaluation of
-/// the uniform grid, measured like `uniform`, with a note that says so. Throws Error or Cancelled.
-[[nodiscard]] Evaluation evaluation_by(GridMethod method,
-                                       const GridInput& input,
-                                       const Workpiece& workpiece,
-                                       const Evaluation& uniform,
-                                       Effort effort,
-                                       const Progress& progress);
+/// What a grid is made for, and by what.
+struct GridMaking {
+    GridMethod method; ///< not uniform
+    const GridInput& input;
+    const Workpiece& workpiece;
+    Effort effort = Effort::full;
+};
+
+/// The grid with its error. Where that is worse than `uniform`, the evaluation of the uniform grid, measured
+/// like `uniform`, with a note that says so. Grids are made for the branches that each move would take by
+/// itself: where only the way by another goal than SequencingGoal::nearest is worse, the path follows the
+/// nearest branches or those of least error, and the note says which. Throws Error or Cancelled.
+[[nodiscard]] Evaluation
+evaluation_by(const GridMaking& by, const Evaluation& uniform, const Progress& progress);
 
 /// The same, but the whole chain ends with the best grid of all methods: where one of them is better on the
 /// finished part (largest * mean error) and keeps the chain's promise there, its grid, with a note that says
 /// so. The others have their standard settings. Throws Error or Cancelled.
-[[nodiscard]] Evaluation improved_evaluation(GridMethod method,
-                                             const GridInput& input,
-                                             const Workpiece& workpiece,
-                                             const Evaluation& uniform,
-                                             Effort effort,
-                                             const Progress& progress);
+[[nodiscard]] Evaluation
+improved_evaluation(const GridMaking& by, const Evaluation& uniform, const Progress& progress);
 
 /// Whether nothing better than the grid of `start` was found, which was kept.
 [[nodiscard]] bool keeps_grid(const Evaluation& found, const Evaluation& start);

@@ -64,16 +64,14 @@ public:
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
         return row_of_grid(
-            method,
-            improved_evaluation(grid_method, input_, workpiece_, uniform_, Effort::full, progress),
-            progress);
+            method, improved_evaluation({grid_method, input_, workpiece_}, uniform_, progress), progress);
     }
     /// The chain's grid, and the same with its branches and turns chosen for the least error of the path.
     [[nodiscard]] std::array<StudyRow, 2>
     chain_rows(StudyMethod chain, StudyMethod sequenced, const Progress& progress) const {
         constexpr double making = 0.9; // share of the chain
         const Evaluation found = improved_evaluation(
-            GridMethod::chain, input_, workpiece_, uniform_, Effort::full, progress.part(0.0, making));
+            {GridMethod::chain, input_, workpiece_}, uniform_, progress.part(0.0, making));
         return {row_of_grid(chain, found, progress),
                 sequenced_row(sequenced, found, progress.part(making, 1.0))};
     }

@@ -269,7 +269,7 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
                 std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, part.part(0.0, 0.0)));
         }
         plan.evaluation(method) = std::make_shared<const Evaluation>(
-            improved_evaluation(method, project.grid, workpiece, *plan.uniform, Effort::full, part));
+            improved_evaluation({method, project.grid, workpiece}, *plan.uniform, part));
     };
     const auto improve = [&](GridMethod method, const Progress& part) {
         if (method == program_grid(project)) {

@@ -236,7 +236,7 @@ void PlanStages::improve(GridMethod method, Effort effort, const Progress& progr
     }
     progress.report(0.0, title_of_making(method));
     Evaluation found =
-        improved_evaluation(method, input(), workpiece(), *now_.plan.uniform, effort, progress);
+        improved_evaluation({method, input(), workpiece(), effort}, *now_.plan.uniform, progress);
     hold(method, {std::make_shared<const Evaluation>(std::move(found)), effort == Effort::full});
 }
 

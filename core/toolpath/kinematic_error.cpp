@@ -174,8 +174,12 @@ double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& 
 
 } // namespace
 
-KinematicError::KinematicError(BezierPatch patch, MachineModel machine, bool flipped, Tool tool)
-    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)) {}
+KinematicError::KinematicError(
+    BezierPatch patch, MachineModel machine, bool flipped, Tool tool, SequencingSettings sequencing)
+    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)),
+      sequencing_(sequencing) {
+    sequencing_.largest_step = 0.0;
+}
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
     std::vector<Vec3> points(static_cast<std::size_t>(sampling.curve) + 1);
@@ -218,8 +222,8 @@ grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
                                            const Progress& progress) const {
     progress.check();
     try {
-        const Toolpath path = with_tool(patch_, machine_, tool_, zigzag(patch_, grid, direction, flipped_));
-        const AxisPath axes = sequence(machine_, path);
+        Toolpath contacts = with_tool(patch_, machine_, tool_, zigzag(patch_, grid, direction, flipped_));
+        const auto [path, axes] = sequenced(patch_, machine_, std::move(contacts), sequencing_, progress);
         const ErrorField field = error_field(patch_, machine_, path, axes, finely, progress);
         return summary(field, Distance::closest, MoveKind::track);
     } catch (const Error&) { // a pose that cannot be reached
