@@ -187,6 +187,33 @@ levels_of(const CutProgram& program, const StrokeCutting& cutting, const CLI::Ap
     return levels;
 }
 
+/// The greatest height at which it goes across in the air, mm: nothing tells what it stays above there.
+double travel_height(const plot::CutPath& path) {
+    double height = path.front().at.z();
+    for (std::size_t n = 1; n < path.size(); ++n) {
+        const Vec3& from = path[n - 1].at;
+        const Vec3& to = path[n].at;
+        if (path[n].move == plot::CutMove::rapid && to.head<2>() != from.head<2>()) {
+            height = std::max(height, std::min(from.z(), to.z()));
+        }
+    }
+    return height;
+}
+
+/// The usual one, or as high as the program travels.
+double safe_height_of(const CutProgram& program, const std::string& file) {
+    const double usual = project::PlotSettings().safe_height;
+    const double height = travel_height(program.path);
+    if (height > usual) {
+        fmt::print(stderr,
+                   "millwright: {}: the tool travels at {:.3f} mm, as high as the program does; "
+                   "--safe-height sets another height\n",
+                   file,
+                   height);
+    }
+    return std::max(usual, height);
+}
+
 void expect_even(const CutProgram& program, const char* option) {
     if (program.uneven) {
         Diagnostic found = *program.uneven;
@@ -306,6 +333,9 @@ int program_toolpath(const std::string& file,
     }
     expect_even(program, *shaped);
     cutting.drawn_levels = levels_of(program, cutting, command);
+    if (!given(command, "--safe-height")) {
+        cutting.cutting.safe_height = safe_height_of(program, file);
+    }
     cut_strokes(program.strokes, program.end, cutting, header);
     return 0;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -104,12 +105,52 @@ TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
     double leftmost = 1e9;
     for (const auto& record : records_of(content_of(path))) {
         leftmost = std::min(leftmost, std::stod(record[0]));
-        EXPECT_TRUE(record[2] == "-2" || record[2] == "5") << record[2];
+        EXPECT_TRUE(record[2] == "-2" || record[2] == "10") << record[2];
     }
     EXPECT_NEAR(leftmost, 50.0 - 7.0 - 2.0, 1e-3);
     const Ended high = run({"plot", "toolpath", simple, "--out", out, "--path", path, "--depth", "4"});
     ASSERT_EQ(high.exit_code, 0) << high.err;
     EXPECT_THAT(content_of(path), HasSubstr(",-4,"));
+}
+
+/// Heights at which the tool goes across at rapid.
+std::set<std::string> travel_heights(const std::vector<std::vector<std::string>>& records) {
+    std::set<std::string> heights;
+    for (std::size_t n = 1; n < records.size(); ++n) {
+        const bool across = records[n][0] != records[n - 1][0] || records[n][1] != records[n - 1][1];
+        if (records[n][4] == "rapid" && across) {
+            heights.insert(records[n][2]);
+        }
+    }
+    return heights;
+}
+
+// What it travels over, a clamp, is not in the program.
+TEST(ProgramsAsPlots, ACutAnewTravelsNoLowerThanTheProgram) {
+    const ScratchFolder folder;
+    const std::string out = (folder / "out.ngc").string();
+    const std::string path = (folder / "out.path").string();
+    const std::string two_cuts = "G1 Z-1 F100\nG1 X30 F300\nG0 Z2\nG0 X10 Y20\nG1 Z-1\nG1 X30\n";
+    const std::string over = (folder / "over.ngc").string();
+    const std::string once = (folder / "once.ngc").string();
+    const std::string slow = (folder / "slow.ngc").string();
+    const std::string low = (folder / "low.ngc").string();
+    write_content(over, "G0 Z20\nG0 X10 Y10\n" + two_cuts + "G0 Z20\nG0 X0\nM2\n");
+    write_content(once, "G0 X10 Y10 Z20\n" + two_cuts + "G0 Z30\nM2\n");
+    write_content(slow, "G0 Z2\nG0 X10 Y10\n" + two_cuts + "G1 Z20\nG1 X0\nG0 Z30\nM2\n");
+    write_content(low, "G0 Z2\nG0 X10 Y10\n" + two_cuts + "G0 Z2\nM2\n");
+    for (const std::string& file : {over, once, slow, low}) {
+        std::vector<std::string> words{"plot", "toolpath", file, "--out", out, "--path", path, "--order"};
+        const Ended ended = run(words);
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const std::set<std::string> heights = travel_heights(records_of(content_of(path)));
+        EXPECT_EQ(heights, std::set<std::string>{file == low ? "5" : "20"}) << file;
+        const std::string told = "the tool travels at 20.000 mm, as high as the program does";
+        EXPECT_EQ(ended.err.find(told) != std::string::npos, file != low) << ended.err;
+        words.insert(words.end(), {"--safe-height", "4"});
+        ASSERT_EQ(run(words).exit_code, 0);
+        EXPECT_EQ(travel_heights(records_of(content_of(path))), std::set<std::string>{"4"}) << file;
+    }
 }
 
 TEST(ProgramsAsPlots, PointsHaveTheHeightsOfTheProgramOrThoseOfThePen) {
