@@ -64,7 +64,7 @@ struct Curve {
 /// Which members of Command count stands behind each.
 enum class CommandKind : std::uint8_t {
     use_length_units,        ///< index: 1 inch, 2 mm
-    set_g5x_offset,          ///< index: coordinate system 1 to 9; axes
+    set_g5x_offset,          ///< index: coordinate system 1 to 9; mode: 1 its offset was ever set; axes
     set_g92_offset,          ///< axes
     set_xy_rotation,         ///< value: degrees
     set_feed_reference,      ///< always XYZ

@@ -19,6 +19,16 @@ Diagnostic at_word(const std::filesystem::path& file,
         {file, source.line, word > 0 ? word : std::max(first_column(line), 1), -1}, std::move(message), {}};
 }
 
+namespace {
+
+/// G54 to G59.3, of 1 to 9.
+std::string name_of_system(int system) {
+    constexpr int whole = 6; // G54 to G59
+    return system <= whole ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - whole);
+}
+
+} // namespace
+
 void Losses::note(
     Kind kind, SourcePlace source, std::string_view line, char letter, const std::string& message) {
     std::vector<Diagnostic>& all = kind == Kind::lost ? lost_ : simplified_;
@@ -81,9 +91,15 @@ void Losses::command(const Command& command, std::string_view line) {
     case CommandKind::disable_feed_hold:
         return simplify('M', "overrides and holds stay possible throughout (M49 to M53, G74, G84)");
     case CommandKind::set_g5x_offset:
-        return command.index > 1
-                   ? simplify('G', "a work system other than G54 is taken for G54: no offset is known")
-                   : void();
+        if (command.index > 1 && command.mode == 0) {
+            note(Kind::simplified,
+                 command.source,
+                 line,
+                 'G',
+                 fmt::format("nobody told the offset of {}: it is taken for 0",
+                             name_of_system(command.index)));
+        }
+        return;
     default:
         return;
     }

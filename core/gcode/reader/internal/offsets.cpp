@@ -30,7 +30,10 @@ AxisValues in_system(const AxisValues& bare, const AxisValues& g5x, double rotat
 }
 
 void send_system(Run& run) {
-    run.out.send(command_of(CommandKind::set_g5x_offset, run.state.g5x_offset, run.state.coordinate_system));
+    const int system = run.state.coordinate_system;
+    Command selected = command_of(CommandKind::set_g5x_offset, run.state.g5x_offset, system);
+    selected.mode = run.variables.knows_system(system) ? 1 : 0;
+    run.out.send(selected);
 }
 
 AxisValues given_axes(const Block& block, AxisValues otherwise) {

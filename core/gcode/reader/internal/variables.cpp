@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace millwright::gcode::internal {
 
 namespace {
@@ -35,7 +37,8 @@ double of_tool(int number, const Tool& tool) {
 
 } // namespace
 
-Variables::Variables(const ModalState& state) : state_(&state), values_(parameter_count, 0.0) {
+Variables::Variables(const ModalState& state)
+    : state_(&state), values_(parameter_count, 0.0), told_(parameter_count, false) {
     set(parameter_system, 1.0);
     set(parameter_debug, 1.0);
 }
@@ -105,6 +108,12 @@ AxisValues Variables::axes_from(int first) const {
         values[n] = stored(first + static_cast<int>(n));
     }
     return values;
+}
+
+bool Variables::knows_system(int system) const {
+    constexpr int members = 10; // nine offsets and the rotation
+    const auto first = told_.begin() + parameter_g5x(system);
+    return std::find(first, first + members, true) != first + members;
 }
 
 void Variables::set_axes(int first, const AxisValues& values) {

@@ -58,7 +58,10 @@ public:
     void check_settable(int number, int column) const;
     void check_settable(std::string_view name, int column) const;
     /// Without any check.
-    void set(int number, double value) { values_[static_cast<std::size_t>(number)] = value; }
+    void set(int number, double value) {
+        values_[static_cast<std::size_t>(number)] = value;
+        told_[static_cast<std::size_t>(number)] = true;
+    }
     void set(std::string_view name, double value);
     [[nodiscard]] double stored(int number) const { return values_[static_cast<std::size_t>(number)]; }
 
@@ -68,12 +71,15 @@ public:
     /// Nine values from `first` on.
     [[nodiscard]] AxisValues axes_from(int first) const;
     void set_axes(int first, const AxisValues& values);
+    /// Whether anything of coordinate system `system` (1 to 9) was ever set, be it to 0.
+    [[nodiscard]] bool knows_system(int system) const;
 
     ProgramView program;
 
 private:
     const ModalState* state_;
     std::vector<double> values_;
+    std::vector<bool> told_; ///< numbers that were set
     NamedValues global_;
     NamedValues local_;
 };

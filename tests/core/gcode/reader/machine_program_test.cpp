@@ -224,7 +224,7 @@ TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
     using ::testing::ElementsAre;
     EXPECT_THAT(messages(read("G21 G90\nM7\nG55\nG53 G0 Z0\nG53 G0 Z1\nG54\nG28\nM2\n").simplified),
                 ElementsAre(HasSubstr("mist (M7)"),
-                            HasSubstr("part.ngc:3:1: a work system other than G54"),
+                            HasSubstr("part.ngc:3:1: nobody told the offset of G55: it is taken for 0"),
                             HasSubstr("part.ngc:4:1: G53"),
                             HasSubstr("G28")));
     EXPECT_THAT(messages(read("G21 G90\nM64 P1\nM65 P1\nM62 P2\nM67 E1 Q3\nG1 X1 F60\nM2\n").simplified),
@@ -233,6 +233,22 @@ TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
                 ElementsAre(HasSubstr("part.ngc:2:1: overrides")));
     EXPECT_THAT(messages(read("G21 G90\nM48\nM50 P1\nM53 P1\nG97 S100\nG1 X1 F60\nM2\n").simplified),
                 ElementsAre());
+}
+
+TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
+    using ::testing::ElementsAre;
+    const auto said = [](const std::string& lines) {
+        return messages(read("G21 G90\n" + lines + "M2\n").simplified);
+    };
+    EXPECT_THAT(said("G10 L2 P2 X50 Y20 Z0\nG55\nG0 X1\n"), ElementsAre());
+    EXPECT_THAT(said("G10 L2 P2 X0\nG55\n"), ElementsAre());
+    EXPECT_THAT(said("G10 L2 P9 R30\nG59.3\n"), ElementsAre());
+    EXPECT_THAT(said("#5241=50\nG55\n"), ElementsAre());
+    EXPECT_THAT(said("G10 L20 P3 Z1\nG56\nG54\n"), ElementsAre());
+    EXPECT_THAT(
+        said("G10 L2 P2 X50\nG55\nG56\nG55\nG56\nG59.1\n"),
+        ElementsAre(HasSubstr("part.ngc:4:1: nobody told the offset of G56"), HasSubstr("of G59.1:")));
+    EXPECT_THAT(said("G10 L2 P1 X50\nG55\n"), ElementsAre(HasSubstr("of G55: it is taken for 0")));
 }
 
 TEST(MachineProgram, NamesWhatWouldBeAnotherProgramWithoutIt) {
