@@ -367,9 +367,10 @@ private:
     std::map<std::string, LeftOut> left_out_;
 };
 
-/// A word of G-code is a letter and a number. Commands of HPGL have two letters.
+/// A word of G-code is a letter and a number, of a parameter # and one or its name; a program's number may
+/// have a colon before it. Commands of HPGL have two letters.
 bool begins_with_word(std::string_view line) {
-    constexpr std::string_view letters = "NGMTFSOXYZ";
+    constexpr std::string_view letters = "NGMTFSOXYZ#:";
     if (line.empty() || letters.find(static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])))) ==
                             std::string_view::npos) {
         return false;

@@ -208,6 +208,11 @@ TEST(CutPrograms, AnArcOfTooManyChordsIsRefusedWithItsLine) {
 TEST(CutPrograms, AreKnownByTheirFirstWord) {
     EXPECT_TRUE(is_gcode("%\n(a plate)\n\n/N1 G21\n"));
     EXPECT_TRUE(is_gcode("x10 y5 f200\n"));
+    EXPECT_TRUE(is_gcode("#1=5\n"));
+    EXPECT_TRUE(is_gcode("%\n;c\n  #<_depth> = 3\nG21\n"));
+    EXPECT_TRUE(is_gcode(":1000\nG21\n"));
+    EXPECT_FALSE(is_gcode("#\n"));
+    EXPECT_FALSE(is_gcode(":PU0,0;"));
     EXPECT_FALSE(is_gcode("IN;SP1;PU0,0;PD400,0;"));
     EXPECT_FALSE(is_gcode("; nothing\n"));
 }
