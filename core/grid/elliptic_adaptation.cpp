@@ -77,6 +77,35 @@ std::string mean_sentence(const ErrorSummary& error) {
                : "some moves are out of reach";
 }
 
+std::string counted_below(const std::vector<double>& means, double than, const std::string& why) {
+    const auto count = std::ranges::count_if(means, [&](double mean) { return mean < than; });
+    return count == 0 ? std::string() : std::to_string(count) + " " + why;
+}
+
+/// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
+std::string refusals(const std::vector<double>& too_wide,
+                     const std::vector<double>& worse_elsewhere,
+                     double taken,
+                     double gap_allowance) {
+    const std::string wide = counted_below(too_wide,
+                                           taken,
+                                           "for tracks more than " + shortest(100.0 * gap_allowance) +
+                                               " % farther apart than the start's");
+    const std::string worse = counted_below(
+        worse_elsewhere, taken, "for a larger error or tool axis somewhere on the path than the start has");
+    if (wide.empty() && worse.empty()) {
+        return {};
+    }
+    double least = infinity;
+    for (const std::vector<double>* means : {&too_wide, &worse_elsewhere}) {
+        for (const double mean : *means) {
+            least = std::min(least, mean);
+        }
+    }
+    return ". Grids with less, down to " + fixed(least, shown_decimals) + " mm, were refused: " + wide +
+           (wide.empty() || worse.empty() ? "" : ", ") + worse;
+}
+
 /// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.
 void keep_outline(NodeArray& nodes, const NodeArray& from) {
     for (int i = 0; i < nodes.rows; ++i) {
@@ -187,6 +216,9 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     }
     progress.check();
     Position next = at_;
+    if (!next.coarse_start) {
+        measure_start(next, progress);
+    }
     if (next.ending != ImproverStatus::running) {
         confirm(next, progress.part(iterated, path_judged));
     } else if (weight_ == nullptr && next.state.start.max <= no_error) {
@@ -200,6 +232,18 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     at_.state.done = more ? std::max(at_.state.done, share_done(at_)) : 1.0;
     progress.report(std::min(at_.state.done, path_judged), at_.state.note);
     return more;
+}
+
+/// The figures that people compare are fine ones, as those of the other methods. On the way a coarse look has
+/// to do, and is compared with a coarse one.
+void EllipticAdaptation::measure_start(Position& at, const Progress& progress) const {
+    at.coarse_start = at.state.start;
+    at.coarse_best = at.state.start.mean;
+    at.state.start = at.state.now = at.state.of_best = finely(start_, progress);
+}
+
+ErrorSummary EllipticAdaptation::finely(const Grid& grid, const Progress& progress) const {
+    return summary(measure(model_, grid, settings_.direction, fine, progress));
 }
 
 /// Of all the iterations that are allowed: a round that settles early leaves the rest of its share out.
@@ -311,7 +355,7 @@ void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progre
     const Grid grid(parameters_of(nodes));
     at.moves = measure(model_, grid, settings_.direction, settings_.sampling, progress);
     at.state.now = summary(at.moves);
-    const bool has_gained = at.state.now.mean < at.state.start.mean;
+    const bool has_gained = at.state.now.mean < at.coarse_start->mean;
     if (has_gained && std::ranges::none_of(at.candidates, [&](const CandidatePtr& earlier) {
             return dominates(earlier->error, at.state.now);
         })) {
@@ -321,8 +365,9 @@ void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progre
                 at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; }));
         }
     }
-    const bool axis_is_kept = at.state.now.axis_max <= at.state.start.axis_max;
-    if (at.state.now.mean < at.state.of_best.mean && axis_is_kept) {
+    const bool axis_is_kept = at.state.now.axis_max <= at.coarse_start->axis_max;
+    if (at.state.now.mean < at.coarse_best && axis_is_kept) {
+        at.coarse_best = at.state.now.mean;
         at.state.best = grid;
         at.state.of_best = at.state.now;
     }
@@ -356,7 +401,7 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     const bool settled = weight_ != nullptr
                              ? solved != SolverStatus::iteration_limit
                              : std::isfinite(before) && std::isfinite(now) &&
-                                   std::abs(now - before) <= settings_.error_change * at.state.start.mean;
+                                   std::abs(now - before) <= settings_.error_change * at.coarse_start->mean;
     if (settled) {
         at.ending = weight_ != nullptr ? as_improver_status(solved) : ImproverStatus::converged;
     } else if (at.state.round >= settings_.max_rounds) {
@@ -364,40 +409,62 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     }
 }
 
-/// Takes the candidate whose path has the least mean error among those that keep the promise.
-void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
+/// Takes the candidate whose path has the least mean error among those that keep the promise, and tells why
+/// better ones do not.
+void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     at.state.best = start_;
     at.state.of_best = at.state.start;
+    if (at.candidates.empty()) {
+        at.state.note = "No grid was better than the start";
+        return;
+    }
     std::ranges::sort(at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; });
+    const auto share = [&](int n) { // each judges a whole path
+        constexpr double paths = enough_kept + 1;
+        return progress.part(n / paths, (n + 1) / paths);
+    };
+    const GridPromise promise(model_, start_, settings_.direction, share(0));
+    const double widest = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
+    CandidatePtr chosen;
     double least = infinity;
-    if (!at.candidates.empty()) {
-        const auto share = [&](int n) { // each judges a whole path
-            constexpr double paths = enough_kept + 1;
-            return progress.part(n / paths, (n + 1) / paths);
-        };
-        const GridPromise promise(model_, start_, settings_.direction, share(0));
-        const double widest = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
-        int kept = 0;
-        for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
-            if (model_.track_gap((*c)->grid, settings_.direction) > widest) {
-                continue;
-            }
-            const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
-            kept += path.has_value() ? 1 : 0;
-            if (path.has_value() && path->mean < least) {
-                least = path->mean;
-                at.state.best = (*c)->grid;
-                at.state.of_best = (*c)->error;
-            }
+    int kept = 0;
+    std::vector<double> too_wide, worse_elsewhere; // their means
+    for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
+        if (model_.track_gap((*c)->grid, settings_.direction) > widest) {
+            too_wide.push_back((*c)->error.mean);
+            continue;
+        }
+        const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
+        if (!path) {
+            worse_elsewhere.push_back((*c)->error.mean);
+            continue;
+        }
+        ++kept;
+        if (path->mean < least) {
+            least = path->mean;
+            chosen = *c;
         }
     }
-    const bool better = least < infinity;
+    if (chosen) {
+        at.state.best = chosen->grid;
+        at.state.of_best = finely(chosen->grid, progress);
+    }
+    at.state.note =
+        (chosen ? "Best grid: " + mean_sentence(at.state.of_best)
+                : std::string("No grid was better than the start")) +
+        refusals(too_wide, worse_elsewhere, chosen ? chosen->error.mean : infinity, settings_.gap_allowance);
+}
+
+void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
+    const std::string ended = at.state.note;
+    choose(at, progress);
+    at.state.now = finely(Grid(at.state.current), progress);
+    const bool better = !(at.state.best.array() == start_.array());
     const bool failed = at.ending == ImproverStatus::folded || at.ending == ImproverStatus::not_finite ||
                         at.ending == ImproverStatus::singular;
     at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;
-    if (!failed) {
-        at.state.note =
-            (better ? "Best grid: " + mean_sentence(at.state.of_best) : "No grid was better than the start");
+    if (failed) {
+        at.state.note = ended;
     }
 }
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,8 @@ private:
         ImproverState state;
         Grid round_start;
         double round_start_error = 0.0;                 ///< mean
+        std::optional<ErrorSummary> coarse_start{};     ///< by the settings' sampling; nothing before a step
+        double coarse_best = 0.0;                       ///< mean of `state.best`, likewise
         std::vector<MoveError> moves{};                 ///< of the last complete grid
         WeightPtr density{};                            ///< the error density, remembered from round to round
         WeightPtr round_weight{};                       ///< null between two rounds
@@ -104,12 +107,15 @@ private:
     [[nodiscard]] WeightPtr weight_of_round(Position& at) const;
     [[nodiscard]] std::unique_ptr<EllipticSolver> new_solver(Position& at) const;
     [[nodiscard]] double share_done(const Position& at) const;
+    void measure_start(Position& at, const Progress& progress) const;
     void step(Position& at, const Progress& progress) const;
     [[nodiscard]] NodeArray parameters_of(const NodeArray& nodes) const;
     void take(Position& at, const NodeArray& nodes, const Progress& progress) const;
     void fall(Position& at, SolverStatus failure) const;
     void end_round(Position& at, SolverStatus solved) const;
     void confirm(Position& at, const Progress& progress) const;
+    void choose(Position& at, const Progress& progress) const;
+    [[nodiscard]] ErrorSummary finely(const Grid& grid, const Progress& progress) const;
 
     const ErrorModel& model_;
     EllipticAdaptationSettings settings_;

@@ -1,8 +1,11 @@
+#include "core/base/units.h"
 #include "core/project/joined_surface.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/viewport/symmetric_points.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace millwright::actions {
 
@@ -65,6 +68,26 @@ Permission has_patches(const Workbench& now) {
                                                   : Permission::refused("The surface has one patch only.");
 }
 
+/// "gap 2.5000 -> 0.0000 mm, angle 0.31 -> 0.00 deg", of several seams the largest of each.
+std::string seams_text(const project::JoinedSurface& joined) {
+    const auto largest = [](const std::vector<geometry::SeamFigures>& seams) {
+        geometry::SeamFigures found;
+        for (const geometry::SeamFigures& seam : seams) {
+            found.gap = std::max(found.gap, seam.gap);
+            found.angle = std::max(found.angle, seam.angle);
+        }
+        return found;
+    };
+    const geometry::SeamFigures before = largest(joined.before), after = largest(joined.after);
+    return fmt::format("{}gap {:.4f} \u2192 {:.4f} mm, {}angle {:.3f} \u2192 {:.3f}\u00B0",
+                       joined.seams.size() == 1 ? "" : "largest ",
+                       before.gap,
+                       after.gap,
+                       joined.seams.size() == 1 ? "" : "largest ",
+                       to_degrees(before.angle),
+                       to_degrees(after.angle));
+}
+
 void join(Hands& hands, geometry::Continuity continuity) {
     project::Project draft = hands.history.current();
     const project::JoinedSurface joined =
@@ -73,9 +96,10 @@ void join(Hands& hands, geometry::Continuity continuity) {
     hands.history.commit(std::move(draft), "Join the patches");
     tell(hands.session,
          widgets::Severity::good,
-         fmt::format("{} {} joined; control points moved by at most {:.4f} mm.",
+         fmt::format("{} {} joined: {}. Control points moved by at most {:.4f} mm.",
                      joined.seams.size(),
                      joined.seams.size() == 1 ? "seam" : "seams",
+                     seams_text(joined),
                      joined.largest_move));
 }
 

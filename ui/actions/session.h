@@ -96,7 +96,9 @@ enum class HelpPage { none, workspace, keys, commands, about };
 
 /// A result that a person keeps to compare later ones with: of another grid, machine, set-up or tool.
 struct KeptResult {
-    std::string name; ///< "Tracks on ac-table"
+    std::string name;         ///< "Tracks on ac-table"
+    std::string place;        ///< "part at 0, 0, 50 mm"
+    project::Project project; ///< that it was made of
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const project::Workpiece> workpiece;
     std::shared_ptr<const project::Evaluation> evaluation;

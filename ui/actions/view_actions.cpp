@@ -78,6 +78,8 @@ void keep_result(Hands& hands) {
     const project::Plan& plan = now.plan->plan;
     hands.session.kept =
         std::make_shared<const KeptResult>(KeptResult{now.shown_name() + " on " + now.project.machine.file,
+                                                      now.part_place(),
+                                                      now.project,
                                                       plan.surface,
                                                       plan.workpiece,
                                                       now.shown(),

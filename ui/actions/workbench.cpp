@@ -1,5 +1,6 @@
 #include "ui/actions/workbench.h"
 
+#include "core/base/text.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
@@ -56,6 +57,16 @@ bool Workbench::shows_own_path() const {
 std::string Workbench::shown_name() const {
     return shows_own_path() ? project::strategy_text(project)
                             : std::string(project::row_of(project::grid_methods(), shown_grid(*this)).label);
+}
+
+std::string Workbench::part_place() const {
+    if (!plan || !plan->plan.workpiece) {
+        return {};
+    }
+    const Vec3& at = plan->plan.workpiece->machine.description().workpiece_offset;
+    const auto to_hundredths = [](double mm) { return shortest(0.01 * std::round(100.0 * mm) + 0.0); };
+    return "part at " + to_hundredths(at.x()) + ", " + to_hundredths(at.y()) + ", " + to_hundredths(at.z()) +
+           " mm";
 }
 
 std::shared_ptr<const project::Evaluation> Workbench::program_path() const {

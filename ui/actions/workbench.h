@@ -84,6 +84,8 @@ struct Workbench {
     [[nodiscard]] bool shows_own_path() const;
     /// "Spiral", "Track optimiser".
     [[nodiscard]] std::string shown_name() const;
+    /// Where the part is on the table: "part at 0, 0, 50 mm"; empty without a machine.
+    [[nodiscard]] std::string part_place() const;
     /// What the program follows; null if not there.
     [[nodiscard]] std::shared_ptr<const project::Evaluation> program_path() const;
     [[nodiscard]] std::shared_ptr<const project::Evaluation> evaluation(project::GridMethod method) const;

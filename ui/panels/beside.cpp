@@ -27,9 +27,27 @@ std::vector<Choice> choices_of(const Workbench& now) {
         }
     }
     if (now.session.kept) {
-        choices.push_back({{{}, true}, {"kept", now.session.kept->name, {}, "The result that was kept", {}}});
+        choices.push_back({{{}, true}, {"kept", {}, {}, "The result that was kept", {}}});
     }
     return choices;
+}
+
+/// "ac-table, part at 0, 0, 50 mm": what tells it from another; the rest stands over its picture.
+std::string kept_text(const Workbench& now) {
+    const auto& kept = now.session.kept;
+    return kept ? kept->project.machine.file + ", " + kept->place : std::string();
+}
+
+/// The map of the last search, where it is one of the kept part, too.
+std::shared_ptr<const project::SetUpResult> map_for(const actions::KeptResult& kept, const Workbench& now) {
+    return now.set_up && project::same_but_for_place(now.set_up->project, kept.project) ? now.set_up
+                                                                                        : nullptr;
+}
+
+toolpath::SetUpPlace place_of(const actions::KeptResult& kept, const project::SetUpResult& map) {
+    toolpath::SetUpPlace place = map.now;
+    place.head<3>() = kept.workpiece->machine.description().workpiece_offset;
+    return place;
 }
 
 } // namespace
@@ -37,11 +55,14 @@ std::vector<Choice> choices_of(const Workbench& now) {
 void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
     const std::vector<Choice> choices = choices_of(now);
     std::vector<widgets::Option> options;
+    const std::string kept = kept_text(now);
     int index = 0;
     for (std::size_t n = 0; n < choices.size(); ++n) {
         options.push_back(choices[n].option);
+        options.back().label = choices[n].beside.kept ? std::string_view(kept) : options.back().label;
         index = choices[n].beside == now.session.beside ? static_cast<int>(n) : index;
     }
+    const auto labels = ui.label_share(0.28F); // a machine and a place are long words
     if (const auto chosen = ui.choice(
             "beside", "Beside it", index, options, "Another result at the left, in the same colours")) {
         ask.show([beside = choices[static_cast<std::size_t>(*chosen)].beside](actions::Session& session) {
@@ -60,12 +81,15 @@ std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& sh
     other.scene.now.reset();
     if (beside.kept) {
         const auto& kept = now.session.kept;
-        other.name = kept->name;
+        other.name = kept->name + "\n" + kept->place;
         other.scene.surface = kept->surface;
         other.scene.workpiece = kept->workpiece;
         other.scene.shown = kept->evaluation;
         other.scene.cut = kept->cut;
-        other.scene.set_up = nullptr;
+        other.scene.set_up = map_for(*kept, now);
+        if (other.scene.set_up) {
+            other.scene.set_up_place = place_of(*kept, *other.scene.set_up);
+        }
         other.scene.singular_points = kept->singular_points;
     } else {
         other.name = std::string(project::row_of(project::grid_methods(), *beside.method).label);
@@ -79,6 +103,12 @@ std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& sh
         std::max(viewport::error_colors(shown, {}).high, viewport::error_colors(other.scene, {}).high);
     shown.error.high = other.scene.error.high = high;
     return other;
+}
+
+std::string shown_name_beside(const Workbench& now) {
+    return now.session.beside.kept
+               ? now.shown_name() + " on " + now.project.machine.file + "\n" + now.part_place()
+               : now.shown_name();
 }
 
 } // namespace millwright::panels

@@ -22,4 +22,7 @@ struct NamedScene {
 /// get the same colours for the same error.
 [[nodiscard]] std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown);
 
+/// The name of the shown result: as much of it as may differ from what stands beside it.
+[[nodiscard]] std::string shown_name_beside(const Workbench& now);
+
 } // namespace millwright::panels

@@ -88,6 +88,10 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
                               now.program_path().get(),
                               now.plan ? now.plan->plan.path_time : std::nullopt));
     }
+    if (const auto& kept = now.session.kept) {
+        rows.push_back(
+            row_of("kept", "Kept: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
+    }
     return rows;
 }
 
@@ -104,10 +108,13 @@ void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue&
     view.chosen = now.shows_own_path() ? grids : static_cast<std::ptrdiff_t>(actions::shown_grid(now));
     view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, id, view)) {
-        if (*row == grids) {
+        const std::string chosen = view.row_id(*row);
+        if (chosen == "path") {
             ask.show([](actions::Session& session) { session.own_path_shown = true; });
+        } else if (chosen == "kept") {
+            ask.show([](actions::Session& session) { session.beside = {{}, true}; });
         } else { // refused where it was not made
-            ask.run("view.show_" + view.row_id(*row));
+            ask.run("view.show_" + chosen);
         }
     }
 }

@@ -177,9 +177,11 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         action_button(ui, now, ask, catalogue_, "grid.reset", widgets::Rank::normal, "Reset");
     }
     if (const auto& state = now.watched->state) {
-        ui.value("rounds", "Rounds done", fmt::format("{}", state->round));
-        ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
-        ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
+        if (now.watched->method != GridMethod::redistribution) { // which is done in one go
+            ui.value("rounds", "Rounds done", fmt::format("{}", state->round));
+            ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
+            ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
+        }
         ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
         ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
         ui.value("best", "To curve, kept", length_text(state->of_best.mean), "mm");

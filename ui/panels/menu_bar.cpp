@@ -46,8 +46,8 @@ std::string lower(std::string_view word) {
 constexpr float gap_to_stop = 12.0F; // from the search to the emergency stop
 constexpr float tools_width = 300.0F;
 constexpr float narrow_tools = 154.0F; // the search without its name
-constexpr float smallest_tabs = 548.0F;
-constexpr float roomy = 940.0F; // tabs with icons, and the tools
+constexpr float least_tabs = 120.0F;   // those without room are behind a button
+constexpr float roomy = 940.0F;        // tabs with icons, and the tools
 
 /// There is room for those that are wanted in a workspace; everything is in the palette.
 bool has_room(std::string_view menu, Workspace workspace) {
@@ -97,7 +97,7 @@ void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         option.icon = narrow ? std::string_view() : option.icon;
     }
     {
-        const auto width = ui.width(std::max(ui.rest().w - tools, ui.px(smallest_tabs)));
+        const auto width = ui.width(std::max(ui.rest().w - tools, ui.px(least_tabs)));
         if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), shown)) {
             ask.show(
                 [w = static_cast<Workspace>(*chosen)](actions::Session& session) { session.workspace = w; });
@@ -105,9 +105,7 @@ void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     ui.beside();
     ui.move_by(0.0F, ui.px(tabs_above));
-    if (ui.rest().w >= tools - ui.px(left)) {
-        draw_tools(ui, now, ask);
-    }
+    draw_tools(ui, now, ask);
 }
 
 /// What is wanted often, by icon, and the way to everything else.

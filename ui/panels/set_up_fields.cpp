@@ -167,7 +167,11 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
                         found.settings.nodes,
                         found.settings.nodes,
                         by_error ? ", not that to the surface in the outline" : ""));
-    ui.value("start", "Where it stood", cost_text(search.start.cost), "mm");
+    ui.value("start",
+             "Where it stood",
+             cost_text(search.start.cost),
+             "mm",
+             "What the path costs with the part where it was when the search began");
     ui.value("best",
              "At the best place",
              cost_text(search.best.cost) +

@@ -36,6 +36,24 @@ void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
+/// The points are chosen for the tip; what a cutter with a width does beside it they cannot help.
+void kept_tolerance(Ui& ui, const Workbench& now) {
+    const auto path = now.program_path();
+    const double tolerance = now.project.toolpath.tolerance_mm;
+    if (!path || now.project.toolpath.strategy != StrategyInput::fewest_points ||
+        now.project.tool.cutter == toolpath::CutterKind::point || path->closest.max <= tolerance) {
+        return;
+    }
+    (void)widgets::banner(
+        ui,
+        "not_kept",
+        {widgets::Severity::warning,
+         "The tip keeps the tolerance, this cutter does not: " + length_text(path->closest.max) +
+             " mm at worst. Where it does not fit, or cuts into its sides, more points do not "
+             "help: another or a smaller cutter does.",
+         {}});
+}
+
 std::string grid_note(const Project& project) {
     if (project::follows_nodes(project.toolpath.strategy)) {
         return fmt::format("Over the nodes of the grid: {}.",
@@ -76,9 +94,18 @@ void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             });
     }
     ui.note(grid_note(now.project));
+    kept_tolerance(ui, now);
     if (const auto path = now.program_path()) {
-        ui.value("points", "Points", fmt::format("{}", path->toolpath.points.size()));
-        ui.value("length", "Length", fixed(path->path_length, 1), "mm");
+        ui.value("points",
+                 "Points",
+                 fmt::format("{}", path->toolpath.points.size()),
+                 "",
+                 "Of the whole path, with those that the sequencing adds");
+        ui.value("length",
+                 "Length",
+                 fixed(path->path_length, 1),
+                 "mm",
+                 "Of the tip's way, tracks and cross moves");
     }
 }
 

@@ -2,11 +2,13 @@
 
 #include "core/project/grids.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -31,6 +33,40 @@ bool has_corner(const grid::Region& region, int corner) {
     return corner >= 0 && corner < static_cast<int>(region.outline.size());
 }
 
+constexpr double largest_share = 1e3; // project::elliptic_numbers() allow no more
+
+/// A stroke of the full share would be lost in the colours, and hardly move a node.
+void faint_paint(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    constexpr double seen = 0.1; // of the range of the weight
+    const project::EllipticInput& input = now.project.grid.elliptic;
+    const auto weight = now.plan ? now.plan->plan.weight : nullptr;
+    if (!input.painted || !weight || input.weight != project::WeightSource::mixed ||
+        input.mix.combination == grid::Combination::product) {
+        return;
+    }
+    const double range = weight->high - weight->low;
+    if (input.mix.painted >= seen * range) {
+        return;
+    }
+    (void)widgets::banner(
+        ui,
+        "faint",
+        {widgets::Severity::info,
+         fmt::format("Paint adds at most {:.3g} (its share) to a weight that goes from {:.3g} "
+                     "to {:.3g}: it is hardly seen, and hardly counts.",
+                     input.mix.painted,
+                     weight->low,
+                     weight->high),
+         {}});
+    if (ui.button("raise_paint", "Let it count as much")) {
+        ask.edit("Raise the share of the paint", [range, high = weight->high](Project& p) {
+            grid::MixSettings& mix = p.grid.elliptic.mix;
+            mix.painted = std::min(std::ceil(range), largest_share);
+            mix.high = std::max(mix.high, std::ceil(high + mix.painted)); // both have room
+        });
+    }
+}
+
 void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const actions::SurfaceToolView& tool = now.session.surface_tool;
     if (const auto chosen = ui.segmented("stroke", "Stroke", tool.erases ? 1 : 0, strokes)) {
@@ -52,6 +88,7 @@ void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto value = ui.number(tool.strength, strength)) {
         ask.show([v = *value](Session& session) { session.surface_tool.strength = v; });
     }
+    faint_paint(ui, now, ask);
     const auto& painted = now.project.grid.elliptic.painted;
     if (ui.button("clear_paint",
                   "Clear the paint",

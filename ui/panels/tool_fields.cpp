@@ -36,10 +36,26 @@ void bites_text(Ui& ui, const project::CutStudy& cut) {
         of_holder += bite.by_holder ? 1 : 0;
     }
     const std::ptrdiff_t of_cutter = std::ssize(cut.bites) - of_holder;
-    ui.value("deepest", "Deepest cut", length_text(cut.deepest), "mm");
-    ui.value("bites", "Too deep", fmt::format("{} blocks", of_cutter));
-    ui.value("holder_bites", "Holder in the part", fmt::format("{} blocks", of_holder));
-    ui.value("local", "Does not fit", fmt::format("{} nodes", cut.local_gouges.size()));
+    ui.value("deepest",
+             "Deepest cut",
+             length_text(cut.deepest),
+             "mm",
+             "How deep the cutter goes below the surface at most");
+    ui.value("bites",
+             "Too deep",
+             fmt::format("{} blocks", of_cutter),
+             "",
+             "Blocks in which the cutter goes below the surface: the tab Gouges lists them");
+    ui.value("holder_bites",
+             "Holder in the part",
+             fmt::format("{} blocks", of_holder),
+             "",
+             "Blocks in which the holder touches the part");
+    ui.value("local",
+             "Does not fit",
+             fmt::format("{} nodes", cut.local_gouges.size()),
+             "",
+             "Places where the surface is bent more tightly than the cutter");
     if (!cut.bites.empty() || !cut.local_gouges.empty()) {
         (void)widgets::banner(
             ui, "gouges", {widgets::Severity::warning, "This tool gouges the part on this path.", {}});
@@ -117,11 +133,27 @@ void cut_fields(Ui& ui, const Workbench& now) {
         return;
     }
     const project::CutStudy& cut = *now.plan->plan.cut;
-    ui.value("scallop_max", "Highest left", length_text(cut.scallops.max), "mm");
-    ui.value("scallop_mean", "Mean left", length_text(cut.scallops.mean), "mm");
-    ui.value("not_cut", "Not cut", fixed(100.0 * cut.scallops.not_cut, 1), "%");
+    ui.value("scallop_max",
+             "Highest left",
+             length_text(cut.scallops.max),
+             "mm",
+             "The highest ridge left on what was cut");
+    ui.value("scallop_mean",
+             "Mean left",
+             length_text(cut.scallops.mean),
+             "mm",
+             "The mean height that is left on what was cut");
+    ui.value("not_cut",
+             "Not cut",
+             fixed(100.0 * cut.scallops.not_cut, 1),
+             "%",
+             "The share of the surface that no pass comes near");
     if (std::isfinite(cut.step_over)) {
-        ui.value("step_over", "Step-over", length_text(cut.step_over), "mm");
+        ui.value("step_over",
+                 "Step-over",
+                 length_text(cut.step_over),
+                 "mm",
+                 "How far the tracks may be apart for the scallop that is wanted");
     }
     if (const std::string why = project::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
         (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
@@ -152,9 +184,21 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (shown && now.plan->plan.workpiece) {
         const double step = toolpath::largest_rotary_step(
             now.plan->plan.workpiece->machine, shown->toolpath, shown->axes, toolpath::MoveKind::track);
-        ui.value("points", "Points", fmt::format("{}", shown->toolpath.points.size()));
-        ui.value("travel", "Rotation", angle_text(shown->axes.rotary_travel), "deg");
-        ui.value("step", "Now at most", angle_text(step), "deg");
+        ui.value("points",
+                 "Points",
+                 fmt::format("{}", shown->toolpath.points.size()),
+                 "",
+                 "Of the path that is shown");
+        ui.value("travel",
+                 "Rotation",
+                 angle_text(shown->axes.rotary_travel),
+                 "deg",
+                 "The way of all rotary axes together");
+        ui.value("step",
+                 "Now at most",
+                 angle_text(step),
+                 "deg",
+                 "The largest turn of a rotary axis within one move of a track");
         gain_text(ui, now);
     }
 }

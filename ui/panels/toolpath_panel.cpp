@@ -72,6 +72,62 @@ void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
+std::string_view gap_tip(const Project& project) {
+    return project.toolpath.strategy == project::StrategyInput::spiral
+               ? std::string_view(
+                     "How far at most the next round is, on the surface. Two sides of each round run over "
+                     "the "
+                     "nodes across the tracks: where nodes lie far apart along a track, so do the rounds. A "
+                     "spiral over the uniform grid has no such places.")
+               : std::string_view("How far at most a place of a track is from the next track, on the "
+                                  "surface: what the cutter leaves between them grows with its square.");
+}
+
+/// With the change against the uniform grid's.
+void error_values(Ui& ui,
+                  const Project& project,
+                  const project::Evaluation& shown,
+                  const grid::ErrorSummary& before) {
+    const grid::ErrorSummary& error = shown.closest;
+    const auto changed = [](double from, double to) {
+        return length_text(to) + "  (" + change_text(from, to) + ")";
+    };
+    ui.value(
+        "max",
+        "Largest",
+        changed(before.max, error.max),
+        "mm",
+        "The largest distance of the tip from the surface anywhere on the tracks; in brackets the change "
+        "against the uniform grid");
+    ui.value("mean",
+             "Mean a move",
+             changed(before.mean, error.mean),
+             "mm",
+             "The mean of the moves' largest distances, each move counting once");
+    ui.value("lmean",
+             "Mean by length",
+             length_text(error.lmean),
+             "mm",
+             "The same, each move counting by its length: many short moves where the error is small do not "
+             "make it look small");
+    ui.value("p95", "95 % below", length_text(error.p95), "mm", "95 of 100 moves are not worse");
+    ui.value("axis",
+             "Axis deviation",
+             angle_text(error.axis_max),
+             "deg",
+             "The largest angle between the tool axis on its way and the one that is wanted there: the tip "
+             "may be true while the tool swings");
+    if (shown.track_gap) {
+        ui.value("gap", "Track gap", length_text(*shown.track_gap), "mm", gap_tip(project));
+    }
+    ui.value("cross",
+             "Cross moves",
+             length_text(shown.cross_closest.max),
+             "mm",
+             "The largest distance from the surface on the moves from track to track, which the figures "
+             "above leave out");
+}
+
 } // namespace
 
 void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -98,21 +154,7 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
         return;
     }
-    const auto& before = start->closest;
-    const auto& error = shown->closest;
-    ui.value(
-        "max", "Largest", length_text(error.max) + "  (" + change_text(before.max, error.max) + ")", "mm");
-    ui.value("mean",
-             "Mean a move",
-             length_text(error.mean) + "  (" + change_text(before.mean, error.mean) + ")",
-             "mm");
-    ui.value("lmean", "Mean by length", length_text(error.lmean), "mm");
-    ui.value("p95", "95 % below", length_text(error.p95), "mm");
-    ui.value("axis", "Axis deviation", angle_text(error.axis_max), "deg");
-    if (shown->track_gap) {
-        ui.value("gap", "Track gap", length_text(*shown->track_gap), "mm");
-    }
-    ui.value("cross", "Cross moves", length_text(shown->cross_closest.max), "mm");
+    error_values(ui, now.project, *shown, start->closest);
     const widgets::FieldInfo limit{
         "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};
     if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {

@@ -325,7 +325,7 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
     fit_set_up(shown);
     const auto beside = scene_beside(now, shown);
     const auto events =
-        beside ? view_.draw_two(ui, place, {beside->scene, beside->name}, {shown, now.shown_name()})
+        beside ? view_.draw_two(ui, place, {beside->scene, beside->name}, {shown, shown_name_beside(now)})
                : view_.draw(ui, place, shown);
     for (const viewport::ViewEvent& event : events) {
         obey(event, now, ask);

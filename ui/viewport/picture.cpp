@@ -5,6 +5,7 @@
 #include "ui/render/view_target.h"
 #include "ui/viewport/internal/axis_gizmo.h"
 #include "ui/viewport/internal/desk.h"
+#include "ui/viewport/internal/grid_lines.h"
 #include "ui/viewport/internal/overlay.h"
 #include "ui/viewport/internal/sheet.h"
 #include "ui/viewport/machine_sight.h"
@@ -78,6 +79,7 @@ public:
         render::show(target_, {place_.w, place_.h});
         const Pane pane = {.rect = place_, .view = view_, .colors = colors};
         draw_labels(ui, pane, visible_labels(scene_, part_.scene, picker_, pane));
+        draw_caption(ui, pane, {}, grid_lines_note(part_.scene, view_));
     }
 
     [[nodiscard]] Pane pane(const widgets::Rect& free, const render::ViewColors& colors) const {
@@ -142,7 +144,8 @@ render::Picture render_view(const project::Project& project,
         if (sheet.details) {
             const Pane first = drawn.front()->pane(sheet.signs, colors);
             draw_scale_bar(ui, first, drawn.front()->camera().pose().target);
-            draw_legends(ui, drawn.back()->pane(sheet.signs, colors), parts.back().scene);
+            const Scene& last = parts.back().scene;
+            draw_legends(ui, upright_legends(ui, sheet.signs, last), colors, last);
             (void)axis_gizmo(ui, drawn.back()->pane(sheet.signs, colors));
         }
     });

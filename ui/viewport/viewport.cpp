@@ -45,6 +45,17 @@ Rect quarter(const Rect& place, int row, int column, float space) {
             row == 0 ? h : place.h - h - space};
 }
 
+/// In a strip below two pictures, which have the same colours; gives the height that is left to these.
+float draw_shared_legends(widgets::Ui& ui,
+                          const Rect& place,
+                          const Scene& scene,
+                          const render::ViewColors& colors) {
+    const float margin = ui.px(8.0F);
+    const LegendPlaces places = lying_legends(ui, place, place.x + margin, scene);
+    draw_legends(ui, places, colors, scene);
+    return places.free.h;
+}
+
 } // namespace
 
 /// What the left one of two scenes is drawn with.
@@ -195,9 +206,15 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     const render::ViewColors colors = render::view_colors(theme_of(ui));
     const float space = ui.px(gap);
     const float w = std::floor(0.5F * (place.w - space));
-    const Rect right_place{place.x + w + space, place.y, place.w - w - space, place.h};
-    const Frame3D of_right{
-        .ui = ui, .scene = right.scene, .view = state.view, .picker = state.picker, .colors = colors};
+    const float h = draw_shared_legends(ui, place, right.scene, colors);
+    const Rect right_place{place.x + w + space, place.y, place.w - w - space, h};
+    const Frame3D of_right{.ui = ui,
+                           .scene = right.scene,
+                           .view = state.view,
+                           .picker = state.picker,
+                           .colors = colors,
+                           .legends = false,
+                           .also = &state.other->view};
     std::vector<ViewEvent> events = state.draw_of_two(of_right, 1, right_place);
     if (state.pair[1].in_use()) {
         state.under_mouse = state.pair[1].hand().under_mouse();
@@ -212,7 +229,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     if (!state.pair[0].in_use()) {
         state.pair[0].set_camera(state.pair[1].camera());
     }
-    (void)state.draw_of_two(of_left, 0, {place.x, place.y, w, place.h});
+    (void)state.draw_of_two(of_left, 0, {place.x, place.y, w, h});
     if (state.pair[0].in_use() && !(state.pair[0].camera().pose() == state.pair[1].camera().pose())) {
         state.pair[1].set_camera(state.pair[0].camera());
         ui.change_in(0.0);

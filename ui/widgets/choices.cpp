@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace millwright::widgets {
 
@@ -87,6 +88,84 @@ struct PopupFrame {
     ~PopupFrame() { ImGui::PopStyleVar(2); }
 };
 
+constexpr float more_width = 34.0F;
+
+constexpr float tab_pad = 20.0F; // of both sides
+constexpr float tight_tab_pad = 10.0F;
+
+struct TabRow {
+    bool icons = true;
+    float pad = tab_pad;
+    std::vector<int> shown;
+    std::vector<int> others; ///< behind a button at the end
+};
+
+float tab_width(const Ui& ui, const Option& option, const TabRow& row) {
+    const std::string words = row.icons ? with_icon(option) : std::string(option.label);
+    return std::ceil(text_width(ui.look().fonts.strong, words) + ui.px(row.pad));
+}
+
+float tabs_width(const Ui& ui, std::span<const Option> options, const TabRow& row) {
+    float width = 0.0F;
+    for (const Option& option : options) {
+        width += tab_width(ui, option, row);
+    }
+    return width;
+}
+
+/// Where not all of them have room, they lose their icons and some of the space between them; where that is
+/// not enough, the last ones go behind a button, but never the chosen one.
+TabRow tabs_that_fit(const Ui& ui, float room, int now, std::span<const Option> options) {
+    TabRow row;
+    row.icons = tabs_width(ui, options, row) <= room;
+    if (tabs_width(ui, options, row) > room) {
+        row.pad = tight_tab_pad;
+    }
+    const bool all = tabs_width(ui, options, row) <= room;
+    float left = room;
+    if (!all) {
+        left -= ui.px(more_width) + tab_width(ui, options[static_cast<std::size_t>(now)], row);
+    }
+    int index = 0;
+    for (const Option& option : options) {
+        const float width = index == now ? 0.0F : tab_width(ui, option, row);
+        const bool fits = all || index == now || (left >= width && row.others.empty());
+        (fits ? row.shown : row.others).push_back(index);
+        left -= width;
+        ++index;
+    }
+    return row;
+}
+
+/// The button that has the tabs without room, and its list.
+std::optional<int> other_tabs(Ui& ui,
+                              const std::string& own,
+                              const Rect& place,
+                              const std::vector<int>& others,
+                              std::span<const Option> options) {
+    const std::string more = own + "/more";
+    const Press pressed = press(ui, more, place, {}, "More pages");
+    const Colour colour = pressed.hovered ? ui.colours().text : ui.colours().muted;
+    draw_text(ui, ui.look().fonts.text, place, colour, icons::chevron_down, Align::centre);
+    if (pressed.clicked) {
+        ImGui::OpenPopup(more.c_str());
+    }
+    if (!ImGui::IsPopupOpen(more.c_str())) {
+        return std::nullopt;
+    }
+    std::vector<Option> rows;
+    for (const int index : others) {
+        rows.push_back(options[static_cast<std::size_t>(index)]);
+    }
+    const PopupFrame frame(ui, popup_place(ui, place, rows));
+    std::optional<int> chosen;
+    if (ImGui::BeginPopup(more.c_str())) {
+        chosen = popup_rows(ui, own, -1, rows);
+        ImGui::EndPopup();
+    }
+    return chosen ? std::optional(others[static_cast<std::size_t>(*chosen)]) : std::nullopt;
+}
+
 /// One of the cells of a segmented choice.
 bool draw_segment(Ui& ui, const Rect& cell, const Press& pressed, bool chosen, const Option& option) {
     const Palette& colours = ui.colours();
@@ -123,11 +202,15 @@ std::optional<int> Ui::choice(std::string_view id,
         const double opacity = pressed.enabled ? 1.0 : disabled_opacity;
         fill(field, faded(pressed.hovered ? colours().hover : colours().raised, opacity), px(gaps::rounding));
         const float arrow = px(24.0F);
-        draw_text(*this,
-                  look_.fonts.text,
-                  {field.x + px(8.0F), field.y, field.w - px(8.0F) - arrow, field.h},
-                  faded(colours().text, opacity),
-                  with_icon(options[static_cast<std::size_t>(now)]));
+        const std::string words = with_icon(options[static_cast<std::size_t>(now)]);
+        const bool cut = draw_text(*this,
+                                   look_.fonts.text,
+                                   {field.x + px(8.0F), field.y, field.w - px(8.0F) - arrow, field.h},
+                                   faded(colours().text, opacity),
+                                   words);
+        if (cut && pressed.enabled) {
+            offer_tip(*this, own, field, tip.empty() ? words : words + "\n" + std::string(tip));
+        }
         draw_text(*this,
                   look_.fonts.small,
                   {field.right() - arrow, field.y, arrow, field.h},
@@ -188,15 +271,16 @@ std::optional<int> Ui::tabs(std::string_view id, int now, std::span<const Option
     const Rect& bar = slot.rect();
     record_at(*this, own, bar);
     fill({bar.x, bar.bottom() - 1.0F, bar.w, 1.0F}, colours().line);
+    const TabRow row = tabs_that_fit(*this, bar.w, now, options);
     std::optional<int> chosen;
     float x = bar.x;
-    int index = 0;
-    for (const Option& option : options) {
+    for (const int index : row.shown) {
+        const Option& option = options[static_cast<std::size_t>(index)];
         const ImFont* font = index == now ? look_.fonts.strong : look_.fonts.text;
-        const std::string words = with_icon(option);
-        const Rect tab{x, bar.y, std::ceil(text_width(look_.fonts.strong, words) + px(20.0F)), bar.h};
+        const Rect tab{x, bar.y, tab_width(*this, option, row), bar.h};
         const Press pressed = press(*this, option_path(own, option), tab, option.permission, option.tip);
         const Colour colour = index == now || pressed.hovered ? colours().text : colours().muted;
+        const std::string words = row.icons ? with_icon(option) : std::string(option.label);
         draw_text(
             *this, font, tab, faded(colour, pressed.enabled ? 1.0 : disabled_opacity), words, Align::centre);
         if (index == now) {
@@ -206,7 +290,10 @@ std::optional<int> Ui::tabs(std::string_view id, int now, std::span<const Option
             chosen = index;
         }
         x = tab.right();
-        ++index;
+    }
+    if (!row.others.empty()) {
+        const auto other = other_tabs(*this, own, {x, bar.y, px(more_width), bar.h}, row.others, options);
+        chosen = other ? other : chosen;
     }
     return chosen;
 }

@@ -20,9 +20,10 @@ struct LegendView {
     ColourMap map = {};
     std::optional<Colour> over = {}; ///< shown above the bar: the one colour of everything over `high`
     std::string_view tip = {};
+    bool lying = false; ///< the bar runs from left to right, beside the title; one line is high enough
 };
 
-/// Draws an upright legend into `place` of the current pane, over what is there; true when it was clicked.
+/// Draws a legend into `place` of the current pane, over what is there; true when it was clicked.
 bool legend(Ui& ui, std::string_view id, const Rect& place, const LegendView& view);
 
 } // namespace millwright::widgets

@@ -3,6 +3,7 @@
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/ui.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace millwright::widgets {
@@ -17,6 +18,48 @@ constexpr ImGuiWindowFlags pane_flags = ImGuiWindowFlags_NoDecoration | ImGuiWin
 void end_pane(Ui& ui) {
     ImGui::End();
     ui.state().places.leave();
+}
+
+/// In a pane that is scrolled the widget that was pressed last stays under the hand, though what is worked
+/// out meanwhile takes rows away above it, or so many that the pane could not be scrolled that far.
+void hold_in_place(Ui& ui) {
+    Ui::State& state = ui.state();
+    Ui::State::Anchor& anchor = state.anchor;
+    const std::string own = ui.path({});
+    const float scrolled = ImGui::GetScrollY();
+    const auto in_sight = [](const Seen& seen) { return seen.rect.y - ImGui::GetWindowPos().y; };
+    const bool in_list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    if (ImGui::GetIO().MouseClicked[0] && !in_list && state.under_mouse.starts_with(own)) {
+        const Seen* pressed = scrolled > 0.0F ? state.places.find(state.under_mouse) : nullptr;
+        anchor = pressed == nullptr ? Ui::State::Anchor{}
+                                    : Ui::State::Anchor{state.under_mouse, in_sight(*pressed), scrolled};
+    }
+    const Seen* seen = anchor.path.starts_with(own) ? state.places.find(anchor.path) : nullptr;
+    if (seen == nullptr) {
+        return;
+    }
+    constexpr float rounding = 1.5F;
+    if (std::abs(scrolled - anchor.scrolled) > rounding) { // by a person
+        anchor.y = in_sight(*seen);
+        anchor.scrolled = scrolled;
+    }
+    const bool visible = anchor.y >= 0.0F && anchor.y <= ImGui::GetWindowHeight();
+    const float wanted = visible ? std::max(scrolled + in_sight(*seen) - anchor.y, 0.0F) : scrolled;
+    if (std::abs(wanted - scrolled) > rounding) {
+        ImGui::SetScrollY(wanted);
+        anchor.scrolled = wanted;
+        ui.change_in(0.0);
+    }
+    const float missing =
+        wanted + ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y - ImGui::GetCursorPosY();
+    if (visible && wanted > 0.0F && missing > 1.0F) {
+        ImGui::Dummy({1.0F, std::ceil(missing)});
+    }
+}
+
+void end_scrolled_pane(Ui& ui) {
+    hold_in_place(ui);
+    end_pane(ui);
 }
 
 bool begin_window(Ui& ui, std::string_view id, const Rect& rect, ImGuiWindowFlags flags, ImVec2 padding) {
@@ -40,7 +83,7 @@ Guard Ui::pane(std::string_view id, const Rect& rect, std::string_view title) {
     if (!title.empty()) {
         heading(title);
     }
-    return {*this, end_pane, open};
+    return {*this, end_scrolled_pane, open};
 }
 
 Guard Ui::bare_pane(std::string_view id, const Rect& rect) {

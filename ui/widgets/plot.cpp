@@ -197,14 +197,18 @@ float key_entry_width(const Ui& ui, const Series& series) {
     return text_width(ui.look().fonts.small, series.label) + swatch_width(ui, series) + ui.px(19.0F);
 }
 
-/// Where each line of the key begins: as many labels as stand beside the title, then as many as fit.
+/// Where each line of the key begins: as many labels as stand beside the title, maybe none, then as many as
+/// fit.
 std::vector<std::size_t> key_lines(const Ui& ui, const PlotView& view, float width) {
-    std::vector<std::size_t> first;
-    float rest = 0.0F;
-    for (std::size_t i = 0; view.has_key && i < view.series.size(); ++i) {
+    if (!view.has_key || view.series.empty()) {
+        return {};
+    }
+    std::vector<std::size_t> first{0};
+    float rest = width - text_width(ui.look().fonts.small, key_title(view));
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
         const float needed = key_entry_width(ui, view.series[i]);
-        if (first.empty() || rest < needed) {
-            rest = first.empty() ? width - text_width(ui.look().fonts.small, key_title(view)) : width;
+        if (rest < needed) {
+            rest = width;
             first.push_back(i);
         }
         rest -= needed;

@@ -87,7 +87,7 @@ void where(Ui& ui, const TimelineView& view) {
     const ImFont* font = ui.look().fonts.text;
     const auto width_of = [&](std::string_view text) { return text_width(font, text); };
     const float room = ui.rest().w - ui.px(speed_width);
-    const float spaces = 2.0F * ui.px(18.0F);
+    const float spaces = 2.0F * ui.px(18.0F + gaps::small);
     const std::string last = std::to_string(view.blocks);
     const std::string end = clock_time(view.total_s);
     const std::string caption = std::string(view.what) + "  ";
@@ -96,13 +96,15 @@ void where(Ui& ui, const TimelineView& view) {
     const float with_last = with_end + width_of(" / " + last);
     const std::string_view said = room < with_last + width_of(caption) ? "" : std::string_view(caption);
     const std::string of_last = room < with_last ? "" : " / " + last;
-    fixed_words(ui,
-                said,
-                std::to_string(view.block) + of_last,
-                width_of(said) + width_of(last + of_last) + 0.5F * spaces);
-    ui.beside();
+    if (room >= least) {
+        fixed_words(ui,
+                    said,
+                    std::to_string(view.block) + of_last,
+                    width_of(said) + width_of(last + of_last) + ui.px(18.0F));
+        ui.beside();
+    }
     const std::string time = clock_time(view.time_s) + (room < with_end ? "" : " / " + end);
-    fixed_words(ui, "", time, width_of(time) + 0.5F * spaces);
+    fixed_words(ui, "", time, width_of(time) + ui.px(18.0F));
     ui.beside();
 }
 

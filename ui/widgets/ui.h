@@ -160,8 +160,11 @@ public:
     /// One line as wide as its text, for bars: put several side by side with beside().
     void words(std::string_view text, Tone tone = Tone::normal);
     void note(std::string_view text); ///< wraps, in the muted colour
-    void
-    value(std::string_view id, std::string_view label, std::string_view text, std::string_view unit = {});
+    void value(std::string_view id,
+               std::string_view label,
+               std::string_view text,
+               std::string_view unit = {},
+               std::string_view tip = {});
     void value(std::string_view id, double number, const FieldInfo& info);
     /// True when Cancel was pressed. `fraction` below 0: not known, a bar that moves.
     bool progress(std::string_view id, std::string_view text, double fraction, const Permission& cancel = {});

@@ -76,10 +76,14 @@ void Ui::note(std::string_view text) {
     wrapped(*this, text, colours().muted);
 }
 
-void Ui::value(std::string_view id, std::string_view label, std::string_view text, std::string_view unit) {
+void Ui::value(std::string_view id,
+               std::string_view label,
+               std::string_view text,
+               std::string_view unit,
+               std::string_view tip) {
     const Slot slot(*this, 0.0F, px(gaps::row - 4.0F));
     const std::string own = path(id);
-    const Rect place = labelled(*this, own, slot.rect(), label, {});
+    const Rect place = labelled(*this, own, slot.rect(), label, tip);
     const float pad = px(7.0F);
     const float unit_width = unit.empty() ? 0.0F : text_width(look_.fonts.text, unit) + px(6.0F);
     const Rect number{place.x + pad, place.y, place.w - 2.0F * pad - unit_width, place.h};
@@ -91,7 +95,7 @@ void Ui::value(std::string_view id, std::string_view label, std::string_view tex
               unit,
               Align::right);
     record_at(*this, own, slot.rect());
-    offer_tip(*this, own, place, cut ? text : std::string_view());
+    offer_tip(*this, own, place, cut ? text : tip);
 }
 
 void Ui::value(std::string_view id, double number, const FieldInfo& info) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -89,13 +90,40 @@ TEST(EllipticAdaptation, NeverReportsWorseThanTheStart) {
         const Grid start = Grid::uniform(9 + n, 12);
         EllipticAdaptation adaptation(model, start, settings);
         double best = infinity;
-        do {
+        while (adaptation.advance(Progress())) {
             EXPECT_LE(adaptation.state().of_best.mean, adaptation.state().start.mean);
             EXPECT_LE(adaptation.state().of_best.mean, best);
             best = adaptation.state().of_best.mean;
-        } while (adaptation.advance(Progress()));
+        }
         EXPECT_LE(finely(model, adaptation.state().best).mean, finely(model, start).mean);
     }
+}
+
+/// The track optimiser and the redistribution measure finely; people compare their figures with these.
+TEST(EllipticAdaptation, TellsFineFiguresOfItsStartAndItsEnd) {
+    const PoleErrorModel model({});
+    const Grid start = Grid::uniform(12, 12);
+    EllipticAdaptation adaptation(model, start, quick());
+    ASSERT_TRUE(adaptation.advance(Progress()));
+    EXPECT_EQ(adaptation.state().start.mean, finely(model, start).mean);
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.start.mean, finely(model, start).mean);
+    EXPECT_EQ(state.of_best.mean, finely(model, state.best).mean);
+    EXPECT_EQ(state.now.mean, finely(model, Grid(state.current)).mean);
+}
+
+TEST(EllipticAdaptation, SaysWhatRefusedBetterGrids) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.gap_allowance = 0.0;
+    EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
+    double least = infinity;
+    while (adaptation.advance(Progress())) {
+        least = std::min(least, adaptation.state().now.mean);
+    }
+    ASSERT_LT(least, adaptation.state().of_best.mean) << "else nothing was refused";
+    EXPECT_NE(adaptation.state().note.find("were refused: "), std::string::npos) << adaptation.state().note;
+    EXPECT_NE(adaptation.state().note.find("farther apart"), std::string::npos) << adaptation.state().note;
 }
 
 TEST(EllipticAdaptation, StaysWhereItIsWhenTheErrorIsEvenAlready) {

@@ -1,14 +1,18 @@
 // Patches of a surface are joined from the menu, by real mouse and keys.
+#include "core/base/text.h"
 #include "core/geometry/patch_join.h"
 #include "core/project/plan.h"
 #include "tests/ui/panels/person.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace millwright::panels {
 namespace {
 
 using test::Person;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 /// A flat dome, and beside it another one with a gap and an edge between them.
 void put_two_domes(project::Project& draft) {
@@ -46,6 +50,11 @@ TEST(JoinPatches, FromTheMenuAndBackByUndo) {
     const auto seams = geometry::seams_of(patches, 1e-6);
     ASSERT_EQ(seams.size(), 1U);
     EXPECT_LT(geometry::figures_of(patches, seams.front()).angle, 1e-6);
+    const auto first = project::surface_of(before).patches();
+    const auto gap = geometry::figures_of(first, geometry::seams_of(first, 10.0).front()).gap;
+    EXPECT_THAT(
+        person.workshop().session().log.back(),
+        AllOf(HasSubstr("gap " + fixed(gap, 4) + " \u2192 0.0000 mm"), HasSubstr("\u2192 0.000\u00B0")));
     person.press_key(render::Key::z, true);
     person.wait_idle();
     EXPECT_EQ(person.project().surface, before);

@@ -65,6 +65,11 @@ TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {
     EXPECT_GT(plan().path->toolpath.points.size(), coarse);
     EXPECT_LE(plan().path->closest.max, 0.05);
     person_.keep("strategy-fewest-points");
+    EXPECT_FALSE(person_.sees("inspector/strategy/not_kept"));
+    person_.choose("inspector/tool/cutter", "bull-nose");
+    ASSERT_GT(plan().path->closest.max, 0.05) << "for the tip alone";
+    EXPECT_TRUE(person_.sees("inspector/strategy/not_kept"));
+    person_.choose("inspector/tool/cutter", "point");
     person_.choose("inspector/strategy/strategy", "constant-scallop");
     EXPECT_TRUE(person_.sees("inspector/strategy/no_cutter"));
     EXPECT_EQ(plan().program, nullptr) << "a point leaves no scallop";

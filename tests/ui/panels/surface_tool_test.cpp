@@ -42,6 +42,30 @@ protected:
     Person person_{{1600, 1400}};
 };
 
+TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMadeToCount) {
+    person_.workshop().edit("Weigh by a formula",
+                            [](project::Project& p) {
+                                p.grid.elliptic.weight = project::WeightSource::mixed;
+                                p.grid.elliptic.mix = {
+                                    .error = 0.0, .painted = 1.0, .expression = 1.0, .high = 1e4};
+                                p.grid.elliptic.expression = "10 + 900 * u";
+                            },
+                            {});
+    person_.click("inspector/surface_tool/tool/brush");
+    person_.fill_in("inspector/surface_tool/radius", "12");
+    EXPECT_FALSE(person_.sees("inspector/surface_tool/faint")) << "nothing is painted yet";
+    person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/surface_tool/faint"));
+    person_.keep("grid-faint-paint");
+    const double before = person_.workshop().look().plan->plan.weight->high;
+    person_.click("inspector/surface_tool/raise_paint");
+    person_.wait_idle();
+    EXPECT_GT(person_.workshop().look().plan->plan.weight->high, 1.1 * before);
+    EXPECT_FALSE(person_.sees("inspector/surface_tool/faint"));
+    person_.keep("grid-paint-raised");
+}
+
 // T20.
 TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.click("inspector/surface_tool/tool/brush");

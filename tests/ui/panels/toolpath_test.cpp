@@ -223,5 +223,48 @@ TEST_F(ToolpathWorkspace, AnyTwoResultsStandBesideEachOtherInTheSameColours) {
     EXPECT_FALSE(person_.sees("view/left/left"));
 }
 
+TEST_F(ToolpathWorkspace, TwoSetUpsAreToldApartAndHaveTheSameLegendsAndMaps) {
+    person_.workshop().edit(
+        "Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
+    person_.wait_idle();
+    person_.workshop().run("set_up.search");
+    person_.wait_idle();
+    person_.keep("toolpath-set-up-map");
+    person_.click("inspector/error/view_keep_result");
+    person_.workshop().edit("Move the part on the table",
+                            [](project::Project& p) { p.machine.workpiece_offset = Vec3(12.5, 0.0, 30.0); },
+                            {});
+    person_.wait_idle();
+    const auto& kept = *person_.workshop().session().kept;
+    EXPECT_NE(kept.place, person_.workshop().look().part_place());
+    EXPECT_EQ(person_.workshop().look().part_place(), "part at 12.5, 0, 30 mm");
+    for (const char* legend : {"view/legend", "view/set_up_legend"}) {
+        const widgets::Rect place = person_.place(legend);
+        for (const char* picture : {"view/left/left", "view/right/right"}) {
+            EXPECT_GE(place.y, person_.place(picture).bottom()) << legend << " over " << picture;
+        }
+    }
+    EXPECT_NEAR(person_.place("view/left/left").h, person_.place("view/right/right").h, 1.0F);
+    person_.keep("toolpath-beside-set-ups");
+}
+
+/// Of the view and of what covers it.
+TEST(SmallToolpath, LegendsLeaveMostOfTheViewFree) {
+    Person person({1100, 700});
+    person.open("assets/projects/two-bell.json");
+    person.workshop().run("view.toolpath");
+    person.workshop().run("set_up.search");
+    person.wait_idle();
+    const widgets::Rect view = person.place("view");
+    float covered = 0.0F;
+    for (const char* legend : {"view/legend", "view/set_up_legend"}) {
+        const widgets::Rect place = person.place(legend);
+        covered += place.w * place.h;
+        EXPECT_GE(place.y, view.bottom() - 40.0F) << "in a strip";
+    }
+    EXPECT_LT(covered, 0.1F * view.w * view.h);
+    person.keep("small-set-up-map");
+}
+
 } // namespace
 } // namespace millwright::panels

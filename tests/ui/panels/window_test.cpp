@@ -67,6 +67,36 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScreen, ::testing::ValuesIn(screens), [](cons
     return name;
 });
 
+/// As small as on a laptop with large letters.
+TEST(SmallWindow, KeepsItsButtonsItsTabsAndTheSpeedOfThePlayback) {
+    Person person({1100, 700});
+    person.open(dome);
+    for (const char* workspace : {"design", "grid", "toolpath", "program", "machine", "plot", "arm"}) {
+        person.workshop().run(std::string("view.") + workspace);
+        person.frames(3);
+        for (const char* path : {"menu/file_save", "menu/edit_undo", "menu/edit_redo", "menu/search"}) {
+            EXPECT_LT(person.place(path).right(), person.place("emergency").x) << workspace << " " << path;
+        }
+        EXPECT_TRUE(person.sees("menu/workspaces/arm") || person.sees("menu/workspaces/more")) << workspace;
+        if (person.sees("timeline/timeline/speed")) {
+            const widgets::Rect speed = person.place("timeline/timeline/speed");
+            const widgets::Rect timeline = person.place("timeline");
+            EXPECT_LE(speed.right(), timeline.right()) << workspace;
+        }
+        person.keep(std::string("small-") + workspace);
+    }
+    person.workshop().run("view.program");
+    person.frames(3);
+    person.choose("lower/tabs", "motion");
+    person.keep("small-motion");
+    if (!person.sees("lower/tabs/log")) {
+        person.click("lower/tabs/more");
+    }
+    person.click("lower/tabs/log");
+    EXPECT_EQ(person.workshop().session().lower_tab_now(), actions::LowerTab::log);
+    person.keep("small-log");
+}
+
 TEST(Workbench, ChangesWorkspaceByATab) {
     Person person;
     person.click("menu/workspaces/grid");

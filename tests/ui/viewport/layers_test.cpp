@@ -1,8 +1,11 @@
+#include "core/geometry/mesh.h"
 #include "core/kinematics/forward.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "tests/ui/viewport/scenes.h"
 #include "tests/ui/viewport/studio.h"
 #include "ui/render/convert.h"
+
+#include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -141,6 +144,65 @@ TEST_F(LayersTest, AnAdaptationOnItsWayTakesThePlaceOfTheGrid) {
     const Picture seen = picture(scene, view);
     const Vec2& uv = bent.node(3, 4);
     EXPECT_TRUE(shows(seen, spot(view, scene.workpiece->patch.position(uv.x(), uv.y())), colors.handle, 1));
+}
+
+TEST_F(LayersTest, AFineGridLeavesTheSurfaceToBeSeenAndShowsMoreLinesFromNear) {
+    Scene scene =
+        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    const grid::Grid fine = grid::Grid::uniform(500, 500);
+    scene.watched = std::make_shared<const grid::ImproverState>(grid::ImproverState{
+        .current = fine.array(), .best = fine, .start = {}, .now = {}, .of_best = {}, .note = {}});
+    Scene bare = scene;
+    bare.layers.grid = false;
+    const auto covered = [&](const render::View& view) {
+        const Picture with = picture(scene, view);
+        const Picture without = picture(bare, view);
+        const Spot middle{size().width / 2, size().height / 2};
+        int lines = 0;
+        for (int k = 0; k < 3600; ++k) {
+            const int x = middle.x - 30 + k % 60, y = middle.y - 30 + k / 60;
+            lines += with.at(x, y) == without.at(x, y) ? 0 : 1;
+        }
+        return lines / 3600.0;
+    };
+    const render::View far = look_at(scene);
+    EXPECT_GT(covered(far), 0.1);
+    EXPECT_LT(covered(far), 0.75);
+    render::View near = far;
+    near.projection = glm::scale(far.projection, glm::dvec3(20.0, 20.0, 1.0));
+    EXPECT_GT(covered(near), 0.1) << "lines between those that are seen from afar";
+    test::keep(picture(scene, far), "grid-500");
+}
+
+/// Pieces of lines that were drawn before the triangles under them stayed as dark dots in these.
+TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInIt) {
+    Scene scene = only(test::scene_of(test::dome, ViewKind::design),
+                       {.surface_lines = true, .deviation = true, .floor = false, .origin = false});
+    const geometry::Mesh mesh = geometry::tessellate(scene.workpiece->patch, 60, 60);
+    project::ReferenceMesh reference;
+    reference.fitted.points = mesh.positions;
+    reference.fitted.triangles = mesh.triangles;
+    reference.deviation.assign(mesh.positions.size(), 0.0);
+    reference.largest = 0.01;
+    scene.reference = std::make_shared<const project::ReferenceMesh>(reference);
+    Scene bare = scene;
+    bare.layers.surface_lines = false;
+    const render::View view = look_at(scene);
+    const Picture with = picture(scene, view);
+    const Picture without = picture(bare, view);
+    test::keep(with, "deviation-lines");
+    int lines = 0, holes = 0;
+    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    for (int y = middle.y; y < middle.y + 100; ++y) {
+        for (int x = middle.x - 60; x < middle.x + 60; ++x) {
+            const int green = with.at(x, y)[1], before = without.at(x, y)[1];
+            lines += green < before - 8 ? 1 : 0;
+            const bool on_map = before > without.at(x, y)[0] + 40;
+            holes += on_map && green < with.at(x, y)[0] + 20 ? 1 : 0; // as grey as what is behind the map
+        }
+    }
+    EXPECT_GT(lines, 100);
+    EXPECT_EQ(holes, 0);
 }
 
 /// The surface over the middle of a move.

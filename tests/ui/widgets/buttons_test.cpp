@@ -1,7 +1,10 @@
 #include "core/base/error.h"
 #include "tests/ui/stage/stage.h"
+#include "ui/widgets/icons.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace millwright::widgets {
 namespace {
@@ -231,6 +234,38 @@ TEST(Segmented, GivesTheIndexClicked) {
     stage.click("grid/weight/tracks");
     stage.click("grid/page/elliptic");
     EXPECT_EQ(answers, (std::vector<int>{2, 11}));
+}
+
+TEST(Tabs, ThoseWithoutRoomAreBehindAButtonAndTheChosenOneNever) {
+    const std::array<Option, 5> pages{{{"plots", "Error along the path", icons::plot},
+                                       {"motion", "Feed and axes", icons::timer},
+                                       {"listing", "Listing", icons::program},
+                                       {"jobs", "Job", icons::machine},
+                                       {"log", "Log", icons::info}}};
+    float width = 600.0F;
+    int now = 0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.bare_pane("lower", {0.0F, 0.0F, width, 100.0F});
+        now = ui.tabs("tabs", now, pages).value_or(now);
+    });
+    stage.frames(2);
+    EXPECT_TRUE(stage.ui().place("lower/tabs/log"));
+    EXPECT_FALSE(stage.ui().place("lower/tabs/more"));
+    width = 440.0F;
+    stage.frames(2);
+    EXPECT_LE(stage.place("lower/tabs/log").right(), width) << "without their icons they have room";
+    EXPECT_FALSE(stage.ui().place("lower/tabs/more"));
+    width = 300.0F;
+    stage.frames(2);
+    EXPECT_FALSE(stage.ui().place("lower/tabs/log"));
+    EXPECT_LE(stage.place("lower/tabs/more").right(), width);
+    stage.click("lower/tabs/more");
+    stage.frames(2);
+    stage.click("lower/tabs/log");
+    stage.frames(2);
+    EXPECT_EQ(now, 4);
+    EXPECT_LE(stage.place("lower/tabs/log").right(), width) << "the chosen one is to be seen";
+    EXPECT_LE(stage.place("lower/tabs/more").right(), width);
 }
 
 TEST(Section, FoldsItsContentAway) {

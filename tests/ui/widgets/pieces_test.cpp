@@ -162,6 +162,36 @@ TEST(Choice, OpensUpwardsAtTheLowerBorderAndStaysInTheWindow) {
     EXPECT_EQ(now, 1);
 }
 
+TEST(ScrolledPane, HoldsWhatWasPressedThoughRowsAboveAndBelowComeAndGo) {
+    bool computing = false;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("inspector", {0.0F, 0.0F, 300.0F, 300.0F});
+        const auto rows = [&](const std::string& of, int count) {
+            for (int n = 0; n < (computing ? 3 : count); ++n) {
+                ui.value(of + std::to_string(n), "Error", "0.1", "mm");
+            }
+        };
+        rows("above", 12);
+        ui.button("goal", "Least error");
+        rows("below", 12);
+    });
+    stage.frames(3);
+    stage.move({100.0F, 100.0F});
+    for (int n = 0; n < 20 && stage.place("inspector/goal").y > 60.0F; ++n) {
+        stage.wheel(-1.0F);
+        stage.frames(3);
+    }
+    const float there = stage.place("inspector/goal").y;
+    ASSERT_GT(there, 0.0F);
+    stage.click("inspector/goal");
+    for (const bool now : {true, false}) {
+        computing = now;
+        stage.frames(4);
+        const float highest = now ? 80.0F : there; // with three rows above it
+        EXPECT_NEAR(stage.place("inspector/goal").y, std::min(there, highest), 2.0F) << "computing: " << now;
+    }
+}
+
 TEST(TableInAPane, KeepsTheWheelFromThePaneBehind) {
     Stage stage([](Ui& ui) {
         const auto pane = ui.pane("main", {0.0F, 0.0F, 400.0F, 300.0F});

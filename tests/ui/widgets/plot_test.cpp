@@ -121,14 +121,19 @@ TEST(Legend, IsClickedForItsSettings) {
     int clicks = 0;
     Stage stage([&](Ui& ui) {
         const auto pane = ui.bare_pane("view", whole);
-        const LegendView view{.title = "Error", .unit = "mm", .high = 0.25, .map = [](double t) {
-                                  return rgb(t > 0.5 ? 0 : 255);
-                              }};
+        LegendView view{.title = "Error", .unit = "mm", .high = 0.25, .map = [](double t) {
+                            return rgb(t > 0.5 ? 0 : 255);
+                        }};
         clicks += legend(ui, "legend", {600.0F, 10.0F, 90.0F, 250.0F}, view) ? 1 : 0;
+        view.lying = true;
+        view.over = rgb(0xFF0000);
+        clicks += legend(ui, "lying", {10.0F, 10.0F, 200.0F, 34.0F}, view) ? 10 : 0;
     });
     stage.frames(2);
+    EXPECT_TRUE(stage.ui().cut_texts().empty());
     stage.click("view/legend");
-    EXPECT_EQ(clicks, 1);
+    stage.click("view/lying");
+    EXPECT_EQ(clicks, 11);
 }
 
 } // namespace

@@ -40,7 +40,7 @@ protected:
 
 /// Of a long program the numbers are wide.
 TEST(NarrowTimeline, KeepsTheChoiceOfTheSpeedWhole) {
-    for (const float width : {800.0F, 640.0F, 560.0F, 500.0F}) {
+    for (const float width : {800.0F, 640.0F, 560.0F, 500.0F, 396.0F, 370.0F}) {
         TimelineView view{.block = 1, .blocks = 1'000'003, .time_s = 3000.0, .total_s = 90'000.0};
         Stage stage([&](Ui& ui) {
             const auto pane = ui.pane("time", {0.0F, 0.0F, width, 110.0F});

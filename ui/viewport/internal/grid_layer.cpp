@@ -1,7 +1,13 @@
-// The grid on the surface: tracks, the lines across them, nodes. The grid it began with can lie below, dim.
+// The grid on the surface: tracks, the lines across them, nodes; of a fine grid as many lines as stay apart
+// in the picture. The grid it began with can lie below, dim.
 
 #include "ui/viewport/internal/curves.h"
+#include "ui/viewport/internal/grid_lines.h"
 #include "ui/viewport/internal/layers.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace millwright::viewport {
 
@@ -15,38 +21,61 @@ struct GridBuffers {
     render::PointBuffer nodes;
 };
 
-void append_edge(std::vector<render::LineVertex>& lines,
-                 const geometry::BezierPatch& patch,
-                 const Vec2& a,
-                 const Vec2& b,
-                 int steps) {
-    append(lines, on_surface(patch, a, b, steps));
-}
-
-GridBuffers make_buffers(const grid::NodeArray& nodes, const project::Workpiece& workpiece) {
-    std::vector<render::LineVertex> along_u;
-    std::vector<render::LineVertex> along_v;
-    std::vector<render::PointVertex> points;
-    const geometry::BezierPatch& patch = workpiece.patch;
-    const int steps = smooth_steps(2 * nodes.rows * nodes.columns);
-    for (int i = 0; i < nodes.rows; ++i) {
-        for (int j = 0; j < nodes.columns; ++j) {
-            const Vec2& node = nodes.at(i, j);
-            points.push_back({.position = render::to_float(patch.position(node.x(), node.y()))});
-            if (i + 1 < nodes.rows) {
-                append_edge(along_u, patch, node, nodes.at(i + 1, j), steps);
-            }
-            if (j + 1 < nodes.columns) {
-                append_edge(along_v, patch, node, nodes.at(i, j + 1), steps);
-            }
+/// Of 1, 2, 5 ... the first that divides `each` and leaves no more edges than can be drawn quickly: where
+/// lines are left out, their own pieces may be longer, but still meet the others at the nodes.
+int nodes_a_piece(int each, std::size_t lines, int nodes) {
+    constexpr std::size_t most_edges = 40000; // of one direction
+    for (const int step : {1, 2, 5, 10, 20, 50, 100, 200, 500}) {
+        const bool quick = lines * static_cast<std::size_t>(nodes / step) <= most_edges;
+        if (step >= each || (each % step == 0 && quick)) {
+            return std::min(step, each);
         }
     }
+    return each;
+}
+
+/// The lines through the nodes `node(line, place)`, of the lines and of the places at each.
+template <class NodeAt>
+render::LineBuffer make_lines(const geometry::BezierPatch& patch,
+                              const std::vector<int>& lines,
+                              const std::vector<int>& places,
+                              const NodeAt& node) {
+    std::vector<render::LineVertex> vertices;
+    const int steps = smooth_steps(static_cast<int>(2 * lines.size() * places.size()));
+    for (const int line : lines) {
+        for (std::size_t n = 0; n + 1 < places.size(); ++n) {
+            append(vertices, on_surface(patch, node(line, places[n]), node(line, places[n + 1]), steps));
+        }
+    }
+    return {vertices, render::LineTopology::segments};
+}
+
+render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::BezierPatch& patch) {
+    if (nodes.nodes.size() > most_nodes_marked) {
+        return {};
+    }
+    std::vector<render::PointVertex> points;
+    for (const Vec2& node : nodes.nodes) {
+        points.push_back({.position = render::to_float(patch.position(node.x(), node.y()))});
+    }
+    return render::PointBuffer(points);
+}
+
+GridBuffers
+make_buffers(const grid::NodeArray& nodes, const project::Workpiece& workpiece, const GridLines& shown) {
+    const std::vector<int> rows = line_numbers(nodes.rows, shown.each_row);
+    const std::vector<int> columns = line_numbers(nodes.columns, shown.each_column);
+    const int down = nodes_a_piece(shown.each_row, columns.size(), nodes.rows);
+    const int across = nodes_a_piece(shown.each_column, rows.size(), nodes.columns);
+    const geometry::BezierPatch& patch = workpiece.patch;
+    render::LineBuffer along_u = make_lines(
+        patch, columns, line_numbers(nodes.rows, down), [&](int j, int i) { return nodes.at(i, j); });
+    render::LineBuffer along_v = make_lines(
+        patch, rows, line_numbers(nodes.columns, across), [&](int i, int j) { return nodes.at(i, j); });
     const bool tracks_along_u = workpiece.direction == grid::TrackDirection::along_u;
-    const render::LineTopology segments = render::LineTopology::segments;
-    return {.tracks = render::LineBuffer(tracks_along_u ? along_u : along_v, segments),
-            .across = render::LineBuffer(tracks_along_u ? along_v : along_u, segments),
-            .nodes =
-                points.size() <= most_nodes_marked ? render::PointBuffer(points) : render::PointBuffer()};
+    return {.tracks = std::move(tracks_along_u ? along_u : along_v),
+            .across = std::move(tracks_along_u ? along_v : along_u),
+            .nodes = shown.all() ? make_marks(nodes, patch) : render::PointBuffer()};
 }
 
 /// A grid of the scene with the results that it came from.
@@ -60,15 +89,32 @@ public:
         }
         owner_ = std::move(owner);
         workpiece_ = workpiece;
-        buffers_ = nodes != nullptr && workpiece ? make_buffers(*nodes, *workpiece) : GridBuffers{};
+        nodes_ = workpiece ? nodes : nullptr;
+        made_for_.reset();
+        buffers_ = {};
     }
 
-    [[nodiscard]] const GridBuffers& buffers() const { return buffers_; }
+    /// With as many lines as the picture has room for.
+    [[nodiscard]] const GridBuffers& buffers(const Canvas& canvas) const {
+        if (nodes_ == nullptr) {
+            return buffers_;
+        }
+        const GridLines wanted =
+            readable_lines(*nodes_, workpiece_->patch, canvas.view, glm::dmat4(canvas.s_T_w));
+        if (made_for_ != wanted) {
+            buffers_ = make_buffers(*nodes_, *workpiece_, wanted);
+            made_for_ = wanted;
+        }
+        return buffers_;
+    }
 
 private:
-    std::shared_ptr<const void> owner_;
+    std::shared_ptr<const void> owner_; ///< of the nodes
     std::shared_ptr<const project::Workpiece> workpiece_;
-    GridBuffers buffers_;
+    const grid::NodeArray* nodes_ = nullptr;
+    // Only the picture tells how many lines there are to be.
+    mutable GridBuffers buffers_;
+    mutable std::optional<GridLines> made_for_;
 };
 
 class GridLayer final : public Layer {
@@ -87,18 +133,20 @@ public:
     void draw(const Scene& scene, const Canvas& canvas) const override {
         const render::ViewColors& colors = canvas.colors;
         if (scene.layers.start_grid) {
+            const GridBuffers& start = start_.buffers(canvas);
             const glm::vec4 dim = with_opacity(colors.net, 0.45F);
-            draw_lines(canvas, start_.buffers().across, dim, 1.0F);
-            draw_lines(canvas, start_.buffers().tracks, dim, 1.0F);
+            draw_lines(canvas, start.across, dim, 1.0F);
+            draw_lines(canvas, start.tracks, dim, 1.0F);
         }
         if (scene.layers.grid) {
             // The dark end of a colour map would swallow dark lines.
             const bool is_plain = surface_colors(scene) == SurfaceColors::plain;
             const glm::vec3 line = is_plain ? colors.wire : colors.handle;
+            const GridBuffers& grid = grid_.buffers(canvas);
             const float opacity = is_plain ? 0.95F : 0.6F; // light lines look thicker
-            draw_lines(canvas, grid_.buffers().across, with_opacity(line, 0.55F * opacity), 1.0F);
-            draw_lines(canvas, grid_.buffers().tracks, with_opacity(line, opacity), is_plain ? 1.8F : 1.2F);
-            canvas.painter.points(grid_.buffers().nodes,
+            draw_lines(canvas, grid.across, with_opacity(line, 0.55F * opacity), 1.0F);
+            draw_lines(canvas, grid.tracks, with_opacity(line, opacity), is_plain ? 1.8F : 1.2F);
+            canvas.painter.points(grid.nodes,
                                   {.coloring = {.color = with_opacity(colors.handle, 1.0F)},
                                    .model = canvas.s_T_w,
                                    .size_px = 5.0F,

@@ -32,6 +32,11 @@ constexpr float legend_height = 250.0F;
 constexpr float least_legend_height = 110.0F;
 constexpr float legend_top = 16.0F; // left free above it, for a caption
 constexpr float above_scale_bar = 44.0F;
+constexpr float narrow_picture = 760.0F; // an upright legend would take too much of a picture below this
+constexpr float lying_height = 34.0F;
+constexpr float lying_width = 250.0F;
+constexpr float least_lying_width = 120.0F;
+constexpr float beside_scale_bar = 168.0F;
 constexpr double behind_share = 0.02; // of the content's radius: how far behind the surface counts as hidden
 constexpr double bar_px = 150.0;      // the scale bar is at most this long
 
@@ -163,6 +168,10 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
     return found;
 }
 
+int legend_count(const Scene& scene) {
+    return static_cast<int>(legends(scene, render::view_colors(render::Theme::dark)).size());
+}
+
 } // namespace
 
 widgets::Colour to_colour(const glm::vec3& color, double opacity) {
@@ -228,39 +237,102 @@ void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) 
     draw_centred(ui, {0.5F * (left.x + right.x), left.y - ui.px(11.0F)}, length_text(length), colour);
 }
 
-void draw_legends(widgets::Ui& ui, const Pane& pane, const Scene& scene) {
-    float x = pane.rect.x + ui.px(margin);
-    for (const Legend& legend : legends(scene, pane.colors)) {
-        const float room = pane.rect.h - ui.px(above_scale_bar + margin + legend_top);
-        const float height = std::min(ui.px(legend_height), room);
-        const Rect place = {
-            x, pane.rect.bottom() - height - ui.px(above_scale_bar), ui.px(legend_width), height};
-        if (height < ui.px(least_legend_height) || place.right() > pane.rect.right()) {
-            return;
+LegendPlaces upright_legends(const widgets::Ui& ui, const Rect& picture, const Scene& scene) {
+    LegendPlaces places{.free = picture};
+    const auto count = static_cast<float>(legend_count(scene));
+    const float space = ui.px(0.5F * margin);
+    const float bottom = picture.bottom() - ui.px(above_scale_bar);
+    const float room = bottom - picture.y - ui.px(margin + legend_top);
+    const float stacked = std::min(ui.px(legend_height), (room - (count - 1.0F) * space) / count);
+    const bool stands_above = stacked >= ui.px(least_legend_height);
+    const float height = stands_above ? stacked : std::min(ui.px(legend_height), room);
+    const float step_x = stands_above ? 0.0F : ui.px(legend_width) + space;
+    const float step_y = stands_above ? height + space : 0.0F;
+    Rect place{picture.x + ui.px(margin), bottom - height, ui.px(legend_width), height};
+    for (int n = 0; n < legend_count(scene); ++n) {
+        if (height < ui.px(least_legend_height) || place.right() > picture.right()) {
+            break;
         }
+        places.each.push_back(place);
+        const float taken = place.right() + space - picture.x;
+        places.free = {picture.x + taken, picture.y, picture.w - taken, picture.h};
+        place.x += step_x;
+        place.y -= step_y;
+    }
+    if (stands_above) {
+        std::ranges::reverse(places.each); // the first one at the top
+    }
+    return places;
+}
+
+LegendPlaces lying_legends(const widgets::Ui& ui, const Rect& picture, float left, const Scene& scene) {
+    LegendPlaces places{.lying = true, .free = picture};
+    const int count = legend_count(scene);
+    const float space = ui.px(0.5F * margin);
+    const float room = picture.right() - space - left;
+    const float each = std::min(ui.px(lying_width), room / static_cast<float>(std::max(count, 1)) - space);
+    if (count == 0 || each < ui.px(least_lying_width)) {
+        return places;
+    }
+    const float height = ui.px(lying_height);
+    for (int n = 0; n < count; ++n) {
+        const float x = left + static_cast<float>(n) * (each + space);
+        places.each.push_back({x, picture.bottom() - height - ui.px(3.0F), each, height});
+    }
+    places.free.h -= legend_strip_height(ui);
+    return places;
+}
+
+LegendPlaces legends_of(const widgets::Ui& ui, const Rect& picture, const Scene& scene) {
+    const bool narrow = picture.w < ui.px(narrow_picture);
+    const LegendPlaces lying =
+        narrow ? lying_legends(ui, picture, picture.x + ui.px(beside_scale_bar), scene) : LegendPlaces{};
+    return lying.each.empty() ? upright_legends(ui, picture, scene) : lying;
+}
+
+float legend_strip_height(const widgets::Ui& ui) {
+    return ui.px(lying_height + 6.0F);
+}
+
+void draw_legends(widgets::Ui& ui,
+                  const LegendPlaces& places,
+                  const render::ViewColors& colors,
+                  const Scene& scene) {
+    const std::vector<Legend> all = legends(scene, colors);
+    for (std::size_t n = 0; n < std::min(all.size(), places.each.size()); ++n) {
+        const Legend& legend = all[n];
         widgets::LegendView view = {
             .title = legend.title,
             .unit = legend.unit,
             .low = legend.scale.low,
             .high = legend.scale.high,
             .map = [map = legend.scale.map](double t) { return to_colour(render::sample(map, t)); },
-            .tip = legend.tip};
+            .tip = legend.tip,
+            .lying = places.lying};
         if (legend.scale.limit) {
             view.over = to_colour(legend.scale.over_limit);
         }
-        widgets::legend(ui, legend.id, place, view);
-        x = place.right() + ui.px(0.5F * margin);
+        widgets::legend(ui, legend.id, places.each[n], view);
     }
 }
 
-void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text) {
+void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std::string_view left_out) {
     const ImFont* font = ui.look().fonts.small;
-    ImGui::GetWindowDrawList()->AddText(font,
-                                        font->FontSize,
-                                        {pane.rect.x + ui.px(margin), pane.rect.y + ui.px(10.0F)},
-                                        to_colour(pane.colors.neutral[6]),
-                                        text.data(),
-                                        text.data() + text.size());
+    float y = pane.rect.y + ui.px(10.0F);
+    if (!left_out.empty()) {
+        ui.record("left_out", {pane.rect.x, y, pane.rect.w, font->FontSize});
+    }
+    for (const std::string_view line : {name, left_out}) {
+        if (!line.empty()) {
+            ImGui::GetWindowDrawList()->AddText(font,
+                                                font->FontSize,
+                                                {pane.rect.x + ui.px(margin), y},
+                                                to_colour(pane.colors.neutral[6]),
+                                                line.data(),
+                                                line.data() + line.size());
+            y += 1.3F * font->FontSize;
+        }
+    }
 }
 
 void draw_box(const Pane& pane, const Hand::Box& box) {

@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace millwright::viewport {
 
@@ -32,12 +33,36 @@ void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> label
 /// A round length at `point` (scene), at the lower left.
 void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point);
 
-/// What the colours of errors and weight mean, side by side at the left above the scale bar; nothing where
-/// neither is shown.
-void draw_legends(widgets::Ui& ui, const Pane& pane, const Scene& scene);
+/// Where the legends of a scene stand in a picture, and what of it they leave free.
+struct LegendPlaces {
+    std::vector<widgets::Rect> each = {};
+    bool lying = false;
+    widgets::Rect free = {};
+};
 
-/// The name of a picture among four, at the upper left.
-void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view text);
+/// Below each other at the left above the scale bar, or beside each other where the picture is too low.
+[[nodiscard]] LegendPlaces
+upright_legends(const widgets::Ui& ui, const widgets::Rect& picture, const Scene& scene);
+
+/// Lying beside each other in a strip at the bottom of `strip`, from `left` on.
+[[nodiscard]] LegendPlaces
+lying_legends(const widgets::Ui& ui, const widgets::Rect& picture, float left, const Scene& scene);
+
+/// Upright in a wide picture; lying, beside the scale bar, in a narrow one.
+[[nodiscard]] LegendPlaces
+legends_of(const widgets::Ui& ui, const widgets::Rect& picture, const Scene& scene);
+
+/// What the colours of errors, weight and others mean; nothing where there are none.
+void draw_legends(widgets::Ui& ui,
+                  const LegendPlaces& places,
+                  const render::ViewColors& colors,
+                  const Scene& scene);
+
+/// As high as a strip of lying legends.
+[[nodiscard]] float legend_strip_height(const widgets::Ui& ui);
+
+/// The name of a picture among others, at the upper left, and below it what the picture leaves out.
+void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std::string_view left_out = {});
 
 void draw_box(const Pane& pane, const Hand::Box& box);
 

@@ -59,6 +59,7 @@ public:
         map_ = {};
         border_ = {};
         mark_ = {};
+        corners_.clear();
         shown_ = made_from_ && made_from_->study && workpiece_;
         if (shown_) {
             now_ = made_from_->now;
@@ -109,12 +110,15 @@ private:
             }
         }
         border_ = render::LineBuffer(border, render::LineTopology::segments);
+        for (const Vec2& corner : corners) {
+            const Vec3 p = workpiece_->patch.position(corner.x(), corner.y());
+            corners_.push_back(placed(p, now_, place_));
+        }
     }
 
     void make_map() {
         const toolpath::SetUpMap& map = made_from_->study->map;
         has_plane_ = map.across != SetUpParameter::turn && map.up != SetUpParameter::turn;
-        corners_.clear();
         if (!has_plane_) {
             return;
         }

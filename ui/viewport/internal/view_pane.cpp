@@ -4,6 +4,7 @@
 #include "ui/render/convert.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/internal/grid_lines.h"
 #include "ui/viewport/machine_sight.h"
 #include "ui/viewport/navigation.h"
 #include "ui/widgets/canvas.h"
@@ -84,7 +85,7 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
     const widgets::Pointer& pointer = canvas.pointer;
     in_use_ = pointer.hovered || pointer.held || pointer.released;
     take_keys(pointer);
-    fit_if_needed(frame, size);
+    fit_if_needed(frame, place);
     cameras_[at_].camera = navigated(camera(), pointer, size);
 
     const Pane pane = {.rect = place, .view = view_of(frame, size), .colors = frame.colors};
@@ -108,16 +109,39 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
     return events;
 }
 
-void ViewPane::fit_if_needed(const Frame3D& frame, const render::PixelSize& size) {
+void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
     Sight& sight = cameras_[at_];
-    if (sight.fitted || is_empty(frame.view.content())) {
-        return;
+    const bool legends = frame.details && frame.legends;
+    const widgets::Rect free = legends ? legends_of(frame.ui, place, frame.scene).free : place;
+    const float left = free.x - place.x, below = place.bottom() - free.bottom();
+    const bool legend_has_come = left > sight.left_out + 1.0F || below > sight.below_out + 1.0F;
+    if (legend_has_come && sight.camera.pose() == sight.fitted_pose) {
+        sight.fitted = false; // one that goes leaves the view as it is: it may be back soon
     }
+    if (!sight.fitted && !is_empty(frame.view.content())) {
+        fit_into(frame, place, free);
+        sight.left_out = left;
+        sight.below_out = below;
+    }
+}
+
+/// The camera looks at the middle of the whole picture, so that it is moved aside by half of what is taken.
+void ViewPane::fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free) {
+    Sight& sight = cameras_[at_];
     if (frame.scene.layers.machine && sight.camera.pose().projection == render::Projection::perspective) {
         sight.camera = part_in_sight(frame.scene, sight.camera);
     }
-    sight.camera = sight.camera.fitted(frame.view.outline(), render::aspect(size));
+    std::vector<glm::dvec3> outline = frame.view.outline();
+    if (frame.also != nullptr) {
+        outline.insert(outline.end(), frame.also->outline().begin(), frame.also->outline().end());
+    }
+    render::CameraPose pose = sight.camera.fitted(outline, render::aspect(size_of(free))).pose();
+    pose.distance *= static_cast<double>(place.h / std::max(free.h, 1.0F));
+    const widgets::Point from = place.centre(), to = free.centre();
+    const glm::dvec2 aside = {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
+    sight.camera = render::Camera(pose).panned(aside, size_of(place));
     sight.fitted = true;
+    sight.fitted_pose = sight.camera.pose();
 }
 
 void ViewPane::take_keys(const widgets::Pointer& pointer) {
@@ -184,13 +208,15 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     if (hand_.box()) {
         draw_box(pane, *hand_.box());
     }
-    draw_caption(frame.ui, pane, caption_);
+    draw_caption(frame.ui, pane, caption_, grid_lines_note(frame.scene, pane.view));
     record_handles(frame, pane);
     if (!frame.details) {
         return;
     }
     draw_scale_bar(frame.ui, pane, camera().pose().target);
-    draw_legends(frame.ui, pane, frame.scene);
+    if (frame.legends) {
+        draw_legends(frame.ui, legends_of(frame.ui, pane.rect, frame.scene), pane.colors, frame.scene);
+    }
     if (const auto side = axis_gizmo(frame.ui, pane)) {
         cameras_[at_].camera = camera().seen_from(*side);
         fit();

@@ -21,7 +21,10 @@ struct Frame3D {
     const SceneView& view;
     const SurfacePicker& picker;
     render::ViewColors colors;
-    bool details = true; ///< with legend, axes and scale bar
+    bool details = true; ///< with axes and scale bar
+    bool legends = true; ///< with these, too
+    const SceneView* also =
+        nullptr; ///< seen by the same camera in another picture: fitted into this one, too
 };
 
 /// Of the scene's frames - workpiece, machine, arm - each picture keeps a camera of its own.
@@ -47,6 +50,10 @@ private:
     struct Sight {
         render::Camera camera;
         bool fitted = false;
+        /// While it is there, it makes room for legends that come.
+        std::optional<render::CameraPose> fitted_pose = std::nullopt;
+        float left_out = 0.0F; ///< of the picture at its left, pixels
+        float below_out = 0.0F;
     };
     /// All that the picture depends on.
     struct Drawn {
@@ -59,7 +66,8 @@ private:
         friend bool operator==(const Drawn&, const Drawn&) = default;
     };
 
-    void fit_if_needed(const Frame3D& frame, const render::PixelSize& size);
+    void fit_if_needed(const Frame3D& frame, const widgets::Rect& place);
+    void fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free);
     void take_keys(const widgets::Pointer& pointer);
     [[nodiscard]] render::View view_of(const Frame3D& frame, const render::PixelSize& size) const;
     void draw_picture(const Frame3D& frame, const render::View& view, const widgets::Pointer& pointer);

@@ -36,6 +36,12 @@ struct Ui::State {
         double since = 0.0; ///< ImGui time when the mouse came
         int frame = -1;     ///< last frame in which the mouse was there
     };
+    /// The widget pressed last, which stays where it is while rows above it come and go.
+    struct Anchor {
+        std::string path; ///< empty: none
+        float y = 0.0F;   ///< from the top of its pane, as a person sees it
+        float scrolled = 0.0F;
+    };
     struct Hint {
         Rect rect;
         std::string reason;
@@ -63,6 +69,7 @@ struct Ui::State {
     std::map<std::string, std::string, std::less<>> drafts; ///< refused text that stays in its box, by path
     std::map<std::string, double, std::less<>> memory;      ///< by path: scroll positions, open sections
     Tip tip;
+    Anchor anchor;
     std::string under_mouse;            ///< path of the last widget of this frame that the mouse is over
     std::string under_mouse_before;     ///< the same of the frame before: the one on top
     std::vector<Hint> hints;            ///< of this frame
