@@ -21,6 +21,17 @@ Permission in_workspace(const Workbench& now) {
                : Permission::refused("In the Arm workspace (Shift+F6) only.");
 }
 
+Permission known_position(const machine::DriverStatus& status) {
+    return status.position_known ? Permission{}
+                                 : Permission::refused("The position is not known: home the arm first.");
+}
+
+/// A point is where the arm stands: of a connected one that has to be known.
+Permission can_teach(const Workbench& now) {
+    const Permission there = in_workspace(now);
+    return there.allowed && now.arm_connected() ? known_position(now.controller.status) : there;
+}
+
 /// The drawn arm may always play; a connected one at rest, with power, where its position is known.
 Permission can_play(const Workbench& now) {
     if (const Permission there = in_workspace(now); !there.allowed || !now.arm_connected()) {
@@ -34,8 +45,7 @@ Permission can_play(const Workbench& now) {
     if (!status.powered) {
         return Permission::refused("The motors have no power.");
     }
-    return status.position_known ? Permission{}
-                                 : Permission::refused("The position is not known: home the arm first.");
+    return known_position(status);
 }
 
 Permission can_play_points(const Workbench& now) {
@@ -170,7 +180,7 @@ void add_arm_teach_actions(Actions& actions) {
     constexpr std::string_view menu = "Arm";
     add(actions,
         {"arm.teach", menu, "Teach this point", "Keeps where the arm stands now.", "Ctrl+T", icons::add},
-        in_workspace,
+        can_teach,
         record);
     add(actions,
         {"arm.play_points",

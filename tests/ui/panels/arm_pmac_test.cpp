@@ -419,6 +419,31 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     bench.person.keep("arm-terminal");
 }
 
+/// Played later, such a point would send the arm to where it never stood.
+TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
+    constexpr const char* why = "The position is not known: home the arm first.";
+    Bench bench;
+    const auto status = [&] { return bench.person.workshop().look().controller.status; };
+    bench.person.workshop().run("arm.teach"); // of the drawn arm
+    bench.connect();
+    ASSERT_FALSE(status().position_known);
+    bench.person.click("lower/tabs/points");
+    bench.person.frames(2);
+    bench.person.click("lower/points/point_1");
+    bench.person.frames(2);
+    EXPECT_EQ(bench.person.refusal("lower/arm_teach"), why);
+    EXPECT_EQ(bench.person.refusal("lower/again"), why);
+    bench.person.keep("arm-teach-refused");
+    bench.give_power();
+    bench.person.workshop().run("machine.home");
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
+    bench.person.frames(2);
+    EXPECT_EQ(bench.person.refusal("lower/again"), "");
+    bench.person.click("lower/arm_teach");
+    EXPECT_EQ(bench.person.project().arm.points.size(), 2U);
+}
+
 TEST(ArmAtPmac, TakesNoGCode) {
     Bench bench;
     bench.connect();

@@ -186,6 +186,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     EXPECT_FALSE(bench_.pmac.any_power());
     const double stopped = bench_.pmac.degrees(2);
     EXPECT_FALSE(person_.refusal("lower/arm_play_points").empty());
+    EXPECT_FALSE(person_.refusal("lower/arm_teach").empty());
     EXPECT_TRUE(person_.sees("alarm/message"));
     EXPECT_FALSE(status().position_known); // the arm went on for a while, and nobody saw where to
     EXPECT_TRUE(person_.sees("inspector/joints/not_known"));
