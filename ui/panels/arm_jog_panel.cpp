@@ -305,8 +305,8 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     const int joints = now.arm.arm().joint_count();
     const int joint = std::min(now.session.hand.arm_joint, joints - 1);
     for (int n = 0; n < std::min(joints, 5); ++n) {
-        const bool is_sign = ImGui::GetIO().KeyShift; // as # is, above 3
-        if (!is_sign && render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
+        // With Shift, too: where + is Shift and =, it is down while another joint is chosen.
+        if (render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
             ask.show([n](actions::Session& session) { session.hand.arm_joint = n; });
         }
     }

@@ -240,6 +240,8 @@ TEST(ArmWorkspaceU2, TheKeysOfTheThesisMoveTheChosenJointOnlyWhileTheyAreGiven) 
     bench.person.frames(2);
     EXPECT_GT(bench.arm().joints()[2], 0.5 * pi + 1e-3);
     EXPECT_DOUBLE_EQ(bench.arm().joints()[0], 0.0);
+    bench.person.press_key(render::Key::digit_2, false, true); // Shift is down where + is Shift and =
+    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 1);
     bench.person.press_key(render::Key::x);
     EXPECT_FALSE(bench.person.workshop().session().hand.arm_keys);
     bench.person.keep("arm-keys");
