@@ -143,7 +143,8 @@ Picture OffscreenContext::read_back() {
 }
 
 void OffscreenContext::present() {
-    glFinish(); // as a window does, which waits for the screen: dozens of frames in flight would be one slow one
+    glFinish(); // as a window does, which waits for the screen: dozens of frames in flight would be one slow
+                // one
 }
 
 void OffscreenContext::resize(const PixelSize& size) {

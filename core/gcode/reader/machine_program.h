@@ -38,8 +38,8 @@ struct MachineProgram {
     /// feed in step with the spindle. Its moves are in the program; who makes motion of them refuses.
     std::vector<Diagnostic> lost;
     /// What blocks say in another way or not at all, the first of each kind: mist (flood), work systems
-    /// whose offset nobody told (it is zero), machine positions of G53, G28 and G30 (of a machine whose offsets are zero),
-    /// outputs, override switches.
+    /// whose offset nobody told (it is zero), machine positions of G53, G28 and G30 (of a machine whose
+    /// offsets are zero), outputs, override switches.
     std::vector<Diagnostic> simplified;
     double length = 0.0; ///< of the ways of X Y Z, rapids too, mm
 };
