@@ -77,12 +77,13 @@ public:
     Steps(const Vec2& end, const StrokeCutting& options) : end_(end), options_(options) {}
 
     void say(const char* what, const Strokes& strokes) {
-        plot::CutPath path = plot::cut_path(strokes, cut_settings(strokes, options_));
+        const plot::CutSettings cut = cut_settings(strokes, options_);
+        plot::CutPath path = plot::cut_path(strokes, cut);
         if (path != path_) {
             seconds_ = planned_seconds(path, options_.cutting);
             path_ = std::move(path);
         }
-        const plot::WorkTime time = plot::work_time(strokes, {}, Vec2::Zero(), end_);
+        const plot::WorkTime time = plot::work_time(strokes, cut.levels, {}, Vec2::Zero(), end_);
         fmt::print("{}: {}, {} by the thesis, {} by the planner\n",
                    what,
                    way_for_people(time),

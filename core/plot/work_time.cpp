@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace millwright::plot {
 
@@ -13,20 +15,67 @@ namespace {
 
 constexpr std::string_view no_hour = "00:"; // of clock_time
 
-} // namespace
-
-WorkTime work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end) {
+void expect_usable(const TimeModel& model) {
     const bool usable = model.cutting > 0.0 && model.travelling > 0.0 && model.lifting >= 0.0 &&
                         std::isfinite(model.cutting + model.travelling + model.lifting);
     if (!usable) {
         throw Error("a time needs speeds above 0");
     }
+}
+
+double seconds_of(const WorkTime& time, const TimeModel& model) {
+    return time.cut_length / model.cutting + time.travel_length / model.travelling +
+           time.runs * model.lifting;
+}
+
+/// By pen, as they stand.
+std::map<int, std::vector<const Stroke*>> by_pen(const Strokes& strokes) {
+    std::map<int, std::vector<const Stroke*>> pens;
+    for (const Stroke& stroke : strokes) {
+        pens[stroke.pen].push_back(&stroke);
+    }
+    return pens;
+}
+
+} // namespace
+
+WorkTime work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end) {
+    expect_usable(model);
     WorkTime time;
     time.cut_length = draw_length(strokes);
     time.travel_length = air_length(strokes, start, end);
     time.runs = static_cast<int>(strokes.size());
-    time.seconds =
-        time.cut_length / model.cutting + time.travel_length / model.travelling + time.runs * model.lifting;
+    time.seconds = seconds_of(time, model);
+    return time;
+}
+
+WorkTime work_time(const Strokes& strokes,
+                   const std::vector<Level>& levels,
+                   const TimeModel& model,
+                   const Vec2& start,
+                   const Vec2& end) {
+    expect_usable(model);
+    const auto pens = by_pen(strokes);
+    std::vector<Level> in_order = levels;
+    std::ranges::stable_sort(in_order, {}, &Level::order);
+    WorkTime time;
+    Vec2 at = start;
+    for (const Level& level : in_order) {
+        const auto drawn = pens.find(level.pen);
+        if (!level.enabled || drawn == pens.end()) {
+            continue;
+        }
+        for (int pass = 0; pass < level.passes; ++pass) {
+            for (const Stroke* stroke : drawn->second) {
+                time.travel_length += (stroke->points.front() - at).norm();
+                time.cut_length += length(*stroke);
+                ++time.runs;
+                at = stroke->points.back();
+            }
+        }
+    }
+    time.travel_length += (end - at).norm();
+    time.seconds = seconds_of(time, model);
     return time;
 }
 

@@ -1,10 +1,12 @@
 // How long a plot takes to cut, and how far the tool goes, before anything is sent. mm, mm/s, s.
 #pragma once
 
+#include "core/plot/cut_path.h"
 #include "core/plot/strokes.h"
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::plot {
 
@@ -29,6 +31,14 @@ struct WorkTime {
 /// From `start` through the strokes in their order and back to `end`. Throws Error for a speed that is none.
 [[nodiscard]] WorkTime
 work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end);
+
+/// The same of what cut_path() cuts: level by level, each pass of each stroke counted, those that are off and
+/// pens without a level not. Ways to a change of tools are no part of it.
+[[nodiscard]] WorkTime work_time(const Strokes& strokes,
+                                 const std::vector<Level>& levels,
+                                 const TimeModel& model,
+                                 const Vec2& start,
+                                 const Vec2& end);
 
 /// m:ss, or h:mm:ss from an hour on; whole seconds as clock_time has them.
 [[nodiscard]] std::string minutes_and_seconds(double seconds);

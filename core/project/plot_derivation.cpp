@@ -229,9 +229,9 @@ plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const 
 void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     const plot::Strokes planned = plan_strokes(drawn, end);
     result_.drawn_strokes = drawn.size();
-    result_.as_drawn = plot::work_time(drawn, {}, Vec2::Zero(), end);
-    result_.as_planned = plot::work_time(planned, {}, Vec2::Zero(), end);
     result_.levels = levels_of(planned);
+    result_.as_drawn = plot::work_time(drawn, levels_of(drawn), {}, Vec2::Zero(), end);
+    result_.as_planned = plot::work_time(planned, result_.levels, {}, Vec2::Zero(), end);
     const auto standing = [&](std::vector<plot::Level> levels) {
         return plot::with_standing_tabs(std::move(levels), settings_.strokes.tool_diameter);
     };

@@ -33,7 +33,7 @@ struct PlotResult {
     std::vector<plot::Level> levels; ///< in force, of plots and outlines
     std::size_t drawn_strokes = 0;
     std::shared_ptr<const plot::Strokes> strokes; ///< as planned, where they lie on the machine
-    plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model; of plots and outlines
+    plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model, level by level
     std::shared_ptr<const plot::CutPath> path;
     plot::PathLengths lengths;
     /// What is cut, a level each; a relief's one; of a path file one a tool.

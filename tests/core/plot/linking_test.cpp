@@ -162,6 +162,33 @@ TEST(GapLinking, OfTheThaiSignSavesLiftsAndTimeAndKeepsTheDistance) {
     EXPECT_LT(in_order.seconds, 0.62 * before.seconds);
 }
 
+TEST(WorkTimes, OfLevelsCountWhatIsCut) {
+    const Strokes drawn = {{.pen = 1, .points = {{10.0, 0.0}, {20.0, 0.0}}},
+                           {.pen = 2, .points = {{20.0, 5.0}, {40.0, 5.0}}},
+                           {.pen = 1, .points = {{40.0, 0.0}, {50.0, 0.0}}}};
+    const Vec2 home = Vec2::Zero();
+    std::vector<Level> levels = levels_for(drawn);
+    const WorkTime once = work_time(drawn, levels, {}, home, home);
+    EXPECT_NEAR(once.cut_length, 40.0, 1e-9);
+    EXPECT_NEAR(once.travel_length, 10.0 + 20.0 + std::hypot(30.0, 5.0) + std::hypot(40.0, 5.0), 1e-9);
+    EXPECT_EQ(once.runs, 3);
+    EXPECT_NEAR(once.seconds, once.cut_length / 2.0 + once.travel_length / 10.0 + 18.0, 1e-9);
+    levels[1].enabled = false;
+    levels[0].passes = 2;
+    const WorkTime twice = work_time(drawn, levels, {}, home, home);
+    EXPECT_NEAR(twice.cut_length, 40.0, 1e-9);
+    EXPECT_NEAR(twice.travel_length, 10.0 + 20.0 + 40.0 + 20.0 + 50.0, 1e-9);
+    EXPECT_EQ(twice.runs, 4);
+    levels.push_back(levels[0]);
+    EXPECT_EQ(work_time(drawn, levels, {}, home, home).runs, 8);
+    levels[1].enabled = true;
+    levels[1].order = -1;
+    EXPECT_NEAR(work_time(drawn, {levels[0], levels[1]}, {}, home, home).travel_length,
+                std::hypot(20.0, 5.0) + std::hypot(30.0, 5.0) + 20.0 + 40.0 + 20.0 + 50.0,
+                1e-9);
+    EXPECT_THROW((void)work_time(drawn, levels, {.cutting = 0.0}, home, home), Error);
+}
+
 // The two jobs whose geometry is known: travel 19 mm and 249.42 mm. The thesis shows 214 s and 193 s.
 TEST(WorkTimes, AreThoseOfTheThesis) {
     const Strokes square = {
