@@ -125,6 +125,11 @@ public:
         case CommandKind::set_motion_control_mode:
             path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
             break;
+        case CommandKind::comment:
+            if (command.text.find("interpreter: ") != 0) {
+                comment_ = {command.source, std::string(command.text)};
+            }
+            break;
         case CommandKind::dwell:
             add(BlockKind::dwell, command.source).duration = command.value;
             break;
@@ -164,7 +169,7 @@ public:
             if (std::exchange(pallet_moves_, false)) {
                 pause(PauseKind::pallet_change, "pallet change", command.source);
             } else {
-                pause(PauseKind::program_stop, "program stop", command.source);
+                pause(PauseKind::program_stop, text_of_stop(command.source), command.source);
             }
             break;
         case CommandKind::optional_program_stop:
@@ -219,12 +224,13 @@ private:
     std::optional<PathControl> path_; ///< none: not said yet
     double rpm_ = 0.0;
     int selected_tool_ = 0;
-    bool pallet_moves_ = false; ///< and then the program stops
-    AxisValues at_;             ///< on the machine, mm and degrees
-    std::string_view text_;     ///< the line of the move at hand; empty where another line brought it
-    AxisSet worded_;            ///< axes that it names
-    std::set<char> missing_;    ///< axes that were complained about
-    AxisSet beyond_;            ///< the same for their travel
+    std::pair<SourcePlace, std::string> comment_; ///< the last one, and its line
+    bool pallet_moves_ = false;                   ///< and then the program stops
+    AxisValues at_;                               ///< on the machine, mm and degrees
+    std::string_view text_;  ///< the line of the move at hand; empty where another line brought it
+    AxisSet worded_;         ///< axes that it names
+    std::set<char> missing_; ///< axes that were complained about
+    AxisSet beyond_;         ///< the same for their travel
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -253,6 +259,18 @@ private:
         block.target = std::move(here);
         block.source_line = source.file == 0 ? source.line : 0;
         return block;
+    }
+
+    /// With the comment in its line or in the one above, which says what a person is to do.
+    [[nodiscard]] std::string text_of_stop(SourcePlace source) const {
+        constexpr std::string_view stop = "program stop";
+        const auto& [place, text] = comment_;
+        const bool is_about_it =
+            place.file == source.file && (place.line == source.line || place.line + 1 == source.line);
+        if (!is_about_it || text.empty()) {
+            return std::string(stop);
+        }
+        return text.starts_with(stop) ? text : fmt::format("{}, {}", stop, text);
     }
 
     void pause(PauseKind kind, std::string text, SourcePlace source) {

@@ -251,6 +251,26 @@ TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
     EXPECT_THAT(said("G10 L2 P1 X50\nG55\n"), ElementsAre(HasSubstr("of G55: it is taken for 0")));
 }
 
+// Who stands at the machine sees the pause's words, not the listing.
+TEST(MachineProgram, AStopSaysWhatTheCommentAboveItSays) {
+    const auto stops = [](const std::string& lines) {
+        std::vector<std::string> texts;
+        for (const Block& block : read("G21 G90\nG0 X1\n" + lines + "M2\n").program.blocks) {
+            if (block.kind == BlockKind::pause) {
+                texts.push_back(block.text);
+            }
+        }
+        return texts;
+    };
+    using ::testing::ElementsAre;
+    EXPECT_THAT(stops("(change to tool 2)\nM0\n"), ElementsAre("program stop, change to tool 2"));
+    EXPECT_THAT(stops("M0 (turn the part)\n"), ElementsAre("program stop, turn the part"));
+    EXPECT_THAT(stops("(a contour)\nG0 X2\nM0\n"), ElementsAre("program stop"));
+    EXPECT_THAT(stops("(program stop, change to tool 2)\nM0\n"),
+                ElementsAre("program stop, change to tool 2"));
+    EXPECT_THAT(stops("G90.1\nM0\n"), ElementsAre("program stop"));
+}
+
 TEST(MachineProgram, NamesWhatWouldBeAnotherProgramWithoutIt) {
     using ::testing::ElementsAre;
     EXPECT_THAT(messages(read("G21 G90\nM66 P0 L3 Q5\nG1 X1 F60\nM2\n").lost),
