@@ -174,8 +174,9 @@ nlohmann::ordered_json json_of(const Plot& plot) {
 /// A file that draws nothing is no plot, or not the one that was meant.
 void expect_strokes(const Plot& plot, const std::string& file) {
     if (plot.strokes.empty()) {
-        throw Error(
-            plot.commands > 0 ? "there is nothing to draw in it" : "there is no command of HPGL in it", file);
+        throw Error(plot.commands > 0 ? "there is nothing to draw in it"
+                                      : "there is no command of HPGL in it, nor does it begin as G-code",
+                    file);
     }
 }
 

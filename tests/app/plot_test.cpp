@@ -373,7 +373,8 @@ TEST(PlotCommand, InfoOfNoPlotFails) {
     };
     for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--json"}}) {
         EXPECT_EQ(info_of("", more).exit_code, 1);
-        EXPECT_THAT(info_of("", more).err, HasSubstr("there is no command of HPGL in it"));
+        EXPECT_THAT(info_of("", more).err,
+                    HasSubstr("there is no command of HPGL in it, nor does it begin as G-code"));
         EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("no command of HPGL"));
         EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("there is nothing to draw in it"));
     }
