@@ -102,7 +102,7 @@ std::string strokes_of_levels(const CutProgram& program) {
 /// As fast as programmed; rapids as fast as the machine of the thesis travels.
 double seconds_of(const CutProgram& program) {
     return program.feed_time + program.dwell_time +
-           plot::lengths(program.path).travel / plot::TimeModel().travelling;
+           gcode::named_lengths(program).travel / plot::TimeModel().travelling;
 }
 
 /// Lowest and highest of what is cut.
@@ -120,6 +120,12 @@ std::array<double, 2> heights_of(const CutProgram& program) {
     return heights;
 }
 
+std::string air_of(const CutProgram& program) {
+    return program.safe_height
+               ? fmt::format("feeds across from z {:.3f} mm up are travel", *program.safe_height)
+               : "every feed across is a cut";
+}
+
 nlohmann::ordered_json or_null(const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
@@ -132,7 +138,7 @@ nlohmann::ordered_json json_of(const CutProgram& program) {
     answer["extents_mm"] = {box->lower.x(), box->lower.y(), box->upper.x(), box->upper.y()};
     answer["z_mm"] = heights_of(program);
     const plot::WorkTime time = plot::work_time(program.strokes, {}, Vec2::Zero(), program.end);
-    const plot::PathLengths lengths = plot::lengths(program.path);
+    const plot::PathLengths lengths = gcode::named_lengths(program);
     answer["draw_mm"] = time.cut_length;
     answer["air_mm"] = time.travel_length;
     answer["lifts"] = time.runs;
@@ -259,7 +265,7 @@ int program_info(const std::string& file, const ProgramReading& reading, bool js
     }
     const CutProgram program = read_to_use(file, reading);
     const plot::WorkTime time = plot::work_time(program.strokes, {}, Vec2::Zero(), program.end);
-    const plot::PathLengths lengths = plot::lengths(program.path);
+    const plot::PathLengths lengths = gcode::named_lengths(program);
     const auto box = plot::extents(program.strokes);
     const auto [low, high] = heights_of(program);
     fmt::print(
@@ -271,7 +277,7 @@ int program_info(const std::string& file, const ProgramReading& reading, bool js
                box->upper.y(),
                low,
                high);
-    fmt::print("{}\n", way_for_people(time));
+    fmt::print("{}\n{}\n", air_of(program), way_for_people(time));
     constexpr double m = 1e-3;
     fmt::print("{:.3f} m at a feed in {}, {:.3f} m at rapid; {} with rapids of {:.0f} mm/s\n",
                m * lengths.cut,

@@ -61,8 +61,20 @@ TEST(ProgramsAsPlots, InfoTellsWaysAndTimesOfTheThesis) {
     EXPECT_EQ(run({"plot", "info", space}).out,
               "24 lines, 2 strokes at 1 level, 1 tool\n"
               "x 10.000 to 90.000 mm, y 10.000 to 90.000 mm, z 0.000 to 0.000 mm\n"
+              "feeds across from z 10.000 mm up are travel\n"
               "0.469 m (0.418 m drawn, 0.050 m in the air), 2 lifts\n"
               "0.438 m at a feed in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
+}
+
+// As rs274 has it: 252.891 mm; lowered by 5 mm that the program does not say it were 257.883.
+TEST(ProgramsAsPlots, InfoCountsNoWayThatTheProgramDoesNotSay) {
+    const std::string file = "assets/samples/gcode/compensation-right.ngc";
+    const auto told = nlohmann::json::parse(run({"plot", "info", file, "--json"}).out);
+    EXPECT_NEAR(told.at("feed_mm"), 252.89, 0.02);
+    EXPECT_NEAR(told.at("feed_s"), told.at("feed_mm").get<double>() / 5.0, 1e-3);
+    EXPECT_THAT(told.at("diagnostics").at(0).at("message"), HasSubstr("no height is named"));
+    EXPECT_THAT(run({"plot", "info", file}).out, HasSubstr("every feed across is a cut\n"));
+    EXPECT_THAT(run({"plot", "info", file}).err, HasSubstr("compensation-right.ngc:5: no height"));
 }
 
 // n = 41, 15, 27 and 17 parts of 1 mm are what the rule of the thesis makes of the four arcs.

@@ -39,6 +39,7 @@ struct CutLevel {
 struct CutProgram {
     /// Every move from the first place that the program names in X, Y and Z on, with its height and feed.
     plot::CutPath path;
+    bool lowers_unasked = false; ///< the program names no height: the path's first two points lower the tool
     /// Runs of feeds across, below the safe height; a way down alone is a dot.
     plot::Strokes strokes;
     std::vector<CutLevel> levels;       ///< of the strokes
@@ -63,6 +64,9 @@ struct CutProgram {
 /// read, too.
 [[nodiscard]] CutProgram read_cut_program_file(const std::filesystem::path& file,
                                                const CutProgramSettings& settings = {});
+
+/// Of its path, without the way down that the program does not say.
+[[nodiscard]] plot::PathLengths named_lengths(const CutProgram& program);
 
 /// Whether the text begins as G-code does: its first line that is no comment is one of words.
 [[nodiscard]] bool is_gcode(std::string_view text);

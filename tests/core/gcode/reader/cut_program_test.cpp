@@ -68,6 +68,32 @@ TEST(CutPrograms, OfTheThesisHaveTheirWaysAndTimes) {
     EXPECT_EQ(points_of(c), (std::vector<std::size_t>{4 * 32 + 4 + 1, 50 + 50 + 1}));
 }
 
+TEST(CutPrograms, TellsOfAHeightThatIsNotNamedAndCountsNoWayDownToIt) {
+    const CutProgram program = read("G21 G90\nG0 X1 Y1\nG1 X2 F100\nM2\n");
+    ASSERT_EQ(program.notices.size(), 1U);
+    EXPECT_EQ(program.notices[0].place.line, 3);
+    EXPECT_THAT(program.notices[0].message, HasSubstr("no height is named before this feed"));
+    EXPECT_NEAR(plot::lengths(program.path).cut, 6.0, 1e-9)
+        << "lowered all the same: nobody knows from where";
+    EXPECT_NEAR(named_lengths(program).cut, 1.0, 1e-9);
+    EXPECT_NEAR(named_lengths(program).travel, std::sqrt(2.0), 1e-9);
+
+    const CutProgram named = read("G21 G90\nG0 Z0\nG0 X1 Y1\nG1 X2 F100\nM2\n");
+    EXPECT_TRUE(named.notices.empty());
+    EXPECT_NEAR(named_lengths(named).cut, 1.0, 1e-9);
+}
+
+TEST(CutPrograms, TellHowFarFeedsAreTakenForTravel) {
+    const std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 X30 F100\nY40\nG0 X0\nG1 Z-1\nX10\nG0 Z0\nM2\n";
+    const CutProgram program = read(text);
+    ASSERT_EQ(program.notices.size(), 1U);
+    EXPECT_EQ(program.notices[0].place.line, 3);
+    EXPECT_THAT(program.notices[0].message, HasSubstr("70.000 mm of feeds at or above z 0.000 mm"));
+    EXPECT_TRUE(read(text, {.safe_height = 5.0}).notices.empty()) << "a person said so";
+    EXPECT_EQ(read(text, {.safe_height = 5.0}).strokes.size(), 2U);
+    EXPECT_TRUE(read(read_file(plate)).notices.empty());
+}
+
 TEST(CutPrograms, StrokesOfTheThesisAreClosedOutlinesAtOneHeight) {
     for (const auto& [file, z] : {std::pair(simple, -10.0), std::pair(space, 0.0), std::pair(plate, -2.0)}) {
         const CutProgram program = read(read_file(file));
