@@ -1,6 +1,7 @@
 #include "core/grid/chain_optimiser.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/grid/grid_promise.h"
 
@@ -45,6 +46,7 @@ void check(const ChainSettings& s) {
     expects(within(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
     expects(s.first_descent >= 0 && s.first_descent <= 100'000, "a descent has 0 to 100 000 iterations");
     expects(s.later_descents >= 0 && s.later_descents <= 100'000, "a descent has 0 to 100 000 iterations");
+    expects(within(s.leaps, 0, 100), "a descent leaps 0 to 100 times");
     expects(std::ranges::all_of(s.exponents, [](double p) { return within(p, 1.0, 64.0); }),
             "the exponents are from 1 to 64");
     expects(within(s.least_jacobian, 0.0, 1.0), "the least corner triangle is from 0 to 1");
@@ -91,6 +93,9 @@ bool ChainOptimiser::advance(const Progress& progress) {
         break;
     case Stage::descent:
         descend(progress);
+        break;
+    case Stage::leap:
+        leap(progress);
         break;
     case Stage::done:
         break;
@@ -217,32 +222,40 @@ TrackSettings ChainOptimiser::price_axis(double price) const {
     return priced;
 }
 
-/// Of all the iterations that are allowed, with so many done of the present level: a descent that settles
-/// early leaves the rest of its share out.
-double ChainOptimiser::share_of_descents(int of_level) const {
+/// Of the whole way, with so many iterations done of the present level, by all that are allowed: a descent
+/// that settles early leaves the rest of its share out.
+double ChainOptimiser::done_of_all(int of_level) const {
     const double later = settings_.later_descents;
     const double all = settings_.first_descent + later * static_cast<double>(settings_.exponents.size());
     const double before =
         level_ == 0 ? 0.0 : settings_.first_descent + later * static_cast<double>(level_ - 1);
-    return all > 0.0 ? (before + of_level) / all : 1.0;
+    return mix(tracks_chosen, descents_done, all > 0.0 ? (before + of_level) / all : 1.0);
+}
+
+int ChainOptimiser::iterations_allowed() const {
+    return level_ == 0 ? settings_.first_descent : settings_.later_descents;
+}
+
+double ChainOptimiser::exponent() const {
+    return level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
 }
 
 void ChainOptimiser::begin_descent(const Progress& progress) {
-    const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
-    if (level_ > settings_.exponents.size() || allowed == 0) {
+    if (level_ > settings_.exponents.size() || iterations_allowed() == 0) {
         finish(progress);
         return;
     }
     const std::vector<MoveError> moves = measure(model_, Grid(accepted_), direction_, fine, progress);
     const ErrorSummary now = summary(moves);
     MoveCost cost = cost_by(price_axis(moving_price_), length_of(moves) / static_cast<double>(moves.size()));
-    cost.exponent = level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
+    cost.exponent = exponent();
     const double usual_error = std::max(negligible_mm, level_ == 0 ? now.lmean : now.max / 2.0);
     PathObjectiveSettings objective{.cost = cost,
                                     .unit_cost = cost.even_length * std::pow(usual_error, cost.exponent)};
     objective.least_jacobian = std::min(usual_corner, room_for_corners * min_corner_jacobian(accepted_));
     descent_.emplace(PathObjective(model_, direction_, accepted_, objective), accepted_, progress);
     iterations_of_level_ = 0;
+    leaps_of_level_ = 0;
     stage_ = Stage::descent;
 }
 
@@ -264,35 +277,53 @@ void ChainOptimiser::finish(const Progress& progress) {
 }
 
 void ChainOptimiser::descend(const Progress& progress) {
-    const int allowed = level_ == 0 ? settings_.first_descent : settings_.later_descents;
-    const auto done_at = [&](int of_level) {
-        return tracks_chosen + (descents_done - tracks_chosen) * share_of_descents(of_level);
-    };
-    progress.report(done_at(iterations_of_level_), "Moving all nodes at once");
+    const int left = iterations_allowed() - iterations_of_level_;
+    progress.report(done_of_all(iterations_of_level_), "Moving all nodes at once");
     PathDescent next = *descent_;
     bool going = true;
     int done = 0;
-    while (going && done < iterations_a_step && iterations_of_level_ + done < allowed) {
+    while (going && done < std::min(iterations_a_step, left)) {
         going = next.iterate(progress) && next.last_step() > still;
         ++done;
-        progress.report(done_at(iterations_of_level_ + done));
+        progress.report(done_of_all(iterations_of_level_ + done));
     }
-    const bool kept = consider(next.nodes(), progress);
+    kept_ = consider(next.nodes(), progress);
     descent_ = std::move(next);
     iterations_of_level_ += done;
     state_.iteration += done;
     state_.norm = descent_->last_step();
-    state_.done = done_at(iterations_of_level_);
-    const double exponent = level_ == 0 ? settings_.tracks.error_exponent : settings_.exponents[level_ - 1];
+    state_.done = done_of_all(iterations_of_level_);
     state_.note =
-        fmt::format("All nodes at once, exponent {:g}, iteration {}", exponent, iterations_of_level_);
-    if (!going || iterations_of_level_ >= allowed) {
-        end_link(fmt::format("all nodes at once, exponent {:g}", exponent), kept);
-        ++state_.round;
-        ++level_;
-        state_.done = done_at(0);
-        begin_descent(progress.part(descents_done, path_judged));
+        fmt::format("All nodes at once, exponent {:g}, iteration {}", exponent(), iterations_of_level_);
+    if (done == left) {
+        end_descent(progress);
+    } else if (!going) {
+        stage_ = Stage::leap;
     }
+}
+
+/// Near singular points the error has ridges, between which a descent comes to rest early.
+void ChainOptimiser::leap(const Progress& progress) {
+    if (leaps_of_level_ < settings_.leaps) {
+        progress.report(state_.done, "Looking for better places beyond");
+        PathDescent next = *descent_;
+        if (next.leap(progress.part(state_.done, state_.done))) {
+            descent_ = std::move(next);
+            ++leaps_of_level_;
+            stage_ = Stage::descent;
+            return;
+        }
+    }
+    end_descent(progress);
+}
+
+void ChainOptimiser::end_descent(const Progress& progress) {
+    end_link(fmt::format("all nodes at once, exponent {:g}", exponent()), kept_);
+    ++state_.round;
+    ++level_;
+    iterations_of_level_ = 0;
+    state_.done = done_of_all(iterations_of_level_);
+    begin_descent(progress.part(descents_done, path_judged));
 }
 
 } // namespace millwright::grid

@@ -1,6 +1,7 @@
 #include "core/grid/path_descent.h"
 
 #include "core/base/error.h"
+#include "core/grid/bent_tracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,12 @@ namespace {
 constexpr double longest_step = 0.3;         // cells, for one node in one iteration
 constexpr double sufficient_decrease = 1e-4; // Armijo
 constexpr int most_halvings = 20;
+
+// Of a leap. Wider rasters or one sweep more cost more than they bring.
+constexpr int sweeps = 5;
+constexpr double furthest_place = 0.3; // cells, of the first sweep
+constexpr double narrowing = 0.6;      // from sweep to sweep
+constexpr double least_gain = 1e-3;    // of the objective
 
 } // namespace
 
@@ -59,6 +66,24 @@ bool PathDescent::iterate(const Progress& progress) {
     }
     memory_.clear(); // what was remembered leads nowhere: once more along the gradient alone
     return search(memory_.direction(gradient_), progress);
+}
+
+bool PathDescent::leap(const Progress& progress) {
+    NodeArray found = nodes_;
+    double reach = furthest_place;
+    for (int sweep = 0; sweep < sweeps; ++sweep, reach *= narrowing) {
+        const Progress part = progress.part(static_cast<double>(sweep) / sweeps, (sweep + 1.0) / sweeps);
+        found = shortest_bent_tracks(objective_, std::move(found), {.reach = reach}, part);
+    }
+    const double there = objective_.value(found, progress);
+    if (!(there < (1.0 - least_gain) * value_)) {
+        return false;
+    }
+    gradient_ = objective_.gradient(found, progress);
+    nodes_ = std::move(found);
+    value_ = there;
+    memory_.clear(); // of another valley
+    return true;
 }
 
 } // namespace millwright::grid

@@ -1,5 +1,5 @@
 // Descends in a PathObjective by L-BFGS. No step folds a cell or leaves the machine's reach, since the
-// objective is infinite there.
+// objective is infinite there. Where it stands still it can look beyond the ridges around it.
 #pragma once
 
 #include "core/grid/descent.h"
@@ -14,6 +14,10 @@ public:
 
     /// One step downhill; false if there is none. Throws Cancelled, leaving all as it was.
     bool iterate(const Progress& progress);
+
+    /// Takes the best places of whole tracks together (shortest_bent_tracks), coarsely and then finer; false,
+    /// and all stays, if that gains next to nothing. Throws Cancelled, leaving all as it was.
+    bool leap(const Progress& progress);
 
     [[nodiscard]] const NodeArray& nodes() const { return nodes_; }
     [[nodiscard]] double value() const { return value_; }

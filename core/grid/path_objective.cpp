@@ -18,21 +18,26 @@ constexpr double difference = 2e-4; // cells: below the error's own kinks where 
 
 } // namespace
 
-/// An array with one node elsewhere.
+/// An array with one node elsewhere, or two.
 class PathObjective::Around {
 public:
-    Around(const NodeArray& nodes, int i, int j, const Vec2& place)
-        : nodes_(nodes), node_(nodes.index(i, j)), place_(place) {}
+    struct Moved {
+        std::size_t node;
+        Vec2 place;
+    };
+
+    Around(const NodeArray& nodes, const Moved& moved) : Around(nodes, moved, moved) {}
+    Around(const NodeArray& nodes, const Moved& one, const Moved& other)
+        : nodes_(nodes), one_(one), other_(other) {}
 
     [[nodiscard]] const Vec2& at(int i, int j) const {
         const std::size_t n = nodes_.index(i, j);
-        return n == node_ ? place_ : nodes_.nodes[n];
+        return n == one_.node ? one_.place : n == other_.node ? other_.place : nodes_.nodes[n];
     }
 
 private:
     const NodeArray& nodes_;
-    std::size_t node_;
-    Vec2 place_;
+    Moved one_, other_;
 };
 
 PathObjective::PathObjective(const ErrorModel& model,
@@ -108,6 +113,29 @@ template <class Nodes> double PathObjective::at_node(const Nodes& nodes, int i, 
     return sum;
 }
 
+double
+PathObjective::of_move(const NodeArray& nodes, int track, int k, const Vec2& from, const Vec2& to) const {
+    const bool rows_are_tracks = direction_ == TrackDirection::along_v;
+    const auto index = [&](int t, int n) { return rows_are_tracks ? nodes.index(t, n) : nodes.index(n, t); };
+    const Around moved(nodes, {index(track, k), from}, {index(track, k + 1), to});
+    const int tracks = rows_are_tracks ? rows_ : columns_;
+    double sum = 0.0;
+    for (const int side : {track - 1, track}) {
+        if (side >= 0 && side + 1 < tracks) {
+            sum += rows_are_tracks ? corners_of_cell(moved, side, k) : corners_of_cell(moved, k, side);
+        }
+    }
+    return sum < infinity ? sum + move_cost(from, to) : infinity;
+}
+
+double PathObjective::of_gaps(const NodeArray& nodes, int track, int k, const Vec2& place) const {
+    const bool rows_are_tracks = direction_ == TrackDirection::along_v;
+    const auto node = [&](int t) { return rows_are_tracks ? nodes.at(t, k) : nodes.at(k, t); };
+    const int tracks = rows_are_tracks ? rows_ : columns_;
+    const double before = track > 0 ? gap_cost(node(track - 1), place) : 0.0;
+    return before + (track + 1 < tracks ? gap_cost(place, node(track + 1)) : 0.0);
+}
+
 double PathObjective::value(const NodeArray& nodes, const Progress& progress) const {
     const bool rows_are_tracks = direction_ == TrackDirection::along_v;
     std::vector<double> sums(static_cast<std::size_t>(rows_), 0.0);
@@ -141,8 +169,9 @@ double PathObjective::slope(const NodeArray& nodes, int i, int j, int coordinate
     Vec2 step = Vec2::Zero();
     step[coordinate] = difference * cell_[coordinate];
     const Vec2& here = nodes.at(i, j);
-    const double ahead = at_node(Around(nodes, i, j, here + step), i, j);
-    const double behind = at_node(Around(nodes, i, j, here - step), i, j);
+    const std::size_t node = nodes.index(i, j);
+    const double ahead = at_node(Around(nodes, {node, here + step}), i, j);
+    const double behind = at_node(Around(nodes, {node, here - step}), i, j);
     if (ahead < infinity && behind < infinity) {
         return (ahead - behind) / (2.0 * difference);
     }

@@ -39,9 +39,21 @@ public:
     /// d value / d node by central differences, a cell; zero along what may not move. Throws Cancelled.
     [[nodiscard]] std::vector<Vec2> gradient(const NodeArray& nodes, const Progress& progress) const;
 
+    /// What depends on nodes `k` and `k + 1` of a track alone, were they at `from` and `to` and all others of
+    /// the other tracks as in `nodes`: the move, and the corners of the cells on both its sides. Infinity as
+    /// in value().
+    [[nodiscard]] double
+    of_move(const NodeArray& nodes, int track, int k, const Vec2& from, const Vec2& to) const;
+
+    /// The gaps from node `k` of a track, were it at `place`, to its neighbours across.
+    [[nodiscard]] double of_gaps(const NodeArray& nodes, int track, int k, const Vec2& place) const;
+
     /// `nodes`, each gone `factor` times its step, given in cells; none leaves the unit square.
     [[nodiscard]] NodeArray
     moved(const NodeArray& nodes, double factor, const std::vector<Vec2>& steps) const;
+
+    [[nodiscard]] TrackDirection direction() const { return direction_; }
+    [[nodiscard]] const Vec2& cell() const { return cell_; } ///< of the uniform grid
 
 private:
     class Around;

@@ -3,12 +3,12 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/grid/path_descent.h"
+#include "tests/support/shaken_nodes.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace millwright::grid {
 namespace {
@@ -19,19 +19,6 @@ PathObjective objective(const NodeArray& nodes, TrackDirection direction) {
     PathObjectiveSettings settings;
     settings.unit_cost = 0.05;
     return {spike, direction, nodes, settings};
-}
-
-/// A uniform grid, the nodes inside shaken by up to `share` of a cell.
-NodeArray shaken(int rows, int columns, double share) {
-    NodeArray nodes = Grid::uniform(rows, columns).array();
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> by(-share, share);
-    for (int i = 1; i + 1 < rows; ++i) {
-        for (int j = 1; j + 1 < columns; ++j) {
-            nodes.at(i, j) += Vec2(by(random) / (rows - 1), by(random) / (columns - 1));
-        }
-    }
-    return nodes;
 }
 
 /// Inside both ways, on a side along it, in a corner not at all.
@@ -46,7 +33,7 @@ bool may_move(const NodeArray& nodes, std::size_t n, int coordinate) {
 class PathObjectiveTest : public ::testing::TestWithParam<TrackDirection> {};
 
 TEST_P(PathObjectiveTest, ItsGradientIsTheDifferenceOfItsValue) {
-    const NodeArray nodes = shaken(7, 9, 0.2);
+    const NodeArray nodes = test::shaken(7, 9, 0.2);
     const PathObjective f = objective(nodes, GetParam());
     const std::vector<Vec2> gradient = f.gradient(nodes, {});
     for (std::size_t n = 0; n < gradient.size(); ++n) {
@@ -63,7 +50,7 @@ TEST_P(PathObjectiveTest, ItsGradientIsTheDifferenceOfItsValue) {
 }
 
 TEST_P(PathObjectiveTest, IsTheSameBytesOnAnyNumberOfThreads) {
-    const NodeArray nodes = shaken(12, 10, 0.2);
+    const NodeArray nodes = test::shaken(12, 10, 0.2);
     const PathObjective f = objective(nodes, GetParam());
     set_thread_count(1);
     const double value = f.value(nodes, {});
