@@ -43,10 +43,16 @@ StudyFigures figures_of(const Evaluation& evaluation, const Workpiece& workpiece
             workpiece.machine.description().workpiece_offset};
 }
 
-Workpiece in_best_set_up(Workpiece workpiece, const Progress& progress) {
+/// Nothing where no place changes the error by more than rounding, as on machines whose rotary axes are all
+/// in the head.
+std::optional<Workpiece> in_best_set_up(Workpiece workpiece, const Progress& progress) {
+    constexpr double rounding = 1e-6;
     const SetUpStudySettings settings;
     const auto found =
         toolpath::search_set_up(set_up_cost(workpiece, settings), set_up_box(workpiece, settings), progress);
+    if (!(found.best.cost < (1.0 - rounding) * found.start.cost)) {
+        return std::nullopt;
+    }
     workpiece.machine = workpiece.machine.with_workpiece_offset(toolpath::offset_of(found.best.place));
     return workpiece;
 }
@@ -143,6 +149,36 @@ void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     }
 }
 
+const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
+    return *std::ranges::find(rows, method, &StudyRow::method);
+}
+
+/// The rows with a set-up where the part has moved, beside those without in `unmoved`.
+std::vector<StudyRow>
+rows_there(const Bench& there, const std::vector<StudyRow>& unmoved, const Progress& progress) {
+    StudyRow uniform = there.uniform_row(StudyMethod::set_up, progress);
+    auto [chain, sequenced] = there.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress);
+    compare_with_unmoved(uniform, row_of(unmoved, StudyMethod::uniform));
+    compare_with_unmoved(chain, row_of(unmoved, StudyMethod::chain));
+    const StudyRow& without = row_of(unmoved, StudyMethod::sequencing);
+    compare_with_unmoved(sequenced, score(chain) < score(without) ? chain : without);
+    return {std::move(uniform), std::move(chain), std::move(sequenced)};
+}
+
+/// The same where no place is better: the part stays.
+std::vector<StudyRow> unmoved_rows(const std::vector<StudyRow>& rows) {
+    const auto kept = [&](StudyMethod method, StudyMethod without) {
+        StudyRow row = row_of(rows, without);
+        row.method = method;
+        row.note = "No place on the table changes the error by more than rounding: the part stays.";
+        row.no_gain = true;
+        return row;
+    };
+    return {kept(StudyMethod::set_up, StudyMethod::uniform),
+            kept(StudyMethod::set_up_chain, StudyMethod::chain),
+            kept(StudyMethod::everything, StudyMethod::sequencing)};
+}
+
 std::vector<StudyRow> out_of_reach_rows(const StudyCase& of, const std::string& why) {
     std::vector<StudyRow> rows;
     for (const StudyMethod method : every_study_method) {
@@ -206,20 +242,11 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         const auto by_chain =
             there.chain_rows(StudyMethod::chain, StudyMethod::sequencing, progress.part(0.15, 0.5));
         rows.insert(rows.end(), by_chain.begin(), by_chain.end());
-        const Bench best(of, in_best_set_up(workpiece, progress.part(0.5, 0.6)), project.grid, progress);
-        rows.push_back(best.uniform_row(StudyMethod::set_up, progress));
-        const auto there_too =
-            best.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress.part(0.6, 1.0));
-        rows.insert(rows.end(), there_too.begin(), there_too.end());
-        const auto row = [&](StudyMethod method) -> StudyRow& {
-            return *std::ranges::find(rows, method, &StudyRow::method);
-        };
-        compare_with_unmoved(row(StudyMethod::set_up), row(StudyMethod::uniform));
-        compare_with_unmoved(row(StudyMethod::set_up_chain), row(StudyMethod::chain));
-        const StudyRow& moved = row(StudyMethod::set_up_chain);
-        const StudyRow& sequenced = row(StudyMethod::sequencing);
-        compare_with_unmoved(row(StudyMethod::everything),
-                             score(moved) < score(sequenced) ? moved : sequenced);
+        const auto moved = in_best_set_up(workpiece, progress.part(0.5, 0.6));
+        const std::vector<StudyRow> with_set_up =
+            moved ? rows_there(Bench(of, *moved, project.grid, progress), rows, progress.part(0.6, 1.0))
+                  : unmoved_rows(rows);
+        rows.insert(rows.end(), with_set_up.begin(), with_set_up.end());
         return rows;
     } catch (const Error& error) {
         return out_of_reach_rows(of, error.diagnostic().message);

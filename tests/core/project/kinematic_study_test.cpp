@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <string_view>
 
 namespace millwright::project {
 namespace {
@@ -51,6 +52,9 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
                                              std::pair{StudyMethod::set_up_chain, StudyMethod::chain}}) {
             EXPECT_LE(mean(moved), mean(unmoved)) << machine;
             EXPECT_EQ(offset(moved) == offset(unmoved), row_of(rows, moved).no_gain) << machine;
+            if (std::string_view(machine) == "ca-head") { // its rotary axes do not feel where the part is
+                EXPECT_TRUE(exactly_equal(mean(moved), mean(unmoved)));
+            }
         }
     }
 }
