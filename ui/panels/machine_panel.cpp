@@ -4,6 +4,7 @@
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/job_time_left.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -49,36 +50,6 @@ std::string checked_sentence(const Workbench& now, const std::string& name) {
         name,
         another ? ", the machine of the workbench" : "",
         another ? " Those of the connected one are checked before it moves." : "");
-}
-
-/// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
-/// that is not executed for certain.
-std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
-    if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
-        return std::nullopt;
-    }
-    const std::vector<int>& lines = now.job.listing->line_of_block;
-    const auto executed = static_cast<std::size_t>(std::max(0, report.driver.executed_blocks));
-    if (executed >= lines.size()) {
-        return 0.0;
-    }
-    const project::PlannedMotion& plan = *now.opened->motion;
-    const std::vector<int>& planned = plan.listing->line_of_block;
-    const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[executed]; });
-    return next == planned.end() ? 0.0
-                                 : plan.trajectory->duration() -
-                                       plan.trajectory->start_of(static_cast<int>(next - planned.begin()));
-}
-
-/// s of the plan; nothing where there is none.
-std::optional<double> time_left(const Workbench& now, const machine::JobReport& report) {
-    if (now.controller.connected() && now.controller.can.plans) {
-        return left_by_lines(now, report);
-    }
-    const bool shown = now.job_is_shown();
-    const double total = report.planned_time > 0.0 || !shown ? report.planned_time : now.duration();
-    const double done = shown ? now.time() : report.driver.planned_time;
-    return total > 0.0 ? std::optional(total - done) : std::nullopt;
 }
 
 } // namespace
@@ -189,7 +160,7 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         const double fraction =
             report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
         ui.value("state", "State", machine::to_text(report.driver.state));
-        const std::optional<double> left = time_left(now, report);
+        const std::optional<double> left = job_time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
         ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
         const bool told_late = report.driver.sent_blocks > report.driver.executed_blocks;

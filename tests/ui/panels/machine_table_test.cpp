@@ -3,6 +3,7 @@
 #include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/person.h"
 #include "tests/ui/panels/table_bench.h"
+#include "ui/panels/job_time_left.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,11 +84,13 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
     person.click("inspector/job/machine_run");
     int first_line = lines;
+    double most_left = 0.0;
     ASSERT_TRUE(person.live_until(
         [&] {
             const actions::Workbench shown = now();
             if (shown.job.running && shown.job.report) {
                 first_line = std::min(first_line, shown.file_place().value().line);
+                most_left = std::max(most_left, job_time_left(shown, *shown.job.report).value_or(0.0));
             }
             return shown.job.outcome.has_value();
         },
@@ -95,6 +98,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_EQ(now().job.outcome->end, machine::JobEnd::done) << now().job.outcome->sentence;
     EXPECT_THAT(table.positions().front(), ElementsAre(30.0, 33.0, 5.0)); // up from there, before all else
     EXPECT_GE(first_line, 20);
+    EXPECT_GT(most_left, 10.0) << "20 rows of 45 mm at 50 mm/s, of the job's own plan"; // it was 0 to the end
     EXPECT_DOUBLE_EQ(table.position()[1], lines - 1);
 }
 

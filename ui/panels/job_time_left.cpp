@@ -1,0 +1,44 @@
+#include "ui/panels/job_time_left.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace millwright::panels {
+
+namespace {
+
+/// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
+/// that is not executed for certain.
+std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
+    if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
+        return std::nullopt;
+    }
+    const std::vector<int>& lines = now.job.listing->line_of_block;
+    const auto executed = static_cast<std::size_t>(std::max(0, report.driver.executed_blocks));
+    if (executed >= lines.size()) {
+        return 0.0;
+    }
+    const project::PlannedMotion& plan = *now.opened->motion;
+    const std::vector<int>& planned = plan.listing->line_of_block;
+    const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[executed]; });
+    return next == planned.end() ? 0.0
+                                 : plan.trajectory->duration() -
+                                       plan.trajectory->start_of(static_cast<int>(next - planned.begin()));
+}
+
+} // namespace
+
+std::optional<double> job_time_left(const Workbench& now, const machine::JobReport& report) {
+    if (now.controller.connected() && now.controller.can.plans) {
+        return left_by_lines(now, report);
+    }
+    // What begins at a line is a job of its own, with a way in and times that are not the program's.
+    const bool of_program = now.job_is_shown() && now.job.from_line <= 1;
+    const bool has_own = report.planned_time > 0.0 || !now.job_is_shown();
+    const double total = has_own ? report.planned_time : now.duration();
+    const double done = has_own && !of_program ? report.driver.planned_time : now.time();
+    return total > 0.0 ? std::optional(total - done) : std::nullopt;
+}
+
+} // namespace millwright::panels
