@@ -41,7 +41,7 @@ struct CuttingOptions {
     double feed_mm_per_min = to_mm_per_min(project::PlotSettings().level.cutting);
     double plunge_mm_per_min = to_mm_per_min(project::PlotSettings().level.plunging);
     double safe_height = project::PlotSettings().safe_height;
-    double spindle_rpm = project::PlotSettings().spindle_rpm;
+    double spindle_rpm = project::usual_spindle_rpm;
 };
 
 /// Adds --machine, the options of posts and previews, feeds, safe height and spindle to `command`.

@@ -41,6 +41,7 @@ Activity Background::activity() const {
     const std::scoped_lock lock(mutex_);
     Activity now = activity_;
     now.busy = working_ || !jobs_.empty();
+    now.stopping = working_ && jobs_.empty() && running_.stop_requested();
     return now;
 }
 

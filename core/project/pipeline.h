@@ -20,6 +20,7 @@ struct Activity {
     bool busy = false;
     double fraction = 0.0; ///< 0 to 1
     std::string text = {};
+    bool stopping = false; ///< nobody wants it any more: it ends with its next check
 };
 
 /// A plan with the project it belongs to. `revision` grows with every publication.

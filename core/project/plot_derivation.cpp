@@ -109,7 +109,7 @@ void PlotDerivation::time_as_drawn() {
         const gcode::Program program = gcode::plot_program(as_drawn_,
                                                            {.machine = machine.name(),
                                                             .axes = gcode::plot_axes(machine),
-                                                            .spindle_rpm = settings_.spindle_rpm});
+                                                            .spindle_rpm = result_.spindle_rpm()});
         result_.drawn_seconds = motion::plan(program, machine, {}, progress_.part(0.8, 1.0)).duration();
     });
     if (failure) {
@@ -122,13 +122,14 @@ void PlotDerivation::time_as_drawn() {
 void PlotDerivation::cut_program() {
     const gcode::CutProgram read = gcode::read_cut_program_file(result_.input.file);
     result_.notices = read.notices;
-    if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - settings_.spindle_rpm) > 0.5) {
+    result_.program_rpm = read.spindle_rpm;
+    if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - result_.spindle_rpm()) > 0.5) {
         note(
             Diagnostic{{},
                        fmt::format("the program turns the spindle {:.0f} times a minute, here it does {:.0f}",
                                    read.spindle_rpm,
-                                   settings_.spindle_rpm),
-                       "set it under Work"});
+                                   result_.spindle_rpm()),
+                       "the field Spindle under Work says so; its arrow takes that of the program"});
     }
     use(read.path);
 }

@@ -24,6 +24,8 @@ namespace millwright::project {
 /// What becomes of a picture.
 enum class PictureUse { relief, outlines, halftone, dots };
 
+inline constexpr double usual_spindle_rpm = 10'000.0;
+
 struct PlotSettings {
     plot::ReaderSettings hpgl = {};
     PictureUse use = PictureUse::relief;
@@ -52,7 +54,8 @@ struct PlotSettings {
     double plate = 0.0;      ///< its thickness; 0: not known
     bool through = false;    ///< the path may go deeper than the plate
     double half_light = 0.3; ///< of the plate lets half of the light through; a guess for black plastic
-    double spindle_rpm = 10'000.0;
+    /// Not given: as a G-code program says, else the usual speed.
+    std::optional<double> spindle_rpm = {};
     Vec2 origin = Vec2::Zero(); ///< where that of the drawing lies on the machine
     std::string machine = "forming-table";
     std::string post = "linuxcnc-xyz";

@@ -117,6 +117,9 @@ Json json_of(const PlotInput& plot) {
     json["order"] = settings.strokes.order;
     json["link_inside"] = settings.strokes.link_inside;
     add_numbers<PlotSettings>(json, plot_numbers(), settings);
+    if (!settings.spindle_rpm) {
+        json.erase("spindle_rpm");
+    }
     json["usual_level"] = json_of(settings.level);
     json["levels"] = Json::array();
     for (const plot::Level& level : settings.levels) {

@@ -33,6 +33,11 @@ inline constexpr NumberField<PlotSettings> of_origin{
     [](PlotSettings& settings, double value) { settings.origin[axis] = value; },
     false};
 
+inline constexpr NumberField<PlotSettings> of_spindle{
+    [](const PlotSettings& settings) { return settings.spindle_rpm.value_or(usual_spindle_rpm); },
+    [](PlotSettings& settings, double value) { settings.spindle_rpm = value; },
+    false};
+
 /// All of them 0: the whole picture.
 template <int PixelRegion::*side>
 inline constexpr NumberField<PlotSettings> of_region{
@@ -234,9 +239,9 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      2,
      maybe<&PlotSettings::rough_step_over>},
     {"frame_mm",
-     "Plate",
+     "Thickness",
      "mm",
-     "It is cut out of one so thick; 0: it stays in it",
+     "Of the plate that it is cut out of; 0: it stays in it",
      0.0,
      100.0,
      2,
@@ -337,14 +342,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      100.0,
      3,
      number<As::it_is, &PlotSettings::half_light>},
-    {"spindle_rpm",
-     "Spindle",
-     "1/min",
-     "0 leaves it alone",
-     0.0,
-     1e5,
-     0,
-     number<As::it_is, &PlotSettings::spindle_rpm>},
+    {"spindle_rpm", "Spindle", "1/min", "0 leaves it alone", 0.0, 1e5, 0, of_spindle},
     {"origin_x_mm",
      "Origin X",
      "mm",

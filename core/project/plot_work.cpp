@@ -29,7 +29,7 @@ std::string plot_program_text(const PlotResult& result, const fs::path& assets) 
                             {.machine = machine.name(),
                              .axes = gcode::plot_axes(machine),
                              .header = {"made of: " + result.input.file.filename().string()},
-                             .spindle_rpm = result.input.settings.spindle_rpm});
+                             .spindle_rpm = result.spindle_rpm()});
     const std::string name = result.input.file.stem().string();
     const gcode::PostFormat format =
         gcode::read_post(post_path(result.input.settings.post, result.input.file.parent_path(), assets));

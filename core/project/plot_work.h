@@ -34,6 +34,7 @@ struct PlotResult {
     std::size_t drawn_strokes = 0;
     std::shared_ptr<const plot::Strokes> strokes; ///< as planned, where they lie on the machine
     plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model, level by level
+    double program_rpm = 0.0; ///< of a G-code program's spindle, 1/min; 0: it does not say
     std::shared_ptr<const plot::CutPath> path;
     plot::PathLengths lengths;
     /// What is cut, a level each; a relief's one; of a path file one a tool.
@@ -54,6 +55,11 @@ struct PlotResult {
     /// By the planner, as drawn, s; nothing where it is cut as drawn, where that cannot be run, or where
     /// there is no program by itself.
     std::optional<double> drawn_seconds;
+
+    /// Of the spindle, 1/min: what is set, else the program's, else the usual speed.
+    [[nodiscard]] double spindle_rpm() const {
+        return input.settings.spindle_rpm.value_or(program_rpm > 0.0 ? program_rpm : usual_spindle_rpm);
+    }
 };
 
 /// Longer paths get no program before a person asks for it.

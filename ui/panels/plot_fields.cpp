@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -170,7 +172,7 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     choice<plot::TurnPolicy>(ui,
                              ask,
                              "turns",
-                             "Where corners touch",
+                             "At corners",
                              project::turn_policies(),
                              set.tracing.turns,
                              [](Project& draft, auto turns) { draft.plot.settings.tracing.turns = turns; });
@@ -209,10 +211,19 @@ void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
            [](PlotSettings& s, bool on) { s.join_dots = on; });
 }
 
+/// Dots as deep as a relief would run into one another.
+double usual_depth(PictureUse use) {
+    constexpr double of_dots = 0.3;
+    return use == PictureUse::dots ? of_dots : PlotSettings().depth;
+}
+
 void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
     choice<PictureUse>(
         ui, ask, "use", "Becomes", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
-            draft.plot.settings.use = use;
+            PlotSettings& settings = draft.plot.settings;
+            const bool untouched = !(std::abs(settings.depth - usual_depth(settings.use)) > 0.0);
+            settings.depth = untouched ? usual_depth(use) : settings.depth;
+            settings.use = use;
         });
     numbers(ui, ask, set, {"width_mm"});
     if (made != nullptr && made->picture_size.x() > 0.0) {
@@ -242,6 +253,27 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pro
         set.use == PictureUse::relief ? relief_fields(ui, ask, set, made) : dot_fields(ui, ask, set);
     }
     size_fields(ui, ask, set);
+}
+
+/// That of a G-code program counts until a person types another; the reset button gives it back.
+void spindle_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto made = now.plot.latest();
+    const double usual = made && made->program_rpm > 0.0 ? made->program_rpm : project::usual_spindle_rpm;
+    const auto& setting = project::plot_number("spindle_rpm");
+    const FieldInfo info{setting.id,
+                         setting.label,
+                         setting.unit,
+                         setting.tip,
+                         setting.min,
+                         setting.max,
+                         usual,
+                         setting.decimals};
+    if (const auto chosen = ui.number(now.plot.settings().spindle_rpm.value_or(usual), info)) {
+        const bool typed = std::abs(*chosen - usual) > 0.0;
+        change(ask, setting.label, [typed, rpm = *chosen](PlotSettings& settings) {
+            settings.spindle_rpm = typed ? std::optional(rpm) : std::nullopt;
+        });
+    }
 }
 
 /// One of a few names, which is what the settings keep.
@@ -363,7 +395,8 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         numbers(ui, ask, set, {"safe_height_mm"});
     }
     numbers(ui, ask, set, {"plate_mm"});
-    if (set.plate > 0.0) {
+    const bool cut_out = cuts_brightness(now) && set.use == PictureUse::relief && set.frame;
+    if (set.plate > 0.0 || cut_out) {
         toggle(ui,
                ask,
                "through",
@@ -372,7 +405,8 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                "The path may go deeper than the plate",
                [](PlotSettings& s, bool on) { s.through = on; });
     }
-    numbers(ui, ask, set, {"spindle_rpm", "origin_x_mm", "origin_y_mm"});
+    spindle_field(ui, now, ask);
+    numbers(ui, ask, set, {"origin_x_mm", "origin_y_mm"});
     name_choice(ui, ask, "machine", "Machine", machines, set.machine, &PlotSettings::machine);
     name_choice(ui, ask, "post", "Control", posts, set.post, &PlotSettings::post);
 }

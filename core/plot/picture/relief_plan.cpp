@@ -116,7 +116,8 @@ std::optional<Diagnostic> frame_notice(const ReliefPlan& plan) {
                       fmt::format("the tip of the tool has no width at the underside of the plate: there a "
                                   "flange of up to {:.3f} mm stays around the part",
                                   radius(plan.relief.tip)),
-                      fmt::format("take a flat tool, or let cuts go through the plate: {:.3f} mm deeper the "
+                      fmt::format("take a flat tool, or let cuts go through the plate (Through under Work, "
+                                  "--through): {:.3f} mm deeper the "
                                   "part is free to its full size",
                                   below)};
 }

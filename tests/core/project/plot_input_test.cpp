@@ -43,7 +43,7 @@ TEST(PlotInput, AMaterialSetsEveryPenAndRoughsWhatIsDeep) {
     EXPECT_EQ(settings.levels[1].passes, 3);
     EXPECT_DOUBLE_EQ(settings.levels[1].cutting, 25.0);
     EXPECT_DOUBLE_EQ(settings.level.plunging, 5.0);
-    EXPECT_DOUBLE_EQ(settings.spindle_rpm, 9000.0);
+    EXPECT_EQ(settings.spindle_rpm, 9000.0);
     EXPECT_FALSE(settings.depth_per_pass);
     settings.depth = 4.0;
     use_material(settings, {}, values);

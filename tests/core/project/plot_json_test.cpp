@@ -74,6 +74,16 @@ TEST(PlotOfAProject, IsNotWrittenWhereThereIsNone) {
     EXPECT_THAT(project_text(project_from_preset("dome")), Not(HasSubstr("\"plot\"")));
 }
 
+// Written always it would be one that a person has set, and win over a program's own.
+TEST(PlotOfAProject, TheSpindleIsWrittenWhereAPersonHasSetIt) {
+    Project project = project_from_preset("dome");
+    project.plot.file = "/drawings/turns.ngc";
+    EXPECT_THAT(project_text(project), Not(HasSubstr("\"spindle_rpm\": 10000")));
+    EXPECT_FALSE(project_from_text(project_text(project), "x").plot.settings.spindle_rpm);
+    project.plot.settings.spindle_rpm = usual_spindle_rpm;
+    EXPECT_EQ(project_from_text(project_text(project), "x").plot.settings.spindle_rpm, usual_spindle_rpm);
+}
+
 TEST(PlotOfAProject, BesideItsProjectMovesWithIt) {
     const test::ScratchFolder scratch;
     const fs::path one = scratch / "one";

@@ -250,7 +250,7 @@ TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
     // Hardwood: 0.003 in for 1/8 inch, in proportion for 3 mm, two edges, 10,000 a minute.
     EXPECT_NEAR(bench.plot().settings().level.cutting, 24.0, 1e-9);
     EXPECT_NEAR(bench.made().levels.front().plunging, 8.0, 1e-9);
-    EXPECT_NEAR(bench.plot().settings().spindle_rpm, 10'000.0, 1e-9);
+    EXPECT_EQ(bench.plot().settings().spindle_rpm, 10'000.0);
     const auto shade = [&bench] { // of its row, beside the words
         bench.person.hover({1.0F, 1.0F});
         bench.person.frames(2);
