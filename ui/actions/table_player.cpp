@@ -1,6 +1,9 @@
 #include "ui/actions/table_player.h"
 
+#include "core/plot/decode_path.h"
 #include "core/plot/decode_within.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,48 +29,35 @@ double fastest_of(const plot::DecodeSettings& decoding, const kinematics::Machin
                      decoding.plunge_velocity.value_or(0.0)});
 }
 
-/// From where the table stands up to where it travels, and on to the beginning of the first stroke.
-std::vector<Vec3> points_from(const Vec3& stands,
-                              double fastest,
-                              const plot::Strokes& strokes,
-                              const plot::DecodeSettings& decoding) {
+/// From where the table stands to `height`, where it travels.
+std::vector<Vec3> way_up(const Vec3& stands, double height, const plot::DecodeSettings& decoding) {
     const double step = decoding.velocity * decoding.period;
-    const double way = decoding.pen_up_z - stands.z();
+    const double way = height - stands.z();
     const auto steps = static_cast<std::int64_t>(std::ceil(std::abs(way) / step));
     std::vector<Vec3> points;
     for (std::int64_t n = 0; n < steps; ++n) {
         points.push_back(stands +
                          Vec3::UnitZ() * (way * static_cast<double>(n) / static_cast<double>(steps)));
     }
-    const std::vector<Vec3> rest = plot::decode_within(fastest, strokes, decoding, stands.head<2>());
+    return points;
+}
+
+std::vector<Vec3> joined(std::vector<Vec3> points, const std::vector<Vec3>& rest) {
     points.insert(points.end(), rest.begin(), rest.end());
     return points;
 }
 
-std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
-                                                const plot::Strokes& strokes,
-                                                const kinematics::MachineModel& model,
-                                                const std::optional<Vec3>& stands,
-                                                machine::Clock& clock,
-                                                std::int64_t& total) {
-    plot::DecodeSettings decoding = choice.decoding;
-    constexpr std::int64_t most = 5'000'000;
-    decoding.most_points = most;
-    const double fastest = fastest_of(decoding, model);
-    auto points =
-        std::make_shared<const std::vector<Vec3>>(stands ? points_from(*stands, fastest, strokes, decoding)
-                                                         : plot::decode_within(fastest, strokes, decoding));
-    machine::PlayerOptions options;
-    options.period = choice.decoding.period;
-    options.speed = choice.speed;
-    options.format = choice.record;
-    const double period = machine::machine_period(options, !choice.port.empty());
-    if (const auto faults = machine::check_points(*points, period, model, "the points"); !faults.empty()) {
-        throw Error(faults.front());
+/// In the words of the pane, whose points have no lines.
+void expect_playable(const std::vector<Vec3>& points, double period, const kinematics::MachineModel& model) {
+    const auto faults = machine::check_points(points, period, model, "the points");
+    if (!faults.empty()) {
+        const Diagnostic& first = faults.front();
+        throw Error(Diagnostic{.place = {},
+                               .message = fmt::format("point {}: {}", first.place.line, first.message),
+                               .hint = first.hint.empty()
+                                           ? "set another Origin under Work"
+                                           : "set a lower Velocity, or a Time scale of 1 or less"});
     }
-    total = std::ssize(*points);
-    return std::make_shared<machine::PointPlayer>(
-        choice.port.empty() ? nullptr : machine::make_link(choice.port), clock, points, model, options);
 }
 
 } // namespace
@@ -75,6 +65,35 @@ std::shared_ptr<machine::PointPlayer> player_of(const TableChoice& choice,
 void TablePlayer::play(const TableChoice& choice,
                        const plot::Strokes& strokes,
                        const std::shared_ptr<const kinematics::MachineModel>& model) {
+    play_points(
+        choice,
+        [&](const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands) {
+            return stands ? joined(way_up(*stands, decoding.pen_up_z, decoding),
+                                   plot::decode_within(fastest, strokes, decoding, stands->head<2>()))
+                          : plot::decode_within(fastest, strokes, decoding);
+        },
+        *model);
+}
+
+void TablePlayer::play(const TableChoice& choice,
+                       const plot::CutPath& path,
+                       const std::shared_ptr<const kinematics::MachineModel>& model) {
+    if (std::ranges::find(path, plot::CutMove::tool_change, &plot::CutPoint::move) != path.end()) {
+        throw Error("it changes its tool, and points do not stop for that", {}, "send its program");
+    }
+    play_points(
+        choice,
+        [&](const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands) {
+            return stands ? joined(way_up(*stands, path.front().at.z(), decoding),
+                                   plot::decode_path(path, decoding, fastest, stands->head<2>()))
+                          : plot::decode_path(path, decoding, fastest);
+        },
+        *model);
+}
+
+void TablePlayer::play_points(const TableChoice& choice,
+                              const Points& points,
+                              const kinematics::MachineModel& model) {
     if (playing()) {
         throw Error("the table is moving", {}, "stop it, or wait for its end");
     }
@@ -84,7 +103,19 @@ void TablePlayer::play(const TableChoice& choice,
     player_.reset();
     failure_.reset();
     try {
-        player_ = player_of(choice, strokes, *model, stands, clock_, total_);
+        constexpr std::int64_t most = 5'000'000;
+        plot::DecodeSettings decoding = choice.decoding;
+        decoding.most_points = most;
+        const auto made =
+            std::make_shared<const std::vector<Vec3>>(points(decoding, fastest_of(decoding, model), stands));
+        machine::PlayerOptions options;
+        options.period = choice.decoding.period;
+        options.speed = choice.speed;
+        options.format = choice.record;
+        expect_playable(*made, machine::machine_period(options, !choice.port.empty()), model);
+        total_ = std::ssize(*made);
+        player_ = std::make_shared<machine::PointPlayer>(
+            choice.port.empty() ? nullptr : machine::make_link(choice.port), clock_, made, model, options);
         port_ = choice.port;
     } catch (const Error& error) {
         failure_ = error.diagnostic();

@@ -5,6 +5,7 @@
 #include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
 #include "core/machine/point_player.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/decode.h"
 #include "core/plot/strokes.h"
 
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -48,6 +50,11 @@ public:
     void play(const TableChoice& choice,
               const plot::Strokes& strokes,
               const std::shared_ptr<const kinematics::MachineModel>& model);
+    /// The same of a path with its own heights, which is begun at that of its first point. Throws Error too
+    /// where it changes tools, for points do not stop.
+    void play(const TableChoice& choice,
+              const plot::CutPath& path,
+              const std::shared_ptr<const kinematics::MachineModel>& model);
     /// At once.
     void stop();
     void emergency_stop();
@@ -63,6 +70,11 @@ private:
         Vec3 at = Vec3::Zero(); ///< mm
     };
 
+    /// Of the table, from where it stands, if that is known; `fastest` as in decode_within().
+    using Points = std::function<std::vector<Vec3>(
+        const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands)>;
+
+    void play_points(const TableChoice& choice, const Points& points, const kinematics::MachineModel& model);
     [[nodiscard]] std::optional<Vec3> place_of(const std::string& port);
 
     std::function<void()> wake_;

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/widgets/notices.h"
 #include "ui/widgets/sketch.h"
 
 #include <fmt/format.h>
@@ -222,6 +223,12 @@ void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask
     }
 }
 
+/// Paths of programs, path files and reliefs go where they say; strokes as high as the pen.
+bool has_own_heights(const Workbench& now) {
+    const auto made = now.plot.latest();
+    return made && made->path && !made->strokes;
+}
+
 /// Nobody tells where the table stands when it begins.
 void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
@@ -239,13 +246,16 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
 } // namespace
 
 /// Nothing where nobody knows, and where nothing is sent.
-std::optional<Vec3> TablePane::place_of_begin(const TableChoice& choice,
-                                              const actions::TableView& table) const {
+std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) const {
+    const TableChoice& choice = now.plot.table_choice();
+    const actions::TableView table = now.plot.table().view();
     if (choice.port.empty() || table.status.state == PlayState::playing) {
         return std::nullopt;
     }
     if (!table.there) {
-        return Vec3(0.0, 0.0, choice.decoding.pen_up_z);
+        const auto made = now.plot.latest();
+        const bool own_heights = has_own_heights(now) && made->path && !made->path->empty();
+        return Vec3(0.0, 0.0, own_heights ? made->path->front().at.z() : choice.decoding.pen_up_z);
     }
     return port_ == choice.port && table.status.sent > 0 ? std::optional(table.status.position)
                                                          : std::nullopt;
@@ -279,15 +289,20 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
             ui.number(choice.speed, {"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2})) {
         change(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
     }
-    number({"pen_up", "Z up", "mm", "Between strokes", -100.0, 100.0, 5.0, 2},
-           points.pen_up_z,
-           1.0,
-           &DecodeSettings::pen_up_z);
-    number({"pen_down", "Z down", "mm", "On strokes", -100.0, 100.0, 0.0, 2},
-           points.pen_down_z,
-           1.0,
-           &DecodeSettings::pen_down_z);
-    if (const auto begins = place_of_begin(choice, now.plot.table().view())) {
+    {
+        const auto heights =
+            ui.permitted(has_own_heights(now) ? widgets::Permission::refused("The file has its own heights.")
+                                              : widgets::Permission{});
+        number({"pen_up", "Z up", "mm", "Between strokes", -100.0, 100.0, 5.0, 2},
+               points.pen_up_z,
+               1.0,
+               &DecodeSettings::pen_up_z);
+        number({"pen_down", "Z down", "mm", "On strokes", -100.0, 100.0, 0.0, 2},
+               points.pen_down_z,
+               1.0,
+               &DecodeSettings::pen_down_z);
+    }
+    if (const auto begins = place_of_begin(now)) {
         begin_fields(ui, choice, *begins);
     }
     point_fields(ui, points, ask);
@@ -307,6 +322,9 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (table.there && table.status.state == PlayState::emergency_stop) {
         ui.words(table.status.sentence, widgets::Tone::danger);
     }
+    if (table.failure && !table.there) {
+        (void)widgets::banner(ui, "table_failure", {widgets::Severity::warning, to_text(*table.failure), {}});
+    }
     const Rect all = ui.rest();
     const float gap = ui.px(24.0F);
     const float part = (all.w - 2.0F * gap) / 3.0F;
@@ -321,10 +339,8 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         histogram(ui, table.status.jitter, right);
     } else {
         widgets::Sketch sketch(ui, {middle.x, middle.y, 2.0F * part + gap, ui.px(24.0F)});
-        sketch.text(sketch.rect(),
-                    table.failure ? to_text(*table.failure)
-                                  : "Points at constant velocity go to the table, one a period.",
-                    table.failure ? ui.colours().warning : ui.colours().muted);
+        sketch.text(
+            sketch.rect(), "Points at constant velocity go to the table, one a period.", ui.colours().muted);
     }
     if (table.status.state == PlayState::playing) {
         constexpr double frame = 0.03;

@@ -17,8 +17,7 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    [[nodiscard]] std::optional<Vec3> place_of_begin(const actions::TableChoice& choice,
-                                                     const actions::TableView& table) const;
+    [[nodiscard]] std::optional<Vec3> place_of_begin(const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;
     std::string port_; ///< that was played to last
