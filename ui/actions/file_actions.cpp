@@ -59,7 +59,7 @@ void add_file_actions(Actions& actions) {
         {"file.open",
          "File",
          "Open ...",
-         "Opens a project; or a G-code file, a plot or a surface of another program beside it.",
+         "Opens a project; or a G-code file, a plot, a picture or a surface of another program beside it.",
          "Ctrl+O",
          icons::folder},
         always,

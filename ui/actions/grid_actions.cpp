@@ -260,7 +260,9 @@ void add_grid_actions(Actions& actions) {
          "Ctrl+.",
          icons::cancel},
         [](const Workbench& now) {
-            return now.activity.busy ? Permission{} : Permission::refused("Nothing runs in the background.");
+            return !now.activity.busy      ? Permission::refused("Nothing runs in the background.")
+                   : now.activity.stopping ? Permission::refused("It ends with its next step.")
+                                           : Permission{};
         },
         [](Hands& hands) { hands.workshop.cancel_work(); });
 }

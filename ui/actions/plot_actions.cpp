@@ -14,10 +14,14 @@ Permission has_path(const Workbench& now) {
     if (now.plot.file().empty()) {
         return Permission::refused("Open a plot or a picture first.");
     }
-    return made && made->finished && made->path && !made->failure
+    if (!made || !made->finished || !now.plot.is_current(*made)) {
+        return Permission::refused(now.plot.activity().busy
+                                       ? "The path is still being computed."
+                                       : "Its path was cancelled: change something, or open the file again.");
+    }
+    return made->path && !made->failure
                ? Permission{}
-               : Permission::refused(made && made->failure ? to_text(*made->failure)
-                                                           : "The path is still being computed.");
+               : Permission::refused(made->failure ? to_text(*made->failure) : "There is no path.");
 }
 
 Permission can_send(const Workbench& now) {
@@ -25,14 +29,8 @@ Permission can_send(const Workbench& now) {
 }
 
 Permission can_play(const Workbench& now) {
-    const auto made = now.plot.latest();
     if (const Permission path = has_path(now); !path.allowed) {
         return path;
-    }
-    if (!made->strokes) {
-        return Permission::refused("Points are played of strokes: plots, and outlines of pictures. Of G-code "
-                                   "'millwright plot decode' makes "
-                                   "points.");
     }
     return now.plot.table().playing() ? Permission::refused("The table is moving.") : Permission{};
 }

@@ -45,7 +45,14 @@ void PlotBench::read_again() {
     if (materials_.empty()) {
         materials_ = materials_in(assets_);
     }
+    const auto made = worker_.latest();
+    before_ = made ? made->revision : 0;
     worker_.request(input_);
+}
+
+std::shared_ptr<const project::PlotResult> PlotBench::latest() const {
+    auto made = input_.file.empty() ? nullptr : worker_.latest();
+    return made && made->input.file == input_.file ? made : nullptr;
 }
 
 std::vector<plot::Level> PlotBench::levels() const {
@@ -53,7 +60,7 @@ std::vector<plot::Level> PlotBench::levels() const {
         return settings().levels;
     }
     const auto now = latest();
-    return now && now->input.file == file() ? now->levels : std::vector<plot::Level>();
+    return now ? now->levels : std::vector<plot::Level>();
 }
 
 double PlotBench::tool_diameter() const {
@@ -78,11 +85,14 @@ Vec2 end_of(const project::PlotResult& made) {
 
 void PlotBench::play_table() {
     const auto now = latest();
-    if (!now || !now->strokes) {
-        throw Error("there are no strokes to be played");
+    if (!now || !now->path) {
+        throw Error("there is no path to be played");
     }
     const auto model = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
+    if (!now->strokes) {
+        return table_->play(table_choice_, *now->path, model);
+    }
     TableChoice choice = table_choice_;
     choice.decoding.end = end_of(*now);
     table_->play(choice, *now->strokes, model);

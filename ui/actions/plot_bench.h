@@ -6,6 +6,7 @@
 #include "core/project/plot_work.h"
 #include "ui/actions/table_player.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -30,9 +31,11 @@ public:
     [[nodiscard]] const project::PlotInput& input() const { return input_; }
     [[nodiscard]] const std::filesystem::path& file() const { return input_.file; } ///< empty: none
     [[nodiscard]] const project::PlotSettings& settings() const { return input_.settings; }
-    /// Null while nothing is open.
-    [[nodiscard]] std::shared_ptr<const project::PlotResult> latest() const {
-        return input_.file.empty() ? nullptr : worker_.latest();
+    /// Of the file that is open, perhaps with settings that were before; null while there is nothing of it.
+    [[nodiscard]] std::shared_ptr<const project::PlotResult> latest() const;
+    /// Whether `made` is what the file makes now with the settings of now.
+    [[nodiscard]] bool is_current(const project::PlotResult& made) const {
+        return made.revision > before_ && made.input == input_;
     }
     [[nodiscard]] project::Activity activity() const { return worker_.activity(); }
     /// Levels as they are in force, or about to be.
@@ -58,6 +61,7 @@ public:
 private:
     std::filesystem::path assets_;
     project::PlotInput input_;
+    std::uint64_t before_ = 0; ///< revision that was there when the file was last read
     std::vector<plot::Material> materials_;
     std::optional<std::size_t> material_;
     TableChoice table_choice_;

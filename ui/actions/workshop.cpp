@@ -130,6 +130,9 @@ void Workshop::follow_project() {
     guarded([&] { machine_solids_.follow(design, {folder, options_.assets}); });
     if (!(plot_->input() == plot)) {
         writes_plot_.reset();
+        if (plot_->file() != plot.file) { // another one begins at its beginning
+            (session_.file.plays_file ? session_.playback : session_.file.parked) = {};
+        }
         guarded([&] { plot_->follow(plot); });
     }
 }

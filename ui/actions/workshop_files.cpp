@@ -198,7 +198,8 @@ void Workshop::write_plot_path() {
 
 void Workshop::finish_writing_plot() {
     const auto made = plot_->latest();
-    if (!writes_plot_ || !made || !made->finished || (made->program.empty() && !made->failure)) {
+    if (!writes_plot_ || !made || !made->finished || !plot_->is_current(*made) ||
+        (made->program.empty() && !made->failure)) {
         return;
     }
     const bool to_machine = *std::exchange(writes_plot_, std::nullopt);

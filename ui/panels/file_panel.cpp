@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/project/imported_surface.h"
+#include "core/project/plot_input.h"
 #include "ui/actions/workshop.h"
 #include "ui/panels/asked_file.h"
 #include "ui/widgets/icons.h"
@@ -50,6 +51,16 @@ Listed listed(const fs::path& folder, FileQuestion question) {
     std::sort(result.folders.begin(), result.folders.end());
     std::sort(result.files.begin(), result.files.end());
     return result;
+}
+
+/// Of a file; empty for a project.
+std::string kind_of(const fs::path& file) {
+    return is_gcode(file)                   ? "G-code"
+           : project::is_importable(file)   ? "surface"
+           : project::is_picture_file(file) ? "picture"
+           : project::is_path_file(file)    ? "path file"
+           : project::is_plot_file(file)    ? "plot"
+                                            : "";
 }
 
 /// The project's; for a surface that of the last one, which mostly comes from elsewhere.
@@ -185,9 +196,7 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
         const bool is_folder = static_cast<std::size_t>(row) < folders_;
         return source_ == Source::recent ? shortened(entry.parent_path())
                : is_folder               ? std::string("folder")
-                                         : std::string(is_gcode(entry)                 ? "G-code"
-                                         : project::is_importable(entry) ? "surface"
-                                                                         : "");
+                                         : kind_of(entry);
     };
     view.row_id = [this](std::ptrdiff_t row) {
         const fs::path& entry = entries_[static_cast<std::size_t>(row)];
@@ -223,7 +232,13 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
             ui, "A surface of another program: it is shown first, in the Design workspace.");
     } else if (is_gcode(chosen_)) {
         ProjectPreview::draw_words(
-            ui, "A G-code program: it opens beside the project, in the Program workspace.");
+            ui,
+            now.session.workspace == actions::Workspace::plot
+                ? "A G-code program: it is cut as it stands, here in the Plot & Picture workspace."
+                : "A G-code program: it opens beside the project, in the Program workspace.");
+    } else if (project::is_plot_file(chosen_)) {
+        ProjectPreview::draw_words(ui,
+                                   "A " + kind_of(chosen_) + ": it is cut in the Plot & Picture workspace.");
     } else {
         preview_.draw(ui, chosen_);
     }

@@ -102,6 +102,8 @@ void level_field(Ui& ui,
     }
 }
 
+const std::string unknown = "...";
+
 std::string metres(double mm) {
     constexpr double m = 1e-3;
     return fmt::format("{:.3f}", m * mm);
@@ -112,8 +114,8 @@ std::string planned_time(double seconds) {
 }
 
 /// What becomes of the drawing beside what the file has. `planner_s`: of what is cut; 0 while it is not
-/// known.
-void compare(Ui& ui, const project::PlotResult& made, double planner_s) {
+/// known. Not `current`: figures of other settings are not shown for these.
+void compare(Ui& ui, const project::PlotResult& made, double planner_s, bool current) {
     const plot::WorkTime& planned = made.as_planned;
     const plot::WorkTime& drawn = made.as_drawn;
     constexpr std::array<widgets::Column, 3> columns{
@@ -131,7 +133,8 @@ void compare(Ui& ui, const project::PlotResult& made, double planner_s) {
     view.columns = columns;
     view.rows = std::ssize(cells);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        return cells[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+        return current || column == 0 ? cells[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
+                                      : unknown;
     };
     view.row_id = [&](std::ptrdiff_t row) { return ids[static_cast<std::size_t>(row)]; };
     (void)widgets::table(ui, "compared", view);
@@ -264,14 +267,18 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
     if (!section) {
         return;
     }
-    const double planned = now.in_file() ? now.duration() : 0.0;
+    const bool current = now.plot.is_current(*made);
+    const double planned = current && now.in_file() ? now.duration() : 0.0;
     if (made->as_drawn.runs > 0) {
-        compare(ui, *made, planned);
+        compare(ui, *made, planned, current);
     }
-    ui.value("way", "Way, with lifts", metres(made->lengths.cut + made->lengths.travel), "m");
+    ui.value("way",
+             "Way, with lifts",
+             current ? metres(made->lengths.cut + made->lengths.travel) : unknown,
+             current ? "m" : "");
     ui.value("planner",
              "Time, planner",
-             planned > 0.0 ? plot::minutes_and_seconds(planned) : "...",
+             planned > 0.0 ? plot::minutes_and_seconds(planned) : unknown,
              plot::minutes_or_hours(planned));
 }
 
@@ -385,9 +392,14 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
 
 void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
     const auto made = now.plot.latest();
-    if (!made || made->notices.empty()) {
-        ui.note("Nothing was wrong in it.");
+    if (!made) {
+        ui.note("Nothing of it has been read yet.");
         return;
+    }
+    if (made->failure) {
+        (void)widgets::banner(ui, "what_is_wrong", {widgets::Severity::warning, to_text(*made->failure), {}});
+    } else if (made->notices.empty()) {
+        ui.note("Nothing was wrong in it.");
     }
     for (const Diagnostic& notice : made->notices) {
         ui.text(to_text(notice));
@@ -396,8 +408,8 @@ void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
 
 void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
-    const std::string notices =
-        made && !made->notices.empty() ? fmt::format("Notices ({})", made->notices.size()) : "Notices";
+    const std::size_t count = made ? made->notices.size() + (made->failure ? 1 : 0) : 0;
+    const std::string notices = count > 0 ? fmt::format("Notices ({})", count) : "Notices";
     const std::array<widgets::Option, 3> tabs{{{"materials", "Materials", icons::table},
                                                {"table", "XYZ table", icons::machine},
                                                {"notices", notices, icons::info}}};

@@ -24,6 +24,14 @@ std::string mouse_text(const std::optional<Vec3>& p) {
              : std::string("mm, deg, mm/min");
 }
 
+/// Of the file that is looked at: a plot that makes no program leaves the one before it opened.
+std::string program_name(const Workbench& now) {
+    if (now.session.workspace == actions::Workspace::plot && !now.plot.file().empty()) {
+        return ", " + now.plot.file().filename().string();
+    }
+    return now.opened ? ", " + now.opened->file.filename().string() : "";
+}
+
 } // namespace
 
 void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
@@ -35,7 +43,12 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
     ui.move_by(ui.px(left), ui.px(top));
     if (now.activity.busy) {
         const auto width = ui.width(std::max(ui.px(work_width), ui.rest().w - ui.px(beside_px)));
-        if (ui.progress("work", now.activity.text, now.activity.fraction)) {
+        const bool stopping = now.activity.stopping;
+        if (ui.progress("work",
+                        (stopping ? "Cancelling: " : "") + now.activity.text,
+                        now.activity.fraction,
+                        stopping ? widgets::Permission::refused("It ends with its next step.")
+                                 : widgets::Permission{})) {
             ask.run("work.cancel");
         }
     } else {
@@ -46,7 +59,7 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
     }
     std::string file = now.document.file.empty() ? now.project.name : now.document.file.filename().string();
     file += now.changed() ? " (not saved)" : "";
-    file += now.opened ? ", " + now.opened->file.filename().string() : "";
+    file += program_name(now);
     for (const std::string& text : {machine_state(now), mouse_text(under_mouse), file}) {
         ui.beside();
         ui.move_by(ui.px(between), 0.0F);

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -85,6 +87,54 @@ TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
     ASSERT_TRUE(bench.person.live_until(
         [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }));
     EXPECT_EQ(bench.plot().table().view().status.position, Vec3(10.0, 50.0, choice.decoding.pen_up_z));
+}
+
+// Programs, path files and reliefs have a path with heights of its own.
+TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
+    test::TableBench table({.keep = true});
+    Bench bench("assets/samples/plot/everyday.plt");
+    std::ofstream(bench.folder / "step.ngc") << "G21 G90\nG0 Z4\nG0 X2 Y3\nG1 Z-1 F600\nX12\nG0 Z4\nM2\n";
+    bench.drop(bench.folder / "step.ngc");
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    actions::TableChoice choice;
+    choice.port = table.port();
+    choice.record = {};
+    choice.record.answer = "ok";
+    bench.plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    EXPECT_THAT(bench.person.refusal("lower/pen_up"), HasSubstr("its own heights"));
+    EXPECT_TRUE(bench.person.sees("lower/begins"));
+    EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "");
+    bench.person.click("lower/plot_play_table");
+    bench.person.frames(3);
+    ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }, 60.0));
+    const auto went = table.positions();
+    EXPECT_EQ(went.front(), (std::vector<double>{0.0, 0.0, 4.0}));
+    EXPECT_EQ(went.back(), (std::vector<double>{12.0, 3.0, 4.0}));
+    const auto lowest = std::ranges::min_element(went, {}, [](const auto& at) { return at[2]; });
+    EXPECT_DOUBLE_EQ((*lowest)[2], -1.0);
+    bench.person.keep("plot-table-gcode");
+}
+
+TEST(PlotTable, WhatIsRefusedIsToldWholeAndInTheWordsOfThePane) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    actions::TableChoice choice;
+    choice.decoding.velocity = 500.0;
+    bench.plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    bench.person.frames(3);
+    EXPECT_TRUE(bench.person.sees("lower/table_failure"));
+    const auto failure = bench.plot().table().view().failure;
+    ASSERT_TRUE(failure);
+    EXPECT_THAT(to_text(*failure), HasSubstr("point 2: axis"));
+    EXPECT_THAT(to_text(*failure), HasSubstr("set a lower Velocity"));
+    EXPECT_THAT(to_text(*failure), testing::Not(HasSubstr("decode")));
+    bench.person.keep("plot-table-refused");
 }
 
 } // namespace

@@ -1,0 +1,109 @@
+// One file after another in the Plot & Picture workspace: what is shown, told and sent is of the open one.
+#include "core/base/files.h"
+#include "tests/ui/panels/plot_person.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+namespace fs = std::filesystem;
+using Bench = test::PlotPerson;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string with_s = "G21 G90\nM3 S8000\nG0 Z5\nG0 X1 Y1\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM2\n";
+
+fs::path file_in(const Bench& bench, const std::string& name, const std::string& text) {
+    std::ofstream(bench.folder / name) << text;
+    return bench.folder / name;
+}
+
+TEST(PlotFiles, TheProgramsOwnSpindleCountsUntilAPersonTypesAnother) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S10000"));
+    bench.drop(file_in(bench, "turns.ngc", with_s));
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S8000"));
+    EXPECT_TRUE(bench.made().notices.empty());
+    bench.person.keep("plot-spindle");
+    bench.person.fill_in("inspector/work/spindle_rpm", "10000");
+    bench.settle();
+    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S10000"));
+    ASSERT_EQ(bench.made().notices.size(), 1U);
+    EXPECT_THAT(bench.made().notices[0].message, HasSubstr("8000 times a minute, here it does 10000"));
+    bench.person.fill_in("inspector/work/spindle_rpm", "8000");
+    bench.settle();
+    EXPECT_FALSE(bench.plot().settings().spindle_rpm);
+    EXPECT_TRUE(bench.made().notices.empty());
+}
+
+// The figures and the buttons of the file before were alive until those of this one came.
+TEST(PlotFiles, NothingOfTheFileBeforeIsShownOrSentForThisOne) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), IsEmpty());
+    bench.person.click("inspector/travel/order"); // takes its time where there is much to order
+    bench.settle();
+    std::string strokes = "IN;SP1;";
+    for (int n = 0; n < 50'000; ++n) {
+        const int at = (n * 7919) % 10'000;
+        strokes += "PU" + std::to_string(at) + "," + std::to_string(n % 9973) + ";PD" +
+                   std::to_string(at + 5) + "," + std::to_string(n % 9973) + ";";
+    }
+    bench.person.workshop().receive({file_in(bench, "many.plt", strokes)});
+    bench.plot().cancel(); // before anything of it is there
+    bench.plot().wait_idle();
+    bench.person.frames(3);
+    EXPECT_FALSE(bench.plot().latest());
+    EXPECT_FALSE(bench.person.sees("layers/figures"));
+    for (const char* button :
+         {"inspector/plot_to_machine", "inspector/plot_write_program", "inspector/plot_write_path"}) {
+        EXPECT_THAT(bench.person.refusal(button), HasSubstr("was cancelled")) << button;
+    }
+    bench.person.keep("plot-cancelled");
+    bench.drop(file_in(bench, "turns.ngc", with_s));
+    EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), IsEmpty());
+    EXPECT_NEAR(bench.made().lengths.cut, 25.0, 1e-9);
+}
+
+TEST(PlotFiles, FiguresOfOtherSettingsAreNotShownForThese) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.workshop().edit(
+        "Change depth", [](project::Project& draft) { draft.plot.settings.safe_height = 7.0; }, {});
+    bench.plot().cancel();
+    bench.plot().wait_idle();
+    ASSERT_TRUE(bench.plot().latest());
+    EXPECT_FALSE(bench.plot().is_current(*bench.plot().latest()));
+    bench.person.frames(3);
+    EXPECT_THAT(bench.person.refusal("inspector/plot_write_path"), HasSubstr("was cancelled"));
+    bench.person.keep("plot-other-settings");
+}
+
+TEST(PlotFiles, WhatIsWrongWithAFileStandsUnderNoticesAndItsNameBelow) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.drop(file_in(bench, "turns.ngc", with_s));
+    bench.drop(file_in(bench, "scaled.ngc", "G21 G90\nG0 Z5\nG68 R20\nG1 Z-1 F100\nM2\n"));
+    ASSERT_TRUE(bench.made().failure);
+    bench.person.click("lower/tabs/notices");
+    bench.person.frames(3);
+    EXPECT_TRUE(bench.person.sees("lower/what_is_wrong"));
+    bench.person.keep("plot-wrong-program");
+}
+
+TEST(PlotFiles, AnotherFileIsPlayedFromItsBeginning) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.click("timeline/timeline/last");
+    bench.person.frames(3);
+    ASSERT_GT(bench.person.workshop().look().time(), 0.0);
+    bench.drop(file_in(bench, "turns.ngc", with_s));
+    ASSERT_GT(bench.person.workshop().look().duration(), 0.0);
+    EXPECT_DOUBLE_EQ(bench.person.workshop().look().time(), 0.0);
+}
+
+} // namespace
+} // namespace millwright::panels
