@@ -21,6 +21,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -107,13 +109,26 @@ void print(const StudyRow& row) {
                                   : "  " + row.loss);
 }
 
-/// The tables first: where mpirun stops a study, it may leave no time for pictures.
-void write(const std::string& folder, const std::vector<StudyRow>& rows) {
-    write_outputs(folder,
-                  {{"kinematic-error.csv", project::study_csv(rows)},
-                   {"kinematic-error.json", project::study_json(rows)},
-                   {"kinematic-error.md", project::study_markdown(rows)}});
-    write_outputs(folder, study_pictures(rows));
+std::vector<OutputFile> tables_of(const std::vector<StudyRow>& rows) {
+    return {{"kinematic-error.csv", project::study_csv(rows)},
+            {"kinematic-error.json", project::study_json(rows)},
+            {"kinematic-error.md", project::study_markdown(rows)}};
+}
+
+void write_whole(const std::filesystem::path& folder, const std::vector<StudyRow>& rows) {
+    std::vector<OutputFile> files = tables_of(rows);
+    std::ranges::move(study_pictures(rows), std::back_inserter(files));
+    write_outputs(folder, files);
+}
+
+/// Of a study with cases missing, apart from those of a whole one, which may stand in `folder`. Returns
+/// where. The tables first: where mpirun stops a study, it may leave no time for pictures.
+std::filesystem::path write_unfinished(const std::filesystem::path& folder,
+                                       const std::vector<StudyRow>& rows) {
+    const std::filesystem::path apart = folder / "unfinished";
+    write_outputs(apart, tables_of(rows));
+    write_outputs(apart, study_pictures(rows));
+    return apart;
 }
 
 void print_head() {
@@ -153,16 +168,23 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
         rows.insert(rows.end(), of_case.begin(), of_case.end());
         done += of_case.empty() ? 0 : 1;
     }
-    write(options.out, rows);
+    const bool whole = done == cases.size();
+    std::string kept = "nothing is written";
+    if (whole) {
+        write_whole(options.out, rows);
+    } else if (done > 0) {
+        kept = fmt::format("they are in {}", write_unfinished(options.out, rows).string());
+    }
     if (std::ranges::any_of(rows, &StudyRow::no_gain)) {
         fmt::print("no gain: nothing better was found than what the method starts from, which is kept\n");
     }
-    if (found.stopped) {
-        fmt::print(stderr, "stopped after {} of {} cases, which are written\n", done, cases.size());
+    if (!whole && found.stopped) {
+        fmt::print(stderr, "stopped after {} of {} cases: {}\n", done, cases.size(), kept);
         throw Cancelled();
     }
     if (!found.lost.empty()) {
-        throw Error(fmt::format("{} of {} cases are written: {}", done, cases.size(), found.lost.front()));
+        throw Error(
+            fmt::format("{} of {} cases are done, {}: {}", done, cases.size(), kept, found.lost.front()));
     }
     return 0;
 }

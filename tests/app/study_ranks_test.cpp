@@ -7,11 +7,13 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 namespace millwright::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::vector<std::string> study(const std::string& out) {
@@ -59,7 +61,9 @@ TEST_F(StudyOnRanks, ResultsAreThoseOfOneProcess) {
     EXPECT_THAT(both.err, HasSubstr("3 cases on 2 ranks"));
 }
 
-TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndTheOthersWritten) {
+TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndAnEarlierStudyStays) {
+    std::filesystem::create_directories(folder_ / "out");
+    write_content(folder_ / "out" / "kinematic-error.csv", "an earlier study");
     Program program(
         {"study", "kinematic-error", "--surface", "dome", "--out", folder_ / "out"}, {}, two_ranks);
     program.wait_for_error_text("cases on 2 ranks");
@@ -71,7 +75,8 @@ TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndTheOthersWritten) {
     EXPECT_THAT(
         ended.err,
         HasSubstr("rank 1 has not ended; without its cases: dome on rotary-tilt-listing with 20 points, "));
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "kinematic-error.csv"));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("0 of 15 cases"), HasSubstr("nothing is written")));
+    EXPECT_EQ(content_of(folder_ / "out" / "kinematic-error.csv"), "an earlier study");
 }
 
 std::vector<std::string> set_up(const std::string& out, const std::string& places) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -46,6 +47,50 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
     EXPECT_THAT(content_of(scratch / "out/kinematic-error.md"), HasSubstr(" (no gain) | "));
     EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
     EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
+}
+
+/// A folder with what an earlier, whole study left.
+void leave_old_study(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"kinematic-error.csv", "kinematic-error.json", "kinematic-error.md"}) {
+        write_content(folder / name, "an earlier study");
+    }
+}
+
+void expect_old_study(const std::filesystem::path& folder) {
+    for (const char* name : {"kinematic-error.csv", "kinematic-error.json", "kinematic-error.md"}) {
+        EXPECT_EQ(content_of(folder / name), "an earlier study") << name;
+    }
+}
+
+TEST(StudyCommand, StoppedBeforeItsFirstCaseItWritesNothing) {
+    const ScratchFolder scratch;
+    leave_old_study(scratch / "out");
+    Program program({"study", "kinematic-error", "--surface", "dome", "--out", scratch / "out"});
+    program.wait_for_error_text("15 cases on 1 ranks");
+    program.send(SIGINT);
+    const Ended ended = program.end();
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("stopped after 0 of 15 cases: nothing is written"));
+    expect_old_study(scratch / "out");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out/unfinished"));
+}
+
+TEST(StudyCommand, StoppedLaterItWritesWhatIsDoneApartFromAWholeStudy) {
+    const ScratchFolder scratch;
+    const auto out = scratch / "out";
+    leave_old_study(out);
+    Program program({"study", "kinematic-error", "--quick", "--surface", "dome", "--out", out});
+    program.wait_for_error_text("\n 6"); // of the work of three cases
+    program.send(SIGINT);
+    const Ended ended = program.end();
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(" of 3 cases: they are in " + (out / "unfinished").string()));
+    expect_old_study(out);
+    EXPECT_FALSE(std::filesystem::exists(out / "dome-rotary-tilt-listing.png"));
+    EXPECT_THAT(content_of(out / "unfinished/kinematic-error.csv"),
+                HasSubstr("\ndome,rotary-tilt-listing,12,"));
+    EXPECT_THAT(content_of(out / "unfinished/dome-rotary-tilt-listing.png"), StartsWith("\x89PNG"));
 }
 
 TEST(StudyCommand, NamesWhatTheStudyDoesNotHave) {
