@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/project_file.h"
+#include "core/project/set_up_edge.h"
 #include "core/project/set_up_study.h"
 #include "ui/viewport/map_picture.h"
 #include "ui/viewport/set_up_map.h"
@@ -115,11 +116,19 @@ int set_up(const Options& options) {
                settings.goal == SetUpGoal::error ? "mean mm" : "travel mm");
     print("start", study.search.start);
     print("best", study.search.best);
-    if (!(study.search.best.cost < study.search.start.cost)) {
+    const bool gains = study.search.best.cost < study.search.start.cost;
+    if (!gains) {
         fmt::print("no gain: no better place than the start was found\n");
     }
+    const std::string edge = project::edge_sentence(study.search,
+                                                    project::set_up_box(workpiece, settings),
+                                                    {"--reach", "--reach", "--height-reach", "--turn-reach"});
+    if (!edge.empty()) {
+        fmt::print("{}\n", edge);
+    }
     if (!options.accepted.empty()) {
-        project::write_project(project::with_set_up(opened.project, study.search.best.place),
+        project::write_project(gains ? project::with_set_up(opened.project, study.search.best.place)
+                                     : opened.project,
                                options.accepted);
     }
     return 0;

@@ -210,6 +210,10 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     if (settings.descent > 0) {
         found.evaluations += descend(cost, settings, found.best, progress.part(share, 1.0));
     }
+    constexpr double rounding = 1e-6; // of the cost
+    if (!(found.best.cost < (1.0 - rounding) * found.start.cost)) {
+        found.best = found.start;
+    }
     return found;
 }
 

@@ -123,6 +123,27 @@ TEST(StudyCommand, NamesWhatTheStudyDoesNotHave) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+TEST(StudyCommand, APartIsNotMovedForAGainOfTheSizeOfRounding) {
+    const ScratchFolder scratch;
+    const auto project =
+        small_project(scratch.path(), "dome", "\"file\": \"rotary-tilt-listing\"", "\"file\": \"ca-head\"");
+    const std::string accepted = scratch / "there.json";
+    const Ended ended = run({"study",
+                             "set-up",
+                             project,
+                             "--out",
+                             scratch / "out",
+                             "--places",
+                             "5",
+                             "--nodes",
+                             "6",
+                             "--accept",
+                             accepted});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nno gain: "));
+    EXPECT_FALSE(nlohmann::json::parse(content_of(accepted)).at("machine").contains("workpiece_offset"));
+}
+
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");

@@ -3,6 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/project/set_up_edge.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/viewport/map_picture.h"
@@ -153,6 +154,18 @@ std::string cost_text(double cost) {
     return std::isfinite(cost) ? length_text(cost) : std::string("out of reach");
 }
 
+/// That the best place lies at the edge of what was searched, as long as that can be told.
+std::string edge_text(const Workbench& now, const project::SetUpResult& found) {
+    if (!now.plan || !now.plan->plan.workpiece || !project::same_but_for_place(found.project, now.project)) {
+        return {};
+    }
+    project::Workpiece then = *now.plan->plan.workpiece;
+    then.machine = then.machine.with_workpiece_offset(toolpath::offset_of(found.now));
+    return project::edge_sentence(found.study->search,
+                                  project::set_up_box(then, found.settings),
+                                  {"Shift a, b", "Shift a, b", "Shift c", "Turn"});
+}
+
 void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
     if (found.failure) {
         (void)widgets::banner(
@@ -179,6 +192,10 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
                       ? "  (" + change_text(search.start.cost, search.best.cost) + ")"
                       : std::string()),
              "mm");
+    const std::string edge = edge_text(now, found);
+    if (!edge.empty()) {
+        (void)widgets::banner(ui, "edge", {widgets::Severity::info, edge, {}});
+    }
     const toolpath::SetUpPlace place = now.set_up_place();
     ui.value("place",
              "Marked a, b, c",

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -162,12 +163,51 @@ std::string read_out(const HeatMapView& view, const MapPlace& place) {
                        here);
 }
 
+bool is_outside(const Mapping& mapping, const MapPlace& place) {
+    return place.x < mapping.x_low || place.x > mapping.x_high || place.y < mapping.y_low ||
+           place.y > mapping.y_high;
+}
+
+/// At the edge of the map, where the way from its middle to the place leaves it.
+void draw_arrow_outwards(Ui& ui, const Mapping& mapping, const MapPlace& place) {
+    const Rect& box = mapping.box;
+    const ImVec2 middle{box.x + 0.5F * box.w, box.y + 0.5F * box.h};
+    const float x = mapping.pixel_x(place.x) - middle.x;
+    const float y = mapping.pixel_y(place.y) - middle.y;
+    const float length = std::hypot(x, y);
+    const ImVec2 ahead{x / length, y / length};
+    const float margin = ui.px(3.0F);
+    const float reach = std::min((0.5F * box.w - margin) / std::max(std::abs(ahead.x), 1e-6F),
+                                 (0.5F * box.h - margin) / std::max(std::abs(ahead.y), 1e-6F));
+    const auto corner = [&](float along, float aside) {
+        return ImVec2{middle.x + ahead.x * (reach - along) - ahead.y * aside,
+                      middle.y + ahead.y * (reach - along) + ahead.x * aside};
+    };
+    const float size = ui.px(14.0F);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const std::array<ImVec2, 3> corners{
+        corner(0.0F, 0.0F), corner(size, 0.5F * size), corner(size, -0.5F * size)};
+    list.AddTriangleFilled(corners[0], corners[1], corners[2], 0xFFFFFFFF);
+    list.AddTriangle(corners[0], corners[1], corners[2], 0xFF000000, ui.px(1.5F));
+}
+
+/// Above the map at the right, where its mark is none but an arrow.
+void draw_where_outside(Ui& ui, const Rect& line, const Mapping& mapping, const HeatMapView& view) {
+    if (view.chosen && is_outside(mapping, *view.chosen)) {
+        const std::string text = fmt::format(
+            "outside: {} {:.6g}, {} {:.6g}", view.x_label, view.chosen->x, view.y_label, view.chosen->y);
+        draw_text(ui, ui.look().fonts.small, line, ui.colours().text, text, Align::right);
+    }
+}
+
 void draw_marks(Ui& ui, const Mapping& mapping, const HeatMapView& view) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float size = ui.px(6.0F);
     constexpr Colour white = 0xFFFFFFFF;
     constexpr Colour black = 0xFF000000;
-    if (view.chosen) {
+    if (view.chosen && is_outside(mapping, *view.chosen)) {
+        draw_arrow_outwards(ui, mapping, *view.chosen);
+    } else if (view.chosen) {
         const ImVec2 at{mapping.pixel_x(view.chosen->x), mapping.pixel_y(view.chosen->y)};
         list.AddCircle(at, size, black, 0, ui.px(4.0F));
         list.AddCircle(at, size, white, 0, ui.px(1.8F));
@@ -210,6 +250,7 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
     draw_marks(ui, mapping, view);
     ImGui::PopClipRect();
     draw_ticks(ui, mapping, view, all.x);
+    draw_where_outside(ui, {all.x, all.y + line + ui.px(3.0F), all.w, line}, mapping, view);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const MapPlace place{mapping.value_x(mouse.x), value_y(mapping, mouse.y)};
     if (now.hovered) {

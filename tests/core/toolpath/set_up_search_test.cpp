@@ -56,6 +56,16 @@ TEST(SetUpSearch, IsNeverWorseThanTheStart) {
     EXPECT_EQ(found.best.cost, found.start.cost);
 }
 
+TEST(SetUpSearch, APartStaysWhereNoPlaceIsBetterByMoreThanRounding) {
+    const SetUpCost cost = cost_of("dome", "ca-head", 6); // both rotary axes move the tool
+    SetUpSearchSettings box;
+    box.least = cost.start() - SetUpPlace(60.0, 60.0, 80.0, 0.0);
+    box.most = cost.start() + SetUpPlace(60.0, 60.0, 80.0, 0.0);
+    const SetUpSearch found = search_set_up(cost, box, {});
+    EXPECT_EQ(found.best.place, found.start.place);
+    EXPECT_EQ(found.best.cost, found.start.cost);
+}
+
 TEST(SetUpSearch, LessTravelOfTheLinearAxesNearTheTurningAxis) {
     const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 8, SetUpGoal::travel);
     const SetUpSearch found = search_set_up(cost, on_the_table, {});

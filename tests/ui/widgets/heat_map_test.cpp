@@ -19,6 +19,7 @@ protected:
     std::vector<double> y{10.0, 20.0};
     std::vector<double> values{1.0, 2.0, 3.0, 4.0, 5.0, std::numeric_limits<double>::infinity()};
     std::vector<double> asked;
+    MapPlace chosen{-100.0, 10.0};
     Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
     std::optional<MapPlace> clicked;
     Stage stage{[this](Ui& ui) {
@@ -33,7 +34,7 @@ protected:
         view.x_label = view.y_label = "b";
         view.x_unit = view.y_unit = "mm";
         view.best = MapPlace{1.0, 20.0};
-        view.chosen = MapPlace{-100.0, 10.0};
+        view.chosen = chosen;
         view.colours = [this](double t) {
             asked.push_back(t);
             return rgb(0x808080);
@@ -72,6 +73,28 @@ TEST_F(HeatMap, SaysInANarrowPaneWhatItIsOfAndWhatGoesUp) {
     values = {0.43671, 2.0, 3.0, 4.0, 5.0, 16.25};
     stage.frames(2);
     EXPECT_TRUE(stage.ui().cut_texts().empty());
+}
+
+// Where the part stood outside of the map there was no mark and no word.
+TEST_F(HeatMap, APlaceOutsideHasAnArrowAtTheEdge) {
+    const auto white = [this] {
+        const Rect box = stage.place("maps/cost");
+        const auto picture = stage.picture();
+        int count = 0;
+        for (int row = static_cast<int>(box.y); row < static_cast<int>(box.bottom()); ++row) {
+            for (int column = static_cast<int>(box.x); column < static_cast<int>(box.x + 20.0F); ++column) {
+                count += picture.pixels[static_cast<std::size_t>(row * picture.width + column)] == 0xFFFFFFFF
+                             ? 1
+                             : 0;
+            }
+        }
+        return count;
+    };
+    stage.frames(2);
+    EXPECT_GT(white(), 40) << "at a = -100, left of all columns";
+    chosen = MapPlace{1.0, 10.0};
+    stage.frames(1);
+    EXPECT_EQ(white(), 0);
 }
 
 TEST_F(HeatMap, WithoutANumberSaysSo) {
