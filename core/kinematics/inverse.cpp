@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace millwright::kinematics {
 
@@ -145,6 +146,56 @@ std::string limit_sentence(const MachineAxis& axis, double position) {
                        rotary ? "deg" : "mm");
 }
 
+/// How far outside of the axis's limits, 0 inside.
+double beyond(const MachineAxis& axis, double position) {
+    return std::max({axis.min - position, position - axis.max, 0.0});
+}
+
+/// Of all turns of `angle`, of which none is inside the limits, the one that is least outside.
+double turn_nearest_to_limits(const MachineAxis& axis, double angle) {
+    if (!std::isfinite(axis.min) || !std::isfinite(axis.max)) {
+        return angle;
+    }
+    const double below = angle + 2.0 * pi * std::floor((axis.min - angle) / (2.0 * pi));
+    const double above = below + 2.0 * pi;
+    return beyond(axis, below) < beyond(axis, above) ? below : above;
+}
+
+/// What lies outside of a branch whose angles cannot be inside: its worst axis.
+struct Outside {
+    int axis = -1;
+    double position = 0.0;
+    double by = 0.0;
+};
+
+Outside worst_turn(const MachineModel& machine, const AxisPositions& branch) {
+    Outside worst;
+    for (const int n : machine.rotary_axes()) {
+        if (!turns_inside(machine.axis(n), branch[n]).empty()) {
+            continue;
+        }
+        const double position = turn_nearest_to_limits(machine.axis(n), branch[n]);
+        const double by = beyond(machine.axis(n), position);
+        if (worst.axis < 0 || by > worst.by) {
+            worst = {n, position, by};
+        }
+    }
+    return worst;
+}
+
+/// Of the branches and turns the one that lacks least.
+std::string turn_sentence(const MachineModel& machine, const std::vector<AxisPositions>& branches) {
+    Outside nearest;
+    for (const AxisPositions& branch : branches) {
+        const Outside worst = worst_turn(machine, branch);
+        if (worst.axis >= 0 && (nearest.axis < 0 || worst.by < nearest.by)) {
+            nearest = worst;
+        }
+    }
+    expects(nearest.axis >= 0, "an angle is outside where no turn is inside");
+    return limit_sentence(machine.axis(nearest.axis), nearest.position);
+}
+
 } // namespace
 
 AxisPositions with_tip_at(const MachineModel& machine, AxisPositions positions, const Vec3& tip) {
@@ -191,12 +242,14 @@ inverse(const MachineModel& machine, const geometry::ToolPose& pose, const AxisP
         solution.why = "no rotation of the machine's axes points the tool this way";
         return solution;
     }
+    double least_outside = std::numeric_limits<double>::infinity();
     for (const AxisPositions& branch : branches) {
         for (const AxisPositions& turned : all_turns(machine, branch)) {
             const int outside = axis_outside(machine, turned);
             if (outside < 0) {
                 solution.branches.push_back(turned);
-            } else if (solution.why.empty()) {
+            } else if (beyond(machine.axis(outside), turned[outside]) < least_outside) {
+                least_outside = beyond(machine.axis(outside), turned[outside]);
                 solution.why = limit_sentence(machine.axis(outside), turned[outside]);
             }
         }
@@ -209,8 +262,7 @@ inverse(const MachineModel& machine, const geometry::ToolPose& pose, const AxisP
     }
     solution.reach = Reach::outside_limits;
     if (solution.why.empty()) {
-        solution.why = limit_sentence(machine.axis(machine.rotary_axes()[0]),
-                                      branches.front()[machine.rotary_axes()[0]]);
+        solution.why = turn_sentence(machine, branches);
     }
     return solution;
 }

@@ -171,6 +171,20 @@ void check_reach(const ImportedSurface& imported, const std::filesystem::path& f
     }
 }
 
+/// Before it is fitted: a patch near points that are too far away is one that cannot be made.
+void check_reach(const exchange::TriangleMesh& mesh, double mm_per_unit, const std::filesystem::path& file) {
+    for (const Vec3& point : mesh.points) {
+        const double far = mm_per_unit * point.cwiseAbs().maxCoeff();
+        if (!(far <= farthest_point_mm)) {
+            throw Error(fmt::format("a point of the mesh is {:g} mm from the origin, more than {} mm",
+                                    far,
+                                    farthest_point_mm),
+                        file,
+                        "is the unit right?");
+        }
+    }
+}
+
 } // namespace
 
 bool is_importable(const std::filesystem::path& file) {
@@ -198,6 +212,7 @@ ImportSource read_source(const std::filesystem::path& file, const Progress& prog
 ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
     if (source.mesh) {
+        check_reach(source.mesh->mesh, choice.mm_per_unit, source.file);
         imported = import_mesh(*source.mesh, choice, progress);
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);

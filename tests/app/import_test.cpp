@@ -82,6 +82,17 @@ TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {
     EXPECT_NEAR(json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
 }
 
+// A control point was told of, and no file.
+TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
+    const std::string mesh =
+        written("big.obj", "v 0 0 0\nv 200000 0 0\nv 0 10 0\nv 200000 10 1\nf 1 2 4\nf 1 4 3\n");
+    const Ended ended = run({"import", mesh, "--out", path("p.json")});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("big.obj: a point of the mesh is 200000 mm from the origin, more than 100000 mm"));
+    EXPECT_FALSE(std::filesystem::exists(path("p.json")));
+}
+
 TEST_F(ImportCommand, SaysWhatIsWrong) {
     const auto refusal = [&](const std::vector<std::string>& arguments) {
         const Ended ended = run(arguments);

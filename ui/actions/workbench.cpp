@@ -64,7 +64,7 @@ std::string Workbench::part_place() const {
         return {};
     }
     const Vec3& at = plan->plan.workpiece->machine.description().workpiece_offset;
-    const auto to_hundredths = [](double mm) { return shortest(0.01 * std::round(100.0 * mm) + 0.0); };
+    const auto to_hundredths = [](double mm) { return shortest(std::round(100.0 * mm) / 100.0 + 0.0); };
     return "part at " + to_hundredths(at.x()) + ", " + to_hundredths(at.y()) + ", " + to_hundredths(at.z()) +
            " mm";
 }

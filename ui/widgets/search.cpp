@@ -7,7 +7,9 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace millwright::widgets {
@@ -48,21 +50,34 @@ void draw_item(Ui& ui, const Rect& row, const SearchItem& item, bool chosen, boo
               item.title);
 }
 
+bool same_letter(char a, char b) {
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    return lower(a) == lower(b);
+}
+
+/// Whether the first words of `title` are exactly what was typed.
+bool begins_with_words(std::string_view title, std::string_view letters) {
+    const auto last = letters.find_last_not_of(' ');
+    letters = letters.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    return !letters.empty() && title.size() >= letters.size() &&
+           std::ranges::equal(title.substr(0, letters.size()), letters, same_letter) &&
+           (title.size() == letters.size() || title[letters.size()] == ' ');
+}
+
 } // namespace
 
 std::vector<std::ptrdiff_t> find_items(std::string_view letters, std::span<const SearchItem> items) {
-    std::vector<std::pair<int, std::ptrdiff_t>> scored;
+    std::vector<std::tuple<bool, int, std::ptrdiff_t>> scored;
     for (std::ptrdiff_t i = 0; i < std::ssize(items); ++i) {
         const SearchItem& item = items[static_cast<std::size_t>(i)];
         const std::string whole = std::string(item.title) + " " + std::string(item.detail);
         if (const auto score = fuzzy_score(letters, whole)) {
-            scored.emplace_back(-*score, i);
+            scored.emplace_back(!begins_with_words(item.title, letters), -*score, i);
         }
     }
     std::sort(scored.begin(), scored.end());
     std::vector<std::ptrdiff_t> found;
-    std::transform(
-        scored.begin(), scored.end(), std::back_inserter(found), [](const auto& s) { return s.second; });
+    std::ranges::transform(scored, std::back_inserter(found), [](const auto& s) { return std::get<2>(s); });
     return found;
 }
 

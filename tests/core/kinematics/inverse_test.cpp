@@ -110,6 +110,23 @@ TEST(InverseKinematics, AnswersOutsideLimitsWithTheAxisAndTheRange) {
     EXPECT_NE(below.why.find("axis A"), std::string::npos) << below.why;
 }
 
+// 237.844 deg was told of a position at -122.156, two degrees beyond the limit.
+TEST(InverseKinematics, OutsideLimitsTellsTheTurnThatIsNearestToThem) {
+    const MachineModel machine = test::machine("ac-table"); // A within 120 deg
+    AxisPositions there = AxisPositions::Zero(5);
+    const int a = machine.rotary_axes()[0];
+    there[a] = from_degrees(-122.156);
+    const auto pose = forward(machine, there);
+    for (const double before_deg : {-100.0, 0.0, 100.0}) {
+        AxisPositions previous = AxisPositions::Zero(5);
+        previous[a] = from_degrees(before_deg);
+        const auto solution = inverse(machine, pose, previous);
+        EXPECT_EQ(solution.reach, Reach::outside_limits);
+        EXPECT_NE(solution.why.find("122.156, outside -120.000 ... 120.000 deg"), std::string::npos)
+            << before_deg << ": " << solution.why;
+    }
+}
+
 TEST(InverseKinematics, OfAThreeAxisMachineReachesOnlyTheToolAxis) {
     MachineDescription description = test::machine("ac-table").description();
     description.table.clear();

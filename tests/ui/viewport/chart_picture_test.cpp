@@ -39,6 +39,7 @@ TEST(ChartPicture, LeavesItsMarginFree) {
             EXPECT_EQ(picture.at(x, y), picture.at(0, 0)) << x << " " << y;
         }
     }
+    EXPECT_EQ(picture.at(0, 0), picture.at(375, 21)) << "beside the title: no panel whose edge it stands on";
 }
 
 /// Ten lines, of which one is drawn; the key is left out, since it is the same for all.

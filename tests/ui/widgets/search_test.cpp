@@ -30,6 +30,16 @@ TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {
               *fuzzy_score("save", "Save a copy of the whole project elsewhere"));
 }
 
+// "Joint limits" was first, and Enter took it without a word.
+TEST(FindItems, ATitleThatBeginsWithTheVeryWordComesFirst) {
+    const std::array<SearchItem, 3> layers{SearchItem{"joints", "Joint limits", "Arm"},
+                                           SearchItem{"other", "Smooth join", "Design"},
+                                           SearchItem{"join", "Join the patches smoothly", "Design"}};
+    EXPECT_EQ(find_items("join", layers).front(), 2);
+    EXPECT_EQ(find_items("Join ", layers).front(), 2);
+    EXPECT_EQ(find_items("joint", layers).front(), 0);
+}
+
 constexpr std::array items{SearchItem{"grid.adapt", "Adapt the grid", "Grid", "Ctrl+G"},
                            SearchItem{"file.save", "Save", "File", "Ctrl+S"},
                            SearchItem{"file.save_as", "Save as ...", "File"}};

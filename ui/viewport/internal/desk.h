@@ -21,6 +21,10 @@ public:
         session_.begin_frame();
         ui_.begin_frame();
         const render::PixelSize size = context_.framebuffer_size();
+        ImGui::GetBackgroundDrawList()->AddRectFilled(
+            {0.0F, 0.0F},
+            {static_cast<float>(size.width), static_cast<float>(size.height)},
+            ui_.colours().pane); // the margin is one with what is inside
         {
             const auto pane = ui_.bare_pane("picture",
                                             {margin,
