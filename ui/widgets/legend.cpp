@@ -4,6 +4,8 @@
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/ticks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -38,6 +40,25 @@ void draw_bar(const Rect& bar, const ColourMap& map, bool lying) {
 
 bool has_range(const LegendView& view) {
     return std::isfinite(view.low) && std::isfinite(view.high) && view.high > view.low;
+}
+
+/// There are values above the bar that have its last colour.
+bool goes_on(const LegendView& view) {
+    return !view.over && view.largest && *view.largest > view.high;
+}
+
+std::string largest_text(const LegendView& view) {
+    return fmt::format("to {:.3g}", *view.largest);
+}
+
+/// At the high end of a bar, where it goes on: at the right of a lying one, else above.
+void draw_arrow(const Rect& at, Colour colour, bool lying) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (lying) {
+        list.AddTriangleFilled({at.x, at.y}, {at.right(), at.centre().y}, {at.x, at.bottom()}, colour);
+    } else {
+        list.AddTriangleFilled({at.x, at.bottom()}, {at.centre().x, at.y}, {at.right(), at.bottom()}, colour);
+    }
 }
 
 void draw_ticks(Ui& ui, const Rect& bar, float right, const LegendView& view) {
@@ -85,11 +106,14 @@ void draw_lying(Ui& ui, const Rect& place, const LegendView& view) {
     const ImFont* strong = ui.look().fonts.strong;
     const ImFont* small = ui.look().fonts.small;
     const float title = text_width(strong, view.title) + 1.0F;
-    const float unit = view.unit.empty() ? 0.0F : text_width(small, view.unit) + ui.px(5.0F);
+    const bool has_words = goes_on(view) && inside.w > ui.px(200.0F);
+    const std::string of_title =
+        has_words ? fmt::format("{}, {}", view.unit, largest_text(view)) : std::string(view.unit);
+    const float unit = of_title.empty() ? 0.0F : text_width(small, of_title) + ui.px(5.0F);
     draw_text(ui, strong, {inside.x, inside.y, title, inside.h}, ui.colours().text, view.title);
     if (unit > 0.0F) {
         const float x = inside.x + title + ui.px(4.0F);
-        draw_text(ui, small, {x, inside.y, unit, inside.h}, ui.colours().muted, view.unit);
+        draw_text(ui, small, {x, inside.y, unit, inside.h}, ui.colours().muted, of_title);
     }
     Rect bar{inside.x + title + unit + ui.px(10.0F), place.y + ui.px(6.0F), 0.0F, ui.px(8.0F)};
     const Rect ticks{bar.x, place.y, inside.right() - bar.x, place.h};
@@ -99,6 +123,10 @@ void draw_lying(Ui& ui, const Rect& place, const LegendView& view) {
         const Rect over{right - swatch, bar.y, swatch, bar.h};
         fill(over, *view.over, ui.px(2.0F));
         right = over.x - ui.px(4.0F);
+    } else if (goes_on(view)) {
+        const float arrow = ui.px(8.0F);
+        draw_arrow({right - arrow, bar.y, arrow, bar.h}, view.map(1.0), true);
+        right -= arrow;
     }
     bar.w = std::max(right - bar.x, 1.0F);
     draw_bar(bar, view.map, true);
@@ -124,6 +152,17 @@ void draw_upright(Ui& ui, const Rect& place, const LegendView& view) {
         draw_text(
             ui, ui.look().fonts.small, {x, swatch.y, inside.right() - x, swatch.h}, colours.text, "over");
         bar.y = swatch.bottom() + ui.px(14.0F);
+    } else if (goes_on(view)) {
+        const Rect arrow{bar.x, bar.y + ui.px(6.0F), bar.w, ui.px(10.0F)};
+        draw_arrow(arrow, view.map(1.0), false);
+        const float x = arrow.right() + ui.px(8.0F);
+        const float up = ui.px(10.0F); // off the tick at the end of the bar
+        draw_text(ui,
+                  ui.look().fonts.small,
+                  {x, arrow.y - up, inside.right() - x, arrow.h},
+                  colours.text,
+                  largest_text(view));
+        bar.y = arrow.bottom();
     }
     bar.h = std::max(inside.bottom() - ui.px(10.0F) - bar.y, 1.0F);
     draw_bar(bar, view.map, false);

@@ -18,7 +18,8 @@ struct LegendView {
     double low = 0.0;
     double high = 1.0;
     ColourMap map = {};
-    std::optional<Colour> over = {}; ///< shown above the bar: the one colour of everything over `high`
+    std::optional<Colour> over = {};    ///< shown above the bar: the one colour of everything over `high`
+    std::optional<double> largest = {}; ///< above `high` the bar ends in an arrow, with words
     std::string_view tip = {};
     bool lying = false; ///< the bar runs from left to right, beside the title; one line is high enough
 };

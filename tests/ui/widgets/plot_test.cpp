@@ -136,5 +136,35 @@ TEST(Legend, IsClickedForItsSettings) {
     EXPECT_EQ(clicks, 11);
 }
 
+TEST(Legend, OfAScaleThatEndsBelowTheLargestSaysSo) {
+    LegendView view{.title = "Error", .unit = "mm", .high = 0.5, .map = [](double) { return rgb(0x20A040); }};
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.bare_pane("view", whole);
+        view.lying = false;
+        (void)legend(ui, "legend", {600.0F, 10.0F, 92.0F, 250.0F}, view);
+        view.lying = true;
+        (void)legend(ui, "lying", {10.0F, 10.0F, 250.0F, 34.0F}, view);
+        (void)legend(ui, "narrow", {10.0F, 60.0F, 120.0F, 34.0F}, view);
+    });
+    view.largest = 0.5;
+    stage.frames(2);
+    const auto ends = stage.picture();
+    view.largest = 1.514;
+    stage.frames(2);
+    const auto goes_on = stage.picture();
+    EXPECT_TRUE(stage.ui().cut_texts().empty());
+    for (const char* path : {"view/legend", "view/lying", "view/narrow"}) {
+        const Rect at = stage.place(path);
+        int different = 0;
+        for (int y = static_cast<int>(at.y); y < static_cast<int>(at.bottom()); ++y) {
+            for (int x = static_cast<int>(at.x); x < static_cast<int>(at.right()); ++x) {
+                const auto pixel = static_cast<std::size_t>(y * ends.width + x);
+                different += ends.pixels[pixel] == goes_on.pixels[pixel] ? 0 : 1;
+            }
+        }
+        EXPECT_GT(different, 10) << path;
+    }
+}
+
 } // namespace
 } // namespace millwright::widgets

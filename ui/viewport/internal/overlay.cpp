@@ -122,6 +122,7 @@ std::string arm_text(const ArmScene& scene, const ArmGrip& grip) {
 struct Legend {
     std::string_view id, title, unit, tip;
     render::ColorScale scale;
+    std::optional<double> largest = {};
 };
 
 /// What of the picture has its colours from numbers.
@@ -133,7 +134,8 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "Error",
                          "mm",
                          "The largest distance of the tool's true way from the surface, move by move.",
-                         error_colors(scene, colors.over_limit)});
+                         error_colors(scene, colors.over_limit),
+                         scene.shown->closest.max});
     }
     if (surface == SurfaceColors::scallop) {
         found.push_back(
@@ -307,6 +309,7 @@ void draw_legends(widgets::Ui& ui,
             .low = legend.scale.low,
             .high = legend.scale.high,
             .map = [map = legend.scale.map](double t) { return to_colour(render::sample(map, t)); },
+            .largest = legend.largest,
             .tip = legend.tip,
             .lying = places.lying};
         if (legend.scale.limit) {
