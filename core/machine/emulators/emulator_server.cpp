@@ -27,7 +27,7 @@ std::string EmulatorServer::failure() const {
 void EmulatorServer::wait_for_host(std::optional<double> silence) {
     const std::scoped_lock lock(mutex_);
     longest_silence_ = silence;
-    silence_ = 0.0;
+    silence_ = owed_ = 0.0;
 }
 
 void EmulatorServer::run(const std::stop_token& stop) noexcept {
@@ -55,7 +55,10 @@ void EmulatorServer::turn(double& last) {
     constexpr double longest_lap = 0.05; // s
     const double lap = std::clamp(now - std::exchange(last, now), 0.0, longest_lap);
     const double most = longest_silence_ ? std::max(0.0, *longest_silence_ - silence_) : longest_lap * speed_;
-    const double passes = std::min(lap * speed_, most);
+    // What it stood still for between two words of a lively host is made up for behind the next one.
+    const double due = lap * speed_ + owed_;
+    const double passes = std::min(due, most);
+    owed_ = longest_silence_ ? std::min(due - passes, longest_lap * speed_) : 0.0;
     emulator_->advance(passes);
     silence_ += passes;
     for (const auto& link : links_) {

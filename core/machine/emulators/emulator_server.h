@@ -32,7 +32,8 @@ public:
     ~EmulatorServer() = default;
 
     /// The controller's time stands still when it has heard nothing for so many of its seconds, so that a
-    /// host on a busy computer is not taken for a cut cable; nothing: it never waits, as is the beginning.
+    /// host on a busy computer is not taken for a cut cable; nothing: it never waits, as is the beginning. Of
+    /// a host that speaks every few silences it runs at its true speed all the same.
     void wait_for_host(std::optional<double> silence);
     /// Why it no longer serves; empty while it does.
     [[nodiscard]] std::string failure() const;
@@ -57,6 +58,7 @@ private:
     std::unique_ptr<Emulator> emulator_;
     std::string failure_;
     std::optional<double> longest_silence_; ///< of the controller's time
+    double owed_ = 0.0;                     ///< of it, that a short wait took, s
     double silence_ = 0.0;
     std::jthread thread_;
 };
