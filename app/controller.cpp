@@ -3,6 +3,7 @@
 #include "app/arm_choice.h"
 #include "app/job_keys.h"
 #include "app/job_printer.h"
+#include "app/pmac_care.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -11,6 +12,7 @@
 #include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/machine/drivers/pmac/pmac_driver.h"
 #include "core/machine/emulators/pmac/motion_program.h"
 #include "core/machine/survey.h"
 
@@ -35,6 +37,8 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                      "The machine stands where the controller says: somebody has looked");
     command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
     command.add_flag("--power", choice.power, "Give the motors power: somebody has looked; of a PMAC");
+    command.add_flag(
+        "--keep-power", choice.keep_power, "Motors of a PMAC keep theirs afterwards: somebody watches");
     command.add_flag("--home", choice.home, "Home the machine first: it moves");
     command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
     command.add_flag("--single-block", choice.single_block, "Rest after each block, from the first on");
@@ -58,10 +62,16 @@ Controller::Controller(ControllerChoice choice, const std::string& log_folder)
         moved.arm = std::make_shared<const kinematics::ArmModel>(arm_of(choice_.arm));
     }
     driver_ = machine::make_driver(wanted, moved, clock_);
+    if (auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
+        pmac->set_parting(choice_.keep_power ? machine::Parting::keeps_power : machine::Parting::as_found);
+    }
 }
 
 Controller::~Controller() {
     remember();
+    if (auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
+        (void)part_from(*pmac);
+    }
 }
 
 void Controller::check(const machine::Job& job) const {
@@ -71,6 +81,9 @@ void Controller::check(const machine::Job& job) const {
 void Controller::connect(bool at_a_line, const std::stop_token& stop) {
     driver_->connect();
     memory_.remind(*driver_);
+    if (const auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
+        warn_of_protections(*pmac, clock_);
+    }
     expect_rest();
     prepare(at_a_line, stop);
     if (choice_.optional_stop) {

@@ -36,6 +36,7 @@ struct ControllerChoice {
     std::string axes = "XYZ";       ///< of a LinuxCNC
     std::string arm = "motoman-l3"; ///< of a PMAC: a name or a file
     bool power = false;             ///< a person has looked: the motors may have power
+    bool keep_power = false;        ///< and keep it afterwards; of a PMAC
     bool home = false;              ///< find the zero of every axis first
 };
 

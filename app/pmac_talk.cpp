@@ -1,6 +1,7 @@
 #include "app/pmac_talk.h"
 
 #include "app/arm_choice.h"
+#include "app/pmac_care.h"
 #include "core/base/error.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 
@@ -13,6 +14,7 @@ namespace {
 std::unique_ptr<machine::PmacDriver>
 connected(const std::string& port, machine::PmacSettings settings, const machine::SteadyClock& clock) {
     settings.patience = 10.0; // s
+    settings.parting = machine::Parting::as_found;
     auto driver = std::make_unique<machine::PmacDriver>(machine::make_link(port), clock, std::move(settings));
     driver->connect();
     return driver;
@@ -43,7 +45,13 @@ connected_pmac(const std::string& port, const std::string& arm, machine::SteadyC
 }
 
 PmacTalk::PmacTalk(const std::string& port, const std::string& arm)
-    : driver_(connected_pmac(port, arm, clock_)) {}
+    : driver_(connected_pmac(port, arm, clock_)) {
+    warn_of_protections(*driver_, clock_);
+}
+
+PmacTalk::~PmacTalk() {
+    (void)part_from(*driver_);
+}
 
 machine::CardTalk PmacTalk::card() {
     return {.ask = [this](const std::string& line) { return ask(line); },

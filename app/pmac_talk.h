@@ -21,6 +21,10 @@ class PmacTalk {
 public:
     /// As connected_pmac().
     PmacTalk(const std::string& port, const std::string& arm);
+    PmacTalk(const PmacTalk&) = delete;
+    PmacTalk& operator=(const PmacTalk&) = delete;
+    /// What it gave power to has none afterwards, and that is told.
+    ~PmacTalk();
 
     /// For commands that set up motors. Ctrl+C throws Cancelled out of it once, so that what was begun can be
     /// put in order. It must not outlive this.

@@ -71,6 +71,15 @@ void run(render::WindowContext& window, actions::Workshop& workshop, const std::
     }
 }
 
+/// What moves is stopped; motors that may have kept their power are told of where somebody may read it.
+void let_go(actions::Workshop& workshop) {
+    workshop.controller().disconnect();
+    workshop.controller().wait_idle();
+    if (const auto failure = workshop.controller().view().failure) {
+        fmt::print(stderr, "millwright: {}\n", to_text(*failure));
+    }
+}
+
 /// The window is gone without a word: whatever moves is stopped, as at the end that the system asks for, and
 /// what has not been saved stays for the next start. Nothing that belongs to a display may be touched again.
 [[noreturn]] void end_without_display(std::unique_ptr<actions::Workshop>& workshop) {
@@ -98,7 +107,12 @@ void run_workbench(const std::optional<std::filesystem::path>& file) {
         workshop->receive({*file});
     }
     const std::stop_callback wake(interrupt.token(), [&window] { window.request_redraw(); });
-    run(window, *workshop, interrupt.token());
+    try {
+        run(window, *workshop, interrupt.token());
+    } catch (const Cancelled&) {
+        let_go(*workshop);
+        throw;
+    }
 }
 
 } // namespace millwright::app

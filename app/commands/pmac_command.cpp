@@ -2,11 +2,12 @@
 
 #include "app/arm_choice.h"
 #include "app/interrupt.h"
-#include "app/placed_refusals.h"
+#include "app/pmac_care.h"
 #include "app/pmac_talk.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/machine/clock.h"
+#include "core/machine/drivers/pmac/placed_refusals.h"
 #include "core/machine/drivers/pmac/pmac_driver.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 
@@ -17,18 +18,22 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::app {
 
 namespace {
 
+constexpr const char* emulated_port = "tcp:127.0.0.1:1025"; ///< of `emulate pmac --tcp 1025`
+
 struct Options {
     std::vector<std::string> commands;
     std::string port;
     std::string file;
     std::string arm = "motoman-l3";
-    bool power = false; ///< a person has looked: commands may give it
+    bool power = false;      ///< a person has looked: commands may give it
+    bool keep_power = false; ///< and what it was given to keeps it afterwards
 };
 
 /// Tells what the card would do to a value, and which protection it takes away; refuses one of more than 24
@@ -43,12 +48,36 @@ void look_through(const std::string& command) {
     }
 }
 
+/// Throws Error, which of a port that nobody named tells how to name one.
+std::unique_ptr<machine::PmacDriver> connected(const Options& options, machine::SteadyClock& clock) {
+    if (!options.port.empty()) {
+        return connected_pmac(options.port, options.arm, clock);
+    }
+    try {
+        return connected_pmac(emulated_port, options.arm, clock);
+    } catch (const Error& error) {
+        throw Error(error.what(), {}, "--port or MILLWRIGHT_PMAC_PORT names a card's port");
+    }
+}
+
 class Conversation {
 public:
-    explicit Conversation(const Options& options)
-        : driver_(connected_pmac(options.port, options.arm, clock_)) {
+    explicit Conversation(const Options& options) : driver_(connected(options, clock_)) {
+        if (options.file.empty()) {
+            warn_of_protections(*driver_, clock_);
+        }
         if (options.power) {
             driver_->let_lines_give_power();
+        }
+        if (options.keep_power) {
+            driver_->set_parting(machine::Parting::keeps_power);
+        }
+    }
+    Conversation(const Conversation&) = delete;
+    Conversation& operator=(const Conversation&) = delete;
+    ~Conversation() {
+        if (driver_) {
+            (void)part_from(*driver_);
         }
     }
 
@@ -68,9 +97,16 @@ public:
             throw Error("there is no command in it", path);
         }
         const machine::CommandAnswer answer = answer_to(driver_->load(lines));
-        print(answer, with_places(answer.text, file, path));
+        print(answer, machine::with_places(answer.text, file, path + ":"));
         wait_for_rest();
+        warn_of_protections(*driver_, clock_);
         return is_done(answer) && file.left_out == 0;
+    }
+
+    /// Whether the motors are known to be as they were to be left.
+    bool part() {
+        const auto driver = std::exchange(driver_, nullptr);
+        return part_from(*driver);
     }
 
     bool say(const std::string& command) {
@@ -146,6 +182,7 @@ int talk(const Options& options) {
     for (const std::string& command : options.commands) {
         done = done && card.say(command);
     }
+    done = card.part() && done;
     return done ? 0 : 1;
 }
 
@@ -155,12 +192,18 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand("pmac", "Talk to a PMAC motor controller");
     command.add_option("COMMAND", options->commands, "On-line commands, as '#1P'; several one after another");
-    command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT")
-        ->required()
+    command
+        .add_option("--port",
+                    options->port,
+                    "Serial port, or tcp:HOST:PORT. Without it: the environment's MILLWRIGHT_PMAC_PORT, else "
+                    "an emulated card on this computer")
+        ->envname("MILLWRIGHT_PMAC_PORT")
         ->type_name("PORT");
     command.add_option("--load", options->file, "File of commands to send before, as pmac.ini")
         ->type_name("FILE");
     command.add_flag("--power", options->power, "Commands may give motors power; somebody has looked");
+    command.add_flag(
+        "--keep-power", options->keep_power, "Motors that have it then keep it: somebody watches");
     add_arm_option(command, options->arm);
     command.callback([&chosen, options] { chosen = [options] { return talk(*options); }; });
 }

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace millwright::test {
 namespace {
 
@@ -87,6 +89,58 @@ TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {
     const std::string stopped = run({"pmac", "#1P", "--port", port}).out;
     EXPECT_LT(std::stod(stopped), 1'000'000.0);
     EXPECT_EQ(run({"pmac", "#1P", "--port", port}).out, stopped);
+}
+
+// F2: nobody watches over motors whose program has ended.
+TEST_F(Pmac, MotorsKeepNoPowerThatNobodyAskedToKeep) {
+    Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
+    const auto has_power = [&] { // loop closed, amplifier enabled: bit 14 of the second word
+        const std::string words = run({"pmac", "#1?", "--port", port}).out;
+        return words.size() > 8 && (std::stoi(words.substr(6, 6), nullptr, 16) >> 14 & 1) == 1;
+    };
+    const Ended went = run({"pmac", "I100=1", "#1J:200", "--power", "--port", port});
+    EXPECT_EQ(went.exit_code, 0) << went.err;
+    EXPECT_THAT(went.err, HasSubstr("The motors have no power any more; --keep-power"));
+    EXPECT_FALSE(has_power());
+    const Ended kept = run({"pmac", "#1J/", "--power", "--keep-power", "--port", port});
+    EXPECT_EQ(kept.exit_code, 0) << kept.err;
+    EXPECT_THAT(kept.err, HasSubstr("The motors have power, and nobody watches over them."));
+    EXPECT_TRUE(has_power());
+    EXPECT_TRUE(has_power()); // questions leave it as it was
+    const Ended jogged = run({"pmac", "#1J:200", "--port", port});
+    EXPECT_EQ(jogged.exit_code, 0) << jogged.err;
+    EXPECT_TRUE(has_power()); // so does motion with the power that was there
+    EXPECT_EQ(run({"pmac", "#1K", "--port", port}).exit_code, 0);
+    EXPECT_FALSE(has_power());
+}
+
+// F1.
+TEST_F(Pmac, TellsWhichProtectionsTheCardHasOff) {
+    Emulator emulator(port, {}, "pmac");
+    const Ended fresh = run({"pmac", "TYPE", "--port", port});
+    EXPECT_THAT(fresh.err,
+                HasSubstr("protection off: motor 1 has no upper position limit in the card (I113"));
+    const Ended set_up = run({"pmac", "--load", "assets/samples/pmac-arm.ini", "--port", port});
+    EXPECT_EQ(set_up.exit_code, 0);
+    EXPECT_EQ(set_up.err, "");
+    EXPECT_EQ(run({"pmac", "TYPE", "--port", port}).err, "");
+    (void)run({"pmac", "I111=0", "I225=$13C004", "--port", port});
+    const Ended off = run({"pmac", "TYPE", "--port", port});
+    EXPECT_THAT(off.err, HasSubstr("motor 1 is not stopped when it does not follow (I111 = 0)"));
+    EXPECT_THAT(off.err, HasSubstr("motor 2 goes on when its amplifier reports a fault (I225 bit 20)"));
+    EXPECT_EQ(run({"pmac", "--load", "assets/samples/pmac-arm.ini", "--port", port}).err, "");
+}
+
+TEST_F(Pmac, NeedsNoPortThatTheEnvironmentNames) {
+    Emulator emulator(port, {}, "pmac");
+    ASSERT_EQ(setenv("MILLWRIGHT_PMAC_PORT", port.c_str(), 1), 0);
+    EXPECT_THAT(run({"pmac", "TYPE"}).out, HasSubstr("PMAC1"));
+    ASSERT_EQ(setenv("MILLWRIGHT_PMAC_PORT", (scratch / "none").c_str(), 1), 0);
+    EXPECT_EQ(run({"pmac", "TYPE"}).exit_code, 1);
+    ASSERT_EQ(unsetenv("MILLWRIGHT_PMAC_PORT"), 0);
+    if (const Ended nobody = run({"pmac", "TYPE"}); nobody.exit_code != 0) { // else somebody runs one
+        EXPECT_THAT(nobody.err, HasSubstr("MILLWRIGHT_PMAC_PORT"));
+    }
 }
 
 TEST_F(Pmac, IsToldFromSomethingElse) {
@@ -192,7 +246,7 @@ TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     const std::string csv = (scratch / "step.csv").string(), png = (scratch / "step.png").string();
     Ended step;
     for (int n = 0; n < 5 && (n == 0 || step.exit_code != 0); ++n) { // the power may be gone when it begins
-        ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--power", "--port", port}).exit_code, 0);
+        ASSERT_EQ(run({"pmac", "I100=1", "#1J/", "--power", "--keep-power", "--port", port}).exit_code, 0);
         step = run({"arm", "step", "1", "--port", port, "--out", csv, "--picture", png});
     }
     ASSERT_EQ(step.exit_code, 0) << step.err;

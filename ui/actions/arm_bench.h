@@ -9,6 +9,7 @@
 #include "core/project/arm_input.h"
 #include "ui/actions/arm_path_work.h"
 #include "ui/actions/card_run.h"
+#include "ui/actions/machine_news.h"
 #include "ui/actions/motion_program_bench.h"
 #include "ui/viewport/arm_scene.h"
 
@@ -42,6 +43,8 @@ struct ArmPlay {
 };
 
 [[nodiscard]] ArmPlay play_of(motion::Trajectory trajectory);
+/// What the motors of an emulated card did, of its axes alone; there is a record.
+[[nodiscard]] ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation);
 
 class ArmBench {
 public:
@@ -119,6 +122,14 @@ public:
     [[nodiscard]] CardRun& card_run() { return card_run_; }
     [[nodiscard]] const CardRun& card_run() const { return card_run_; }
 
+    /// What the card, or whatever else is connected, has to say.
+    [[nodiscard]] MachineNews& news() { return news_; }
+    [[nodiscard]] const MachineNews& news() const { return news_; }
+
+    /// The point of the project that was taught just now, from 0, until somebody has shown it.
+    [[nodiscard]] const std::optional<int>& new_point() const { return new_point_; }
+    void set_new_point(std::optional<int> point) { new_point_ = point; }
+
     [[nodiscard]] MotionProgramBench& program() { return program_; }
     [[nodiscard]] const MotionProgramBench& program() const { return program_; }
 
@@ -160,6 +171,8 @@ private:
     std::shared_ptr<const std::vector<Vec3>> trace_;
     bool follows_unknown_ = false; ///< a controller whose zero means nothing yet
     CardRun card_run_;
+    MachineNews news_;
+    std::optional<int> new_point_;
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;

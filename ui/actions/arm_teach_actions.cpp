@@ -117,13 +117,15 @@ Permission can_send_path(const Workbench& now) {
 }
 
 void record(Hands& hands) {
-    const ArmBench& arm = hands.workshop.arm();
+    ArmBench& arm = hands.workshop.arm();
+    const int place = static_cast<int>(hands.now.project.arm.points.size());
     hands.workshop.edit("Teach a point",
                         [&](project::Project& draft) {
                             draft.arm.points.push_back(
                                 arm.taught(project::free_point_name(draft.arm.points)));
                         },
                         {});
+    arm.set_new_point(place);
 }
 
 std::vector<double> degrees_of(const kinematics::JointPositions& joints) {
@@ -157,7 +159,12 @@ void run(Hands& hands) {
     if (found.beyond_limits) {
         throw Error(*found.beyond_limits);
     }
-    hands.workshop.run_on_card(arm.program().lines(), found.faults.empty() ? found.duration : 0.0, {});
+    const bool known = found.faults.empty();
+    hands.workshop.run_on_card(arm.program().lines(), known ? found.duration : 0.0, {});
+    if (known) {
+        hands.workshop.arm().card_run().know_way(
+            play_of(std::make_shared<const machine::MotionSimulation>(found)).at);
+    }
 }
 
 /// Into the card's buffer without running it.

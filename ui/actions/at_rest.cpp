@@ -22,4 +22,23 @@ Permission at_rest(const ControllerView& machine) {
                : Permission::refused("The machine is moving.");
 }
 
+namespace {
+
+bool reaches_arm(const ControllerView& machine) {
+    return machine.connected() && machine.choice.kind == machine::DriverKind::pmac &&
+           !machine.status.link_lost;
+}
+
+} // namespace
+
+bool arm_moves(const ControllerView& machine) {
+    const DriverState state = machine.status.state;
+    return reaches_arm(machine) &&
+           (state == DriverState::running || state == DriverState::holding || state == DriverState::stopping);
+}
+
+bool arm_under_power(const ControllerView& machine) {
+    return arm_moves(machine) || (reaches_arm(machine) && machine.status.powered);
+}
+
 } // namespace millwright::actions

@@ -9,4 +9,8 @@ namespace millwright::actions {
 /// Yes while it stands and waits; else why not, and what there is to press.
 [[nodiscard]] widgets::Permission at_rest(const ControllerView& machine);
 
+/// A connected arm moves, or its motors have power: whoever leaves it ends that.
+[[nodiscard]] bool arm_moves(const ControllerView& machine);
+[[nodiscard]] bool arm_under_power(const ControllerView& machine);
+
 } // namespace millwright::actions

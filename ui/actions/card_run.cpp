@@ -1,7 +1,9 @@
 #include "ui/actions/card_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -25,9 +27,11 @@ bool is_under_way(const machine::DriverStatus& status) {
 
 void CardRun::begin(CardPlan plan) {
     plan_ = std::move(plan);
+    at_ = nullptr;
     seen_ = false;
     elapsed_ = waited_ = 0.0;
     place_.reset();
+    broken_off_.reset();
 }
 
 void CardRun::follow(const machine::DriverStatus& status, double seconds) {
@@ -36,23 +40,61 @@ void CardRun::follow(const machine::DriverStatus& status, double seconds) {
         under_way || seen_ ? 0.0 : seconds; // what is told of the machine may be older than the program
     seen_ = seen_ || under_way;
     if (!under_way && (seen_ || waited_ > longest_wait)) {
+        const bool well = status.state == machine::DriverState::idle;
+        broken_off_ = well ? std::nullopt : place_;
         plan_.reset();
         place_.reset();
     }
-    if (!plan_ || !seen_) {
-        return;
+    if (plan_ && seen_) {
+        go_on(status, seconds);
+        place_ = place_by(status);
     }
+}
+
+void CardRun::go_on(const machine::DriverStatus& status, double seconds) {
     const bool sending = status.sent_blocks < plan_->lines;
-    if (status.state == machine::DriverState::running && !sending) {
-        elapsed_ += seconds * 0.01 * status.overrides.feed;
-    }
+    const bool moves = status.state == machine::DriverState::running && !sending;
+    const double guess = elapsed_ + (moves ? seconds * 0.01 * status.overrides.feed : 0.0);
+    double from = 0.0;
+    double to = plan_->duration > 0.0 ? plan_->duration : std::max(guess, 0.0);
     if (!plan_->ends.empty()) {
         const int done = std::clamp(status.executed_blocks, 0, plan_->lines);
-        elapsed_ = std::clamp(
-            elapsed_, begin_of(*plan_, done), begin_of(*plan_, std::min(done + ahead + 1, plan_->lines)));
+        from = begin_of(*plan_, done);
+        to = std::min(std::max(to, from), begin_of(*plan_, std::min(done + ahead + 1, plan_->lines)));
     }
-    elapsed_ = plan_->duration > 0.0 ? std::min(elapsed_, plan_->duration) : elapsed_;
-    place_ = place_by(status);
+    elapsed_ = std::clamp(elapsed_, from, std::max(from, to));
+    const double time = at_ && !sending ? time_by_place(status, to, guess) : guess;
+    elapsed_ = std::clamp(time, from, std::max(from, to));
+}
+
+/// From elapsed_ on, and no later than `to`: when the plan is next to where the motors are. Of several such
+/// times, as in a dwell, the one next to `guess`.
+double CardRun::time_by_place(const machine::DriverStatus& status, double to, double guess) const {
+    constexpr double step = 0.02, look = 2.0, tolerance = 1e-3; // s, s, rad
+    const auto away = [&](double time) {
+        const kinematics::AxisPositions planned = at_(time);
+        return planned.size() == status.position.size() ? (planned - status.position).cwiseAbs().maxCoeff()
+                                                        : 0.0;
+    };
+    const double last = std::min(to, elapsed_ + look);
+    std::vector<std::pair<double, double>> found; // time, how far the plan is away
+    for (double time = elapsed_; time < last; time += step) {
+        found.emplace_back(time, away(time));
+    }
+    found.emplace_back(std::max(last, elapsed_), away(std::max(last, elapsed_)));
+    const double least = std::ranges::min(found, {}, &std::pair<double, double>::second).second;
+    double best = elapsed_;
+    bool any = false;
+    for (const auto& [time, distance] : found) {
+        const bool near = distance <= least + tolerance;
+        if (near && (!any || std::abs(time - guess) < std::abs(best - guess))) {
+            best = time;
+            any = true;
+        }
+    }
+    const bool around =
+        best <= guess && guess <= best + step && away(std::min(guess, last)) <= least + tolerance;
+    return around ? std::min(guess, std::max(last, elapsed_)) : best;
 }
 
 CardPlace CardRun::place_by(const machine::DriverStatus& status) const {

@@ -1,10 +1,13 @@
 // How far the arm's card is with a program that it was sent from here: by the lines that the driver knows to
-// be executed, and between them by the plan and the time that went by.
+// be executed, and within them by where its motors are on the planned way; where that tells nothing, by the
+// time that went by.
 #pragma once
 
 #include "core/machine/driver_status.h"
 
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace millwright::actions {
@@ -28,19 +31,27 @@ struct CardPlace {
 class CardRun {
 public:
     void begin(CardPlan plan);
+    /// Of the program that was begun: where the driver's axes are at a time of the plan, as
+    /// DriverStatus::position.
+    void know_way(std::function<kinematics::AxisPositions(double)> at) { at_ = std::move(at); }
     /// `seconds` went by since it was last told.
     void follow(const machine::DriverStatus& status, double seconds);
     /// Nothing while none of these programs is under way.
     [[nodiscard]] const std::optional<CardPlace>& place() const { return place_; }
+    /// Where the last one was when it was stopped, or when the link was lost; nothing after a good end.
+    [[nodiscard]] const std::optional<CardPlace>& broken_off() const { return broken_off_; }
 
 private:
+    void go_on(const machine::DriverStatus& status, double seconds);
+    [[nodiscard]] double time_by_place(const machine::DriverStatus& status, double to, double guess) const;
     [[nodiscard]] CardPlace place_by(const machine::DriverStatus& status) const;
 
-    std::optional<CardPlan> plan_; ///< of what is under way
-    bool seen_ = false;            ///< it was told to be
-    double waited_ = 0.0;          ///< s for that
-    double elapsed_ = 0.0;         ///< s in motion, as far as the lines agree
-    std::optional<CardPlace> place_;
+    std::optional<CardPlan> plan_;                        ///< of what is under way
+    std::function<kinematics::AxisPositions(double)> at_; ///< empty: not known
+    bool seen_ = false;                                   ///< it was told to be
+    double waited_ = 0.0;                                 ///< s for that
+    double elapsed_ = 0.0;                                ///< s of the plan
+    std::optional<CardPlace> place_, broken_off_;
 };
 
 } // namespace millwright::actions

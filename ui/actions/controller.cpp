@@ -1,5 +1,7 @@
 #include "ui/actions/controller.h"
 
+#include "core/machine/drivers/pmac/pmac_driver.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -108,7 +110,7 @@ void Controller::disconnect() {
     enqueue([this] {
         drop();
         const std::scoped_lock lock(mutex_);
-        view_ = {LinkState::none, view_.choice, std::nullopt, {}, {}, {}, {}, {}, {}};
+        view_ = {LinkState::none, view_.choice, view_.failure, {}, {}, {}, {}, {}, {}};
     });
 }
 
@@ -170,6 +172,7 @@ void Controller::try_connect(const machine::DriverChoice& choice, const machine:
     }
 }
 
+/// What a person should know of what is left behind is the failure then.
 void Controller::drop() {
     std::shared_ptr<machine::Driver> old;
     {
@@ -180,6 +183,11 @@ void Controller::drop() {
         remember(old->status()); // a doubt that arose since the last look
         old->close();
     }
+    const auto* const card = dynamic_cast<const machine::PmacDriver*>(old.get());
+    const std::string farewell = card == nullptr ? "" : card->farewell();
+    const std::scoped_lock lock(mutex_);
+    view_.failure =
+        farewell.empty() ? std::nullopt : std::optional(Diagnostic{{}, farewell, "look at the machine"});
 }
 
 void Controller::remember(const DriverStatus& status) {

@@ -122,7 +122,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.disconnect",
          "Machine",
          "Disconnect",
-         "Stops what moves and drops the link.",
+         "Stops what moves, takes the power of an arm's motors, and drops the link.",
          "",
          icons::cancel},
         can_disconnect,

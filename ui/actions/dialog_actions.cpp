@@ -1,3 +1,4 @@
+#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
 
@@ -23,7 +24,8 @@ Permission can_recover(const Workbench& now) {
 }
 
 Permission is_quitting(const Workbench& now) {
-    return now.session.quit_wanted ? Permission{} : Permission::refused("No job keeps Millwright open.");
+    return now.session.quit_wanted ? Permission{}
+                                   : Permission::refused("Neither a job nor an arm keeps Millwright open.");
 }
 
 Permission has_broken_job(const Workbench& now) {
@@ -60,20 +62,23 @@ void add_dialog_actions(Actions& actions) {
         is_leaving,
         [](Hands& hands) { hands.workshop.stay(); });
     add(actions,
-        {"running_job.stay", dialog_menu, "Stay", "The job goes on.", "", ""},
+        {"running_job.stay", dialog_menu, "Stay", "Everything goes on.", "", ""},
         is_quitting,
         [](Hands& hands) { hands.session.quit_wanted = false; });
     add(actions,
         {"running_job.stop",
          dialog_menu,
          "Stop it and quit",
-         "The machine brakes, and the job's log tells what was executed.",
+         "The machine brakes; the job's log tells what was executed, and motors of an arm lose their power.",
          "",
          ""},
         is_quitting,
         [](Hands& hands) {
             hands.session.quit_wanted = false;
             hands.jobs.stop();
+            if (arm_moves(hands.now.controller)) {
+                hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+            }
             hands.workshop.quit();
         });
     add(actions,

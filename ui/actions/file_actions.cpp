@@ -1,4 +1,5 @@
 #include "core/base/files.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
 
@@ -108,10 +109,15 @@ void add_file_actions(Actions& actions) {
 
 void add_quit_action(Actions& actions) {
     add(actions,
-        {"file.quit", "File", "Quit", "Closes the workbench; asks first if a job is running.", "Ctrl+Q", ""},
+        {"file.quit",
+         "File",
+         "Quit",
+         "Closes the workbench; asks first if a job is running or an arm has power.",
+         "Ctrl+Q",
+         ""},
         always,
         [](Hands& hands) {
-            if (hands.now.job.running) {
+            if (hands.now.job.running || arm_under_power(hands.now.controller)) {
                 hands.session.quit_wanted = true;
             } else {
                 hands.workshop.quit();

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/processor_bench.h"
@@ -191,7 +192,8 @@ void Workshop::perform(ActionQueue& asked, bool focused) {
     for (const ActionQueue::Request& request : asked.take()) {
         guarded([&] { request(*this); });
     }
-    session_.quit_wanted = session_.quit_wanted && jobs_->view().running;
+    session_.quit_wanted =
+        session_.quit_wanted && (jobs_->view().running || arm_under_power(controller_->view()));
     const bool allowed = focused && !look().asks() && !session_.quit;
     guarded([&] { jog_->follow(wish, allowed); });
     queue_.rest();
@@ -235,6 +237,7 @@ bool Workshop::advance(double seconds) {
     follow_file();
     follow_begin();
     follow_queue();
+    arm_->news().follow(controller_->view(), controller_->driver(), session_);
     const bool armed = follow_arm(seconds);
     const bool processed = follow_processor(seconds) || armed;
     Playback& playback = session_.playback;

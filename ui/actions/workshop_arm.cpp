@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What an arm on the bench makes of what the card's motors would do.
+} // namespace
+
 ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
     const double duration = simulation->records.back().time;
     const auto at = [records = std::move(simulation)](double time) {
@@ -43,6 +44,8 @@ ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
     };
     return {at, duration};
 }
+
+namespace {
 
 /// While a motion was worked out the arm may have been moved.
 void expect_start(const motion::Trajectory& motion, const kinematics::JointPositions& joints) {
@@ -126,14 +129,6 @@ void Workshop::follow_arm_work() {
             play_on_arm(*answer->motion);
         });
     }
-    const machine::CommandAnswer& answer = now.controller.status.answer;
-    if (settings_sent_ && now.controller.connected() && answer.number == *settings_sent_ &&
-        answer.state != machine::CommandAnswer::State::pending) {
-        settings_sent_.reset();
-        answer.text.empty()
-            ? tell(session_, widgets::Severity::info, "The card took all settings.")
-            : tell(session_, widgets::Severity::warning, "The card refused settings: " + answer.text);
-    }
 }
 
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
@@ -141,7 +136,12 @@ void Workshop::play_on_arm(const motion::Trajectory& motion) {
         expect_start(motion, arm_->joints());
         const auto lines =
             machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes));
+        const auto axes = std::ssize(look().controller.axes);
         run_on_card(lines, motion.duration(), machine::line_ends(lines));
+        arm_->card_run().know_way(
+            [motion = std::make_shared<const motion::Trajectory>(motion), axes](double time) {
+                return kinematics::AxisPositions(motion->at(time).position.head(axes));
+            });
     } else {
         arm_->play(play_of(motion));
     }
@@ -171,7 +171,7 @@ void Workshop::run_on_card(const std::vector<std::string>& lines, double duratio
 
 void Workshop::load_card_settings(const fs::path& file) {
     session_.question = FileQuestion::none;
-    const machine::PmacFile found = machine::read_pmac_file(read_file(file), file);
+    machine::PmacFile found = machine::read_pmac_file(read_file(file), file);
     for (const auto& [kind, several] :
          {std::pair(&found.omissions, "lines are left out"),
           std::pair(&found.warnings, "protections are off or values too great")}) {
@@ -186,6 +186,7 @@ void Workshop::load_card_settings(const fs::path& file) {
          widgets::Severity::info,
          counted(lines.size(), "line") + " of " + file.filename().string() + " sent, with " +
              counted(found.warnings.size() + found.omissions.size(), "warning") + ".");
+    arm_->news().sent(*std::exchange(settings_sent_, std::nullopt), std::move(found));
 }
 
 void Workshop::open_points(const fs::path& file) {

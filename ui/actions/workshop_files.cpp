@@ -7,6 +7,7 @@
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
 #include "core/project/strategy_path.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"
@@ -339,7 +340,17 @@ void Workshop::leave(std::string to, ActionQueue::Request then) {
 }
 
 void Workshop::quit() {
-    leave("close Millwright", [](Workshop& workshop) { workshop.session().quit = true; });
+    leave("close Millwright", [](Workshop& workshop) {
+        Controller& controller = workshop.controller();
+        bool unsure =
+            false; // a card that did not tell that its motors have no power is told of in the window
+        if (arm_under_power(controller.view())) {
+            controller.disconnect();
+            controller.wait_idle();
+            unsure = controller.view().failure.has_value();
+        }
+        workshop.session().quit = !unsure;
+    });
 }
 
 void Workshop::save_and_leave() {

@@ -175,6 +175,28 @@ private:
     std::optional<Vec3> velocity_; ///< of the tip, where it goes in a line: mm/s
 };
 
+namespace {
+
+/// A window without room for all rows: what jogs the arm has to be in sight all the same.
+bool is_low(const Ui& ui) {
+    constexpr float least = 800.0F;
+    return ImGui::GetIO().DisplaySize.y < ui.px(least);
+}
+
+/// Below all buttons, so that it moves none of them.
+void draw_protections(Ui& ui, const Workbench& now) {
+    if (now.arm.news().protections_off().empty()) {
+        return;
+    }
+    if (const auto section = ui.section("protections", "Protections that are off")) {
+        for (const std::string& sentence : now.arm.news().protections_off()) {
+            ui.text(as_sentence(sentence));
+        }
+    }
+}
+
+} // namespace
+
 void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
     if (!now.arm.loaded()) {
@@ -202,6 +224,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     connection_.draw_messages(ui, now, ask);
+    draw_protections(ui, now);
 }
 
 void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
@@ -211,11 +234,14 @@ void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
             id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog(now, joint), {{}, Rank::normal, -1.0F, {}});
     };
     if (now.session.hand.arm_frame == ArmFrame::joints) {
-        for (int n = 0; n < now.arm.arm().joint_count(); ++n) {
-            const auto row = ui.row(2);
-            for (const double sign : {-1.0, 1.0}) {
-                const auto held = button(now.arm.arm().joint(n).name, sign, n);
-                wish.joint(n, sign, held.held, held.pressed);
+        const int joints = now.arm.arm().joint_count(), a_row = is_low(ui) ? 3 : 1;
+        for (int first = 0; first < joints; first += a_row) {
+            const auto row = ui.row(2 * a_row);
+            for (int n = first; n < std::min(first + a_row, joints); ++n) {
+                for (const double sign : {-1.0, 1.0}) {
+                    const auto held = button(now.arm.arm().joint(n).name, sign, n);
+                    wish.joint(n, sign, held.held, held.pressed);
+                }
             }
         }
         return;
@@ -268,6 +294,13 @@ void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
     const auto section = ui.section("power", "Motors");
     if (!section) {
+        return;
+    }
+    if (is_low(ui)) {
+        const auto row = ui.row(3);
+        action_button(ui, now, ask, catalogue_, "arm.enable", Rank::normal, "Power");
+        action_button(ui, now, ask, catalogue_, "machine.home");
+        action_button(ui, now, ask, catalogue_, "machine.emergency_stop", Rank::danger, "Kill");
         return;
     }
     action_button(ui, now, ask, catalogue_, "arm.enable");

@@ -60,13 +60,28 @@ std::string place_text(const actions::CardPlace& place) {
         return fmt::format("To the card goes line {} of {}, {}.", place.line, place.lines, share);
     }
     const std::string line = fmt::format("Line {} of {}", place.line, place.lines);
-    return place.duration > 0.0 ? fmt::format("{}, {}, {} of {}, {} left.",
-                                              line,
-                                              share,
-                                              whole_seconds(place.time),
-                                              whole_seconds(place.duration),
-                                              whole_seconds(place.duration - place.time))
-                                : fmt::format("{}; how long it takes is not known.", line);
+    if (!(place.duration > 0.0)) {
+        return fmt::format("{}; how long it takes is not known.", line);
+    }
+    // Of whole seconds, so that what is shown adds up.
+    const double all = std::round(place.duration), gone = std::min(std::floor(place.time), all);
+    return fmt::format("{}, {}, {} of {}, {} left.",
+                       line,
+                       share,
+                       whole_seconds(gone),
+                       whole_seconds(all),
+                       whole_seconds(all - gone));
+}
+
+/// Of one that did not come to its end.
+std::string broken_off_text(const actions::CardPlace& place) {
+    const std::string line = fmt::format("Ended before its end, in line {} of {}", place.line, place.lines);
+    return place.sending || !(place.duration > 0.0) ? line + "."
+                                                    : fmt::format("{}, at {:.0f} % and {} of {}.",
+                                                                  line,
+                                                                  std::floor(100.0 * place.share),
+                                                                  whole_seconds(place.time),
+                                                                  whole_seconds(std::round(place.duration)));
 }
 
 bool slides(const kinematics::ArmModel& arm) {
@@ -281,6 +296,10 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
         ui.words(as_sentence(status.message), widgets::Tone::warning);
     } else if (const auto& place = now.arm.card_run().place(); real && place) {
         ui.note(place_text(*place));
+    } else if (const auto& ended = now.arm.card_run().broken_off(); real && ended) {
+        ui.note(broken_off_text(*ended));
+    } else if (real && status.link_lost) {
+        ui.note("The link is lost: the picture is what the card told last.");
     } else if (real) {
         ui.note("The picture follows the connected PMAC.");
     } else if (now.arm.duration() > 0.0) {

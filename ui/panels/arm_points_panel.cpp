@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace millwright::panels {
@@ -38,12 +39,17 @@ std::string joints_text(const TaughtPoint& point) {
 } // namespace
 
 void ArmPointsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    chosen_ = std::min(chosen_, static_cast<int>(now.project.arm.points.size()) - 1);
+    // What was put down just now is what is meant.
+    chosen_ =
+        std::min(now.arm.new_point().value_or(chosen_), static_cast<int>(now.project.arm.points.size()) - 1);
     draw_buttons(ui, now, ask);
     if (chosen_ >= 0) {
         draw_chosen(ui, now, ask);
     }
     draw_table(ui, now);
+    if (now.arm.new_point()) {
+        ask.arm([](actions::ArmBench& bench) { bench.set_new_point(std::nullopt); });
+    }
 }
 
 void ArmPointsPanel::swap_with(ActionQueue& ask, int other) {
@@ -155,6 +161,7 @@ void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
     view.columns = columns;
     view.rows = std::ssize(points);
     view.chosen = chosen_;
+    view.wanted = now.arm.new_point() ? chosen_ : -1;
     view.height = ui.rest().h;
     view.when_empty = "Bring the arm somewhere and teach the point; a click on a point lets you change it.";
     view.row_id = [](std::ptrdiff_t row) { return fmt::format("point_{}", row + 1); };

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/base/text_search.h"
 #include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/line_name.h"
 #include "ui/widgets/listing.h"
 #include "ui/widgets/notices.h"
 
@@ -66,6 +67,10 @@ Permission can_send(const Workbench& now) {
 
 } // namespace
 
+std::string_view line_name(const Workbench& now) {
+    return now.arm_connected() ? "Line" : "MDI";
+}
+
 void ConsolePanel::follow(const Workbench& now) {
     const auto console = now.console;
     if (console != source_.lock()) {
@@ -127,7 +132,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
         const auto permitted = ui.permitted(can_type(now));
         if (const auto line =
                 ui.command_line("command",
-                                "MDI",
+                                line_name(now),
                                 now.session.hand.commands,
                                 refused ? std::string_view() : command_tip, // which would lie over the reason
                                 can_send(now),

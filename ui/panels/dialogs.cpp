@@ -1,6 +1,7 @@
 #include "ui/panels/dialogs.h"
 
 #include "core/machine/way_on.h"
+#include "ui/actions/at_rest.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
@@ -73,16 +74,31 @@ void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const
 }
 
 void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("running_job", "Stop the job?", ui.px(width));
+    const bool job = now.job.running;
+    const bool moves = actions::arm_moves(now.controller);
+    const auto dialog = ui.dialog("running_job",
+                                  job     ? "Stop the job?"
+                                  : moves ? "Stop the arm?"
+                                          : "Take the arm's power?",
+                                  ui.px(width));
     if (!dialog) {
         return;
     }
-    ui.text(
-        fmt::format("\u201c{}\u201d is running. Closing Millwright stops it: the machine brakes where it is.",
-                    now.job.name));
+    if (job) {
+        ui.text(fmt::format(
+            "\u201c{}\u201d is running. Closing Millwright stops it: the machine brakes where it is.",
+            now.job.name));
+    } else {
+        ui.text(moves ? "The arm is moving. Closing Millwright stops it: it brakes where it is, and then its "
+                        "motors lose their power."
+                      : "The arm's motors have power. Closing Millwright takes it, since nobody would watch "
+                        "over them.");
+        ui.note("An arm without brakes may sink then: see that nothing is below it.");
+    }
     ui.gap();
     const auto row = ui.row(2);
-    action_button(ui, now, ask, catalogue_, "running_job.stop");
+    action_button(
+        ui, now, ask, catalogue_, "running_job.stop", Rank::normal, job || moves ? "" : "Take it and quit");
     action_button(ui, now, ask, catalogue_, "running_job.stay", Rank::primary);
     if (ui.escape_pressed()) {
         ask.run("running_job.stay");

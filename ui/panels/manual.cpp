@@ -4,6 +4,7 @@
 #include "ui/panels/internal/embedded_manual.h"
 
 #include <array>
+#include <filesystem>
 #include <string>
 
 namespace millwright::panels {
@@ -55,31 +56,54 @@ std::size_t end_of_address(std::string_view text, std::size_t at) {
     return end == std::string_view::npos ? at : end;
 }
 
-/// Without the marks for code, stress and links; inside of code everything stays as it is.
-std::string plain(std::string_view text) {
+/// Where the page stands that `address` leads to from one in `folder`: "docs/reference/pmac.md". Empty for a
+/// place of the same page, and where no folder is told.
+std::string place_of(std::string_view address, std::string_view folder) {
+    const std::string_view file = address.substr(0, address.find('#'));
+    if (folder.empty() || file.empty()) {
+        return {};
+    }
+    return file.find("://") != std::string_view::npos
+               ? std::string(file)
+               : (std::filesystem::path(folder) / file).lexically_normal().generic_string();
+}
+
+/// Without the marks for code, stress and links; inside of code everything stays as it is. Behind the words
+/// of a link stands the page that it leads to, since nothing here can be followed.
+std::string plain(std::string_view text, std::string_view folder) {
     std::string result;
     bool code = false;
+    std::size_t words = 0; // of a link, where they begin
     for (std::size_t n = 0; n < text.size(); ++n) {
         const char c = text[n];
         if (c == '`') {
             code = !code;
         } else if (code || (c != '*' && c != '[' && c != ']')) {
             result += c;
+        } else if (c == '[') {
+            words = result.size();
         } else if (c == ']') {
-            n = end_of_address(text, n);
+            const std::size_t end = end_of_address(text, n);
+            const std::string place = end > n ? place_of(text.substr(n + 2, end - n - 2), folder) : "";
+            if (!place.empty() && place.ends_with(result.substr(words))) {
+                result.replace(words, std::string::npos, place); // the words are its name
+            } else if (!place.empty()) {
+                result += " (" + place + ")";
+            }
+            n = end;
         }
     }
     return result;
 }
 
-std::vector<std::string> cells_of(std::string_view row) {
+std::vector<std::string> cells_of(std::string_view row, std::string_view folder) {
     std::vector<std::string> cells;
     bool code = false;
     std::size_t begin = 1;
     for (std::size_t n = 1; n < row.size(); ++n) {
         code = row[n] == '`' ? !code : code;
         if (row[n] == '|' && !code) {
-            cells.push_back(plain(trimmed(row.substr(begin, n - begin))));
+            cells.push_back(plain(trimmed(row.substr(begin, n - begin)), folder));
             begin = n + 1;
         }
     }
@@ -94,6 +118,8 @@ bool is_rule(std::string_view line) {
 /// Goes through the lines of a page, joining those that belong together.
 class Reader {
 public:
+    explicit Reader(std::string_view folder) : folder_(folder) {}
+
     void line(std::string_view line) {
         const std::string_view words = trimmed(line);
         if (words.empty() || words.starts_with("![")) {
@@ -104,7 +130,7 @@ public:
         }
         if (const std::size_t rank = rank_of(words); rank > 0) {
             end();
-            blocks_.push_back({ReadingKind::heading, {plain(words.substr(rank + 1))}});
+            blocks_.push_back({ReadingKind::heading, {plain(words.substr(rank + 1), folder_)}});
         } else if (words.starts_with("- ")) {
             begin(ReadingKind::item, words.substr(2));
         } else if (open_) {
@@ -130,7 +156,7 @@ private:
     }
     void end() {
         if (open_) {
-            blocks_.push_back({kind_, {plain(text_)}});
+            blocks_.push_back({kind_, {plain(text_, folder_)}});
         }
         open_ = false;
     }
@@ -141,10 +167,11 @@ private:
                 blocks_.back().kind = ReadingKind::head_row;
             }
         } else {
-            blocks_.push_back({ReadingKind::row, cells_of(words)});
+            blocks_.push_back({ReadingKind::row, cells_of(words, folder_)});
         }
     }
 
+    std::string_view folder_;
     std::vector<ReadingBlock> blocks_;
     ReadingKind kind_ = ReadingKind::paragraph;
     std::string text_; ///< with its marks: those may stand on two lines
@@ -153,8 +180,8 @@ private:
 
 } // namespace
 
-std::vector<ReadingBlock> reading_of(std::string_view markdown) {
-    Reader reader;
+std::vector<ReadingBlock> reading_of(std::string_view markdown, std::string_view folder) {
+    Reader reader(folder);
     while (!markdown.empty()) {
         reader.line(next_line(markdown));
     }
@@ -179,13 +206,16 @@ std::string_view section_of(std::string_view markdown, std::string_view heading)
 std::vector<ReadingBlock> manual_of(actions::Workspace workspace) {
     const Page& page = pages.at(static_cast<std::size_t>(workspace));
     const std::string_view text = embedded_page(page.file);
-    const auto blocks = reading_of(page.heading.empty() ? text : section_of(text, page.heading));
+    auto blocks = reading_of(page.heading.empty() ? text : section_of(text, page.heading), "docs/user");
     expects(!blocks.empty(), "the manual has a page of every workspace");
+    blocks.push_back({ReadingKind::paragraph,
+                      {"Pages that are named docs/\u2026 are files of the source's folder docs."}});
     return blocks;
 }
 
 std::vector<ReadingBlock> manual_of_commands() {
-    return reading_of(section_of(embedded_page("reference/pmac.md"), "## On-line commands"));
+    return reading_of(section_of(embedded_page("reference/pmac.md"), "## On-line commands"),
+                      "docs/reference");
 }
 
 } // namespace millwright::panels

@@ -9,8 +9,10 @@
 
 namespace millwright::panels {
 
-/// What its Markdown says, without marks: links by their words, pictures not at all.
-[[nodiscard]] std::vector<widgets::ReadingBlock> reading_of(std::string_view markdown);
+/// What its Markdown says, without marks: pictures not at all, links by their words and the page that they
+/// lead to, whose place is told from `folder`, that of this page; without one by their words alone.
+[[nodiscard]] std::vector<widgets::ReadingBlock> reading_of(std::string_view markdown,
+                                                            std::string_view folder = {});
 
 /// The part of a page from the line `heading` ("## Files") to the next heading of its rank, without itself;
 /// empty if it has none.

@@ -105,6 +105,9 @@ std::optional<std::ptrdiff_t> table(Ui& ui, std::string_view id, const TableView
         draw_text(ui, ui.look().fonts.text, body, ui.colours().muted, view.when_empty, Align::centre);
         return std::nullopt;
     }
+    if (view.wanted >= 0 && view.wanted < view.rows) {
+        bring_into_sight(ui, own, view.wanted, body.h / row_height);
+    }
     std::optional<std::ptrdiff_t> clicked;
     float width = box.w;
     {

@@ -56,6 +56,65 @@ TEST(CardRun, TellsLineShareAndTimeOfAPlannedMotion) {
     EXPECT_EQ(run.place()->line, 9);
 }
 
+/// One axis that goes 2 rad in 4 s, and waits 2 s in the middle.
+kinematics::AxisPositions there_with_rest(double time) {
+    const double moved = time < 2.0 ? time : time < 4.0 ? 2.0 : time - 2.0;
+    return kinematics::AxisPositions::Constant(1, 0.5 * moved);
+}
+
+TEST(CardRun, OfALongLineTellsWhereTheMotorsAreWhateverTheTime) {
+    CardRun run;
+    run.begin({1, 6.0, {}});
+    run.know_way(there_with_rest);
+    machine::DriverStatus status = running(0, 1);
+    status.position = there_with_rest(0.0);
+    for (int n = 1; n <= 100; ++n) { // the card takes twice the computer's time
+        status.position = there_with_rest(0.01 * n);
+        run.follow(status, 0.02);
+    }
+    EXPECT_NEAR(run.place()->time, 1.0, 0.03);
+    run.follow(status, 10.0); // it stands, as in a hold that is not told yet
+    EXPECT_NEAR(run.place()->time, 1.0, 0.03);
+}
+
+TEST(CardRun, OfARestTellsTheTimeThatWentBy) {
+    CardRun run;
+    run.begin({1, 6.0, {}});
+    run.know_way(there_with_rest);
+    machine::DriverStatus status = running(0, 1);
+    for (int n = 1; n <= 150; ++n) {
+        status.position = there_with_rest(0.02 * n);
+        run.follow(status, 0.02);
+    }
+    EXPECT_NEAR(run.place()->time, 3.0, 0.05);
+    for (int n = 151; n <= 300; ++n) {
+        status.position = there_with_rest(0.02 * n);
+        run.follow(status, 0.02);
+    }
+    EXPECT_NEAR(run.place()->time, 6.0, 0.05);
+    EXPECT_NEAR(run.place()->share, 1.0, 0.01);
+}
+
+TEST(CardRun, KeepsWhereItWasBrokenOff) {
+    CardRun run;
+    run.begin({2, 40.0, {}});
+    run.follow(running(0, 2), 10.0);
+    machine::DriverStatus lost;
+    lost.state = DriverState::alarm;
+    lost.link_lost = true;
+    run.follow(lost, 0.1);
+    EXPECT_FALSE(run.place());
+    ASSERT_TRUE(run.broken_off());
+    EXPECT_DOUBLE_EQ(run.broken_off()->share, 0.25);
+    run.begin({2, 40.0, {}});
+    EXPECT_FALSE(run.broken_off());
+    run.follow(running(0, 2), 10.0);
+    machine::DriverStatus well;
+    well.state = DriverState::idle;
+    run.follow(well, 0.1);
+    EXPECT_FALSE(run.broken_off());
+}
+
 TEST(CardRun, WaitsUntilTheMachineIsToldToRun) {
     machine::DriverStatus old;
     old.state = DriverState::stopped;

@@ -1,12 +1,15 @@
 // The Arm workspace at an emulated PMAC over TCP, in real time.
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/base/units.h"
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/line_name.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -442,6 +445,54 @@ TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
     EXPECT_EQ(bench.person.refusal("lower/again"), "");
     bench.person.click("lower/arm_teach");
     EXPECT_EQ(bench.person.project().arm.points.size(), 2U);
+}
+
+TEST(ArmAtPmacU2, ATaughtPointIsChosenAndInSight) {
+    Bench bench({1280, 800});
+    bench.person.click("lower/tabs/points");
+    for (int n = 0; n < 12; ++n) {
+        bench.person.workshop().run("arm.teach");
+        bench.person.frames(2);
+        EXPECT_TRUE(bench.person.sees("lower/points/point_" + std::to_string(n + 1))) << n;
+    }
+    EXPECT_FALSE(bench.person.sees("lower/points/point_1")); // they do not all have room
+    EXPECT_EQ(bench.person.refusal("lower/remove"), "");     // one is chosen
+    bench.person.keep("arm-taught-twelve");
+}
+
+TEST(ArmAtPmacU2, TheJogButtonsAreInSightInASmallWindow) {
+    Bench bench({1100, 700});
+    bench.connect();
+    bench.person.frames(4);
+    for (const char* button : {"hand/power/arm_enable",
+                               "hand/power/machine_emergency_stop",
+                               "hand/jog/plus_1",
+                               "hand/jog/minus_4",
+                               "hand/jog/plus_5"}) {
+        EXPECT_LT(bench.person.place(button).bottom(), bench.person.place("lower/tabs/console").y) << button;
+    }
+    bench.person.keep("arm-jog-small");
+}
+
+TEST(ArmAtPmacU4, TheLineOfTheTerminalIsNoGCode) {
+    Bench bench;
+    EXPECT_EQ(line_name(bench.person.workshop().look()), "MDI");
+    bench.connect();
+    EXPECT_EQ(line_name(bench.person.workshop().look()), "Line");
+    bench.person.click("lower/tabs/console");
+    bench.person.frames(2);
+    bench.person.keep("arm-terminal-line");
+}
+
+TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
+    Bench bench;
+    const auto& log = bench.person.workshop().session().log;
+    bench.connect();
+    const auto file = bench.person.folder() / "own.ini";
+    write_file(file, "; ours\nI122=30\nI9999=3\n");
+    bench.person.workshop().load_card_settings(file);
+    ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("refused") != std::string::npos; }));
+    EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is refused"));
 }
 
 TEST(ArmAtPmac, TakesNoGCode) {

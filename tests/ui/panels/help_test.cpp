@@ -37,6 +37,22 @@ TEST(Manual, ReadsHeadingsParagraphsListsTablesAndLinesToBeTyped) {
                             ReadingBlock{ReadingKind::row, {"a|b", "does  it"}}));
 }
 
+TEST(Manual, TellsWhereTheLinksOfAPageLead) {
+    const auto blocks = reading_of("See [the card](../reference/pmac.md#as-a-machine), [here](#keys), "
+                                   "[grid.md](grid.md) or [theirs](https://x.org/a).\n\n| [a](b.md) |\n",
+                                   "docs/user");
+    EXPECT_THAT(blocks,
+                ElementsAre(ReadingBlock{ReadingKind::paragraph,
+                                         {"See the card (docs/reference/pmac.md), here, docs/user/grid.md or "
+                                          "theirs (https://x.org/a)."}},
+                            ReadingBlock{ReadingKind::row, {"a (docs/user/b.md)"}}));
+    bool told = false;
+    for (const ReadingBlock& block : manual_of(Workspace::arm)) {
+        told = told || block.cells.front().find("(docs/reference/pmac.md)") != std::string::npos;
+    }
+    EXPECT_TRUE(told);
+}
+
 TEST(Manual, CutsASectionOut) {
     constexpr std::string_view page = "# All\n\n## One\na\n### In one\nb\n## Two\nc\n";
     EXPECT_EQ(section_of(page, "## One"), "a\n### In one\nb\n");

@@ -125,6 +125,11 @@ void PmacDriver::let_lines_give_power() {
     talk().let_lines_give_power();
 }
 
+void PmacDriver::set_parting(Parting parting) {
+    const std::scoped_lock lock(session_mutex());
+    talk().set_parting(parting);
+}
+
 bool PmacDriver::position_known() const {
     const std::scoped_lock lock(session_mutex());
     return talk().position_known();
@@ -133,6 +138,21 @@ bool PmacDriver::position_known() const {
 bool PmacDriver::enabled() const {
     const std::scoped_lock lock(session_mutex());
     return talk().enabled();
+}
+
+std::string PmacDriver::farewell() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().farewell();
+}
+
+bool PmacDriver::any_power() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().any_power();
+}
+
+std::optional<std::vector<std::string>> PmacDriver::protections_off() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().protections_off();
 }
 
 } // namespace millwright::machine

@@ -6,6 +6,7 @@
 #include "core/machine/drivers/session_driver.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,18 @@ public:
     /// From now on lines may close loops of motors without power, which are refused else: a person has
     /// looked.
     void let_lines_give_power();
+    /// What close() does about power, in place of what the settings say.
+    void set_parting(Parting parting);
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;
+    /// Which of its own protections the card has off (protections.h), or that it did not tell; nothing while
+    /// it is being asked, as after each command.
+    [[nodiscard]] std::optional<std::vector<std::string>> protections_off() const;
+    /// After close(): what a person should know of motors that may have kept their power; "" if the card told
+    /// that they are as PmacSettings::parting says.
+    [[nodiscard]] std::string farewell() const;
+    [[nodiscard]] bool any_power() const; ///< of its motors, as the card told last
 
 private:
     [[nodiscard]] pmac::PmacSession& talk() const;

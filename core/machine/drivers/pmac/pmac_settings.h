@@ -23,6 +23,13 @@ struct PmacAxis {
     double jog_deg_per_s = 5.0;                 ///< no jog is faster, whatever Ix22 says
 };
 
+/// What becomes of the motors' power when the link is dropped: nobody watches over it any more.
+enum class Parting {
+    takes_power, ///< nothing keeps any
+    as_found,    ///< taken away unless it was there when the link was made
+    keeps_power  ///< a person said so
+};
+
 struct PmacSettings {
     std::vector<PmacAxis> axes;
     /// Whose joints the axes are: its zone is kept, too. None: there is no zone.
@@ -31,7 +38,8 @@ struct PmacSettings {
     int program = 1;           ///< motion program that start() writes
     double abort_after = 0.05; ///< without a sign of life the card stops its motors, s
     double kill_after = 0.08;  ///< and takes their power away
-    double patience = 0.5;     ///< s without an answer after which the card counts as silent
+    Parting parting = Parting::takes_power;
+    double patience = 0.5; ///< s without an answer after which the card counts as silent
 };
 
 /// The four driven axes of the Motoman L-3 (Saengsasri, Nittayachin 1996, KMITL).

@@ -16,15 +16,15 @@ namespace {
 
 constexpr double volt_per_bit = 10.0 / 32768.0;
 constexpr double ms = 1e-3;
-/// Of each motor: output address, software limits, greatest velocity and acceleration, jog speed, homing
-/// speed, clamp.
-constexpr std::array<int, 8> asked{2, 13, 14, 16, 17, 22, 23, 69};
+/// Of each motor: active, output address, fatal following error, software limits, greatest velocity and
+/// acceleration, jog speed, homing speed, flags, clamp.
+constexpr std::array<int, 11> asked{0, 2, 11, 13, 14, 16, 17, 22, 23, 25, 69};
 
 } // namespace
 
 MotorReadings::MotorReadings(std::vector<PmacAxis> axes)
     : axes_(std::move(axes)), outputs_(axes_.size(), -1), jog_speeds_(axes_.size()),
-      ways_home_(axes_.size(), 1.0) {
+      ways_home_(axes_.size(), 1.0), protections_(axes_.size()) {
     for (const PmacAxis& axis : axes_) {
         MachineLimits::Axis limits;
         limits.letter = axis.letter;
@@ -56,7 +56,7 @@ void MotorReadings::read_rating(std::size_t axis, const std::vector<std::string>
         }
         values[n] = *value;
     }
-    const auto& [address, high, low, velocity, acceleration, jog, home, clamp] = values;
+    const auto& [active, address, error, high, low, velocity, acceleration, jog, home, flags, clamp] = values;
     outputs_[axis] = static_cast<int>(std::clamp(address, 0.0, 1e7)) & 0xFFFF; // bit 16: sign and magnitude
     MachineLimits::Axis& limits = limits_[axis];
     const auto limit = [&](double counts) { // 0: switched off
@@ -69,6 +69,19 @@ void MotorReadings::read_rating(std::size_t axis, const std::vector<std::string>
     jog_speeds_[axis] = jog;
     ways_home_[axis] = home < 0.0 ? -1.0 : 1.0;
     limits.output_V = clamp * volt_per_bit;
+    const auto bits = static_cast<std::uint32_t>(std::clamp(flags, 0.0, 16'777'215.0));
+    protections_[axis] = MotorProtections{axes_[axis].motor, error, high, low, bits, active > 0.0};
+}
+
+std::vector<std::string> MotorReadings::protections_off() const {
+    std::vector<MotorProtections> motors;
+    for (const auto& motor : protections_) {
+        if (!motor) {
+            return {"the card did not tell whether they are on"};
+        }
+        motors.push_back(*motor);
+    }
+    return machine::protections_off(motors);
 }
 
 std::string MotorReadings::reading_line() const {

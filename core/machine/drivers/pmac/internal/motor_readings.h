@@ -4,6 +4,7 @@
 
 #include "core/machine/driver.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
+#include "core/machine/drivers/pmac/protections.h"
 
 #include <cstddef>
 #include <optional>
@@ -16,7 +17,7 @@ class MotorReadings {
 public:
     explicit MotorReadings(std::vector<PmacAxis> axes);
 
-    /// Asks for Ix02, Ix13, Ix14, Ix16, Ix17, Ix22, Ix23 and Ix69 of an axis.
+    /// Asks for Ix00, Ix02, Ix11, Ix13, Ix14, Ix16, Ix17, Ix22, Ix23, Ix25 and Ix69 of an axis.
     [[nodiscard]] std::string rating_line(std::size_t axis) const;
     void read_rating(std::size_t axis, const std::vector<std::string>& lines);
     /// Asks for what changes; empty until every rating is known.
@@ -33,6 +34,8 @@ public:
 
     /// In the order of the axes; empty as long as nothing was told.
     [[nodiscard]] const std::vector<MotorReading>& motors() const { return motors_; }
+    /// As the card told last (protections.h); it is a sentence, too, that it did not tell.
+    [[nodiscard]] std::vector<std::string> protections_off() const;
     /// The card's and the joints', the narrower ones.
     [[nodiscard]] std::vector<MachineLimits::Axis> limits() const;
 
@@ -44,6 +47,7 @@ private:
     std::vector<MachineLimits::Axis> limits_; ///< of the card: rad, s
     std::vector<std::optional<double>> jog_speeds_;
     std::vector<double> ways_home_;
+    std::vector<std::optional<MotorProtections>> protections_; ///< nothing: not told
     std::vector<MotorReading> motors_;
     bool told_ = true;
 };

@@ -127,7 +127,7 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
 }
 
 int PmacSession::load(const std::vector<std::string>& lines) {
-    if (std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); })) {
+    if (any_power()) {
         throw Error("the motors have power, and a wrong gain or limit would move them at once",
                     {},
                     "take it away first, and give it again when the settings were looked at");
@@ -172,6 +172,7 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
         const auto changes = power_changes_of(line, addressed);
         return std::any_of(changes.begin(), changes.end(), [](const PowerChange& c) { return c.given; });
     });
+    gave_power_ = gave_power_ || closes_loops_;
     commanded_.clear();
     for (const std::string& line : lines) {
         commanded_ += line + "\n";

@@ -213,6 +213,7 @@ void PmacSession::home_axis(std::size_t n) {
 
 void PmacSession::enable(double /*now*/) {
     require_rest("power");
+    gave_power_ = true;
     ask(every_motor("J/"));
     power_polls_ = patient_polls;
 }

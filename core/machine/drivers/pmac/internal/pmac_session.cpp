@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double poll_interval = 0.02;    // s
 constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
 constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
+constexpr char repeats_or_not = '\x14';   // ^T
 constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
 
 bool starts_with_word(const std::string& line, std::string_view word) {
@@ -37,9 +39,12 @@ void PmacSession::opened(double now) {
     sent_.reset();
     talk_.forget();
     greet_step_ = 0;
+    greeting_heard_.clear();
     greet_at_ = opened_at_ = now;
     own_pause_.begin(now);
     buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
+    found_power_ = gave_power_ = false;
+    end_leaving();
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
@@ -49,6 +54,10 @@ void PmacSession::lost(const std::string& why) {
     const bool spoke = stage_ != Stage::greeting; // else nothing was sent that moves a motor
     finish(Stage::alarm, loss_sentence(why) + (spoke ? "; the card stops its motors by itself" : ""));
     link_lost_ = unseen_ = true;
+    if (leaving_) {
+        farewell_ = "the link was lost before the card told that its motors have no power";
+        end_leaving();
+    }
     talk_.forget();
     queue_.clear();
     sent_.reset();
@@ -91,6 +100,9 @@ bool PmacSession::may_repeat(Kind kind) const {
 
 void PmacSession::receive(std::string_view bytes, double now) {
     heard_ = heard_ || !bytes.empty();
+    if (stage_ == Stage::greeting && talk_.idle()) {
+        greeting_heard_ += bytes;
+    }
     talk_.receive(bytes, now);
 }
 
@@ -121,6 +133,11 @@ void PmacSession::greet(double now) {
         return;
     }
     greet_at_ = now + greeting_pause;
+    constexpr std::size_t behind_close = 2;
+    if (greet_step_ == behind_close && greeting_heard_.find("CLOSE\r") != std::string::npos) {
+        output_ += repeats_or_not; // else each line would be taken for its answer
+        tell(true, ConsoleKind::realtime, "^T: the card repeated what it was sent, and does so no more");
+    }
     if (greet_step_ < steps.size()) {
         output_ += steps[greet_step_++];
     } else if (greet_step_ == steps.size()) {
@@ -150,6 +167,7 @@ void PmacSession::tick(double now) {
         stop_jog(now);
     }
     watch_time(now);
+    part(now);
     if (!talk_.idle()) {
         return;
     }
@@ -404,6 +422,13 @@ void PmacSession::ask_ratings() {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         queue_.push_back({readings_.rating_line(n), Kind::rating, n});
     }
+}
+
+std::optional<std::vector<std::string>> PmacSession::protections_off() const {
+    const auto is_rating = [](const Request& request) { return request.kind == Kind::rating; };
+    const bool asks =
+        (sent_ && is_rating(*sent_)) || std::ranges::any_of(queue_, is_rating) || stage_ == Stage::commanding;
+    return asks ? std::nullopt : std::optional(readings_.protections_off());
 }
 
 /// From now on the card stops by itself when it no longer hears us.

@@ -44,6 +44,10 @@ public:
     void resume(double now) override;
     void stop(double now) override;
     void emergency_stop(double now) override;
+    void leave(double now) override;
+    /// What a person should know after leave(); "": by PmacSettings::parting, and the card has told so.
+    [[nodiscard]] const std::string& farewell() const { return farewell_; }
+    [[nodiscard]] bool any_power() const;
     void reset(double now) override;
     void home(double now) override;
     /// A held one (dead_man) ends at the border of what it may: it is renewed again and again from where the
@@ -60,6 +64,7 @@ public:
     void set_overrides(const Overrides& wanted) override;
     /// Closes the loops of the motors where they stand: the one way back from a kill.
     void enable(double now);
+    void set_parting(Parting parting) { settings_.parting = parting; }
     /// From now on lines of command() may give it, too: a person has looked.
     void let_lines_give_power() { lines_may_power_ = true; }
 
@@ -68,6 +73,8 @@ public:
     [[nodiscard]] bool enabled() const;
     /// By the card's I-variables; what it has not told yet is missing.
     [[nodiscard]] std::vector<MachineLimits::Axis> limits() const { return readings_.limits(); }
+    /// As MotorReadings; nothing while the card is being asked again.
+    [[nodiscard]] std::optional<std::vector<std::string>> protections_off() const;
 
 private:
     static constexpr int patient_polls = 25; ///< half a second
@@ -84,6 +91,7 @@ private:
         homing,
         stopping,
         stopped,
+        parting, ///< killed, and that has to be seen before the link is dropped
         alarm
     };
     enum class Kind { greet, poll, rating, reading, watch, jog_speeds, step, run, program, command, address };
@@ -159,6 +167,13 @@ private:
     void finish(Stage stage, std::string why = {});
     void fail(std::string why);
     void kill();
+    void forget_all();
+
+    // pmac_parting.cpp: before the link is dropped
+    [[nodiscard]] bool takes_power() const;
+    void part(double now);
+    void watch_parting();
+    void end_leaving();
 
     // pmac_requests.cpp: what a person wants
     [[nodiscard]] bool active() const;
@@ -211,7 +226,8 @@ private:
     internal::OwnPause own_pause_;
     double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0, opened_at_ = 0.0;
     std::size_t greet_step_ = 0;
-    bool buffer_open_ = false; ///< nothing may be asked meanwhile
+    std::string greeting_heard_{}; ///< before the first question
+    bool buffer_open_ = false;     ///< nothing may be asked meanwhile
     bool polled_ = false;
     bool asked_poll_ = false; ///< by the last line
     bool look_first_ = false; ///< before anything is sent again that moves: the card may have been reset
@@ -243,8 +259,14 @@ private:
     std::vector<double> rest_counts_;    ///< of each motor, where it came to rest
     bool homing_backs_off_ = false;      ///< to the side of its flag from which a motor finds it
     std::vector<std::optional<double>> own_jog_speeds_; ///< Ix22 as a person left it, where a jog changed it
-    std::optional<double> brake_by_; ///< while stopping, s; the motors lose their power then
-    bool unbraked_ = false;          ///< stopping, and which motors move is not known yet
+    std::optional<double> brake_by_;  ///< while stopping, s; the motors lose their power then
+    bool unbraked_ = false;           ///< stopping, and which motors move is not known yet
+    bool found_power_ = false;        ///< some motor has had power since before the link was made
+    bool gave_power_ = false;         ///< to some motor, by a request since then
+    bool leaving_ = false;            ///< the link is going to be dropped
+    bool killed_seen_ = false;        ///< no motor has power, by a report behind the last kill
+    std::optional<double> kill_by_{}; ///< s; then a kill counts as unseen
+    std::string farewell_{};
     std::optional<double> jog_until_;
     bool jog_stopping_ = false;
     Overrides overrides_;

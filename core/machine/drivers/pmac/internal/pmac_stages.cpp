@@ -217,19 +217,23 @@ void PmacSession::fail(std::string why) {
     if (stage_ == Stage::alarm) {
         return;
     }
-    (void)
-        talk_.take_output(); // a line on its way must not arrive behind the kill: a jog would give power back
-    talk_.forget();
-    sent_.reset();
-    output_ = "\x18";
+    forget_all();
     kill();
-    queue_.clear();
-    command_lines_.clear();
-    buffer_open_ = look_first_ = false;
     tell(false, ConsoleKind::fault, why);
     finish(Stage::alarm, std::move(why));
     ask("CLOSE");
     give_jog_speeds_back();
+}
+
+/// Before a kill: a line on its way must not arrive behind it, since a jog would give power back.
+void PmacSession::forget_all() {
+    (void)talk_.take_output();
+    talk_.forget();
+    sent_.reset();
+    output_ = "\x18";
+    queue_.clear();
+    command_lines_.clear();
+    buffer_open_ = look_first_ = false;
 }
 
 /// The one command that nothing refuses; three times, since a character may be lost.

@@ -22,6 +22,7 @@ DriverState PmacSession::state() const {
     case Stage::homing:
         return DriverState::running;
     case Stage::stopping:
+    case Stage::parting:
         return DriverState::stopping;
     case Stage::stopped:
         return DriverState::stopped;

@@ -67,6 +67,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     polled_ = true;
     unseen_ = false;
     polled_at_ = now;
+    found_power_ = found_power_ && any_power();
     watch(now);
 }
 
@@ -84,12 +85,15 @@ void PmacSession::watch(double now) {
     if (stage_ == Stage::greeting) {
         finish(Stage::ready);
         was_home_ = position_known();
+        found_power_ = any_power();
+        return;
+    }
+    if (stage_ == Stage::parting) {
+        watch_parting();
         return;
     }
     if (stage_ == Stage::alarm) {
-        const bool powered =
-            std::any_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.enabled(); });
-        if (powered) {
+        if (any_power()) {
             kill(); // what was sent may have been lost
         }
         watch_killed();

@@ -29,6 +29,12 @@ TEST(PmacSession, GreetsTheCardInWhateverModeItIs) {
     }
 }
 
+TEST(PmacSession, ACardThatRepeatsWhatItIsSentIsToldNotTo) {
+    const PmacWire wire({}, true, "XYZA", {}, "\x14");
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_TRUE(wire.session.position_known());
+}
+
 TEST(PmacSession, TellsSilenceFromHalfAnAnswer) {
     for (const std::string heard : {"", "PMA"}) {
         PmacSession session(arm_settings());
@@ -389,7 +395,7 @@ TEST(PmacSessionU3, ACardThatKnowsNoConverterIsAskedNoMore) {
     MotorReadings readings(test::wire_settings().axes);
     EXPECT_EQ(readings.reading_line(), ""); // nothing is known of its outputs
     for (std::size_t n = 0; n < 4; ++n) {
-        readings.read_rating(n, {"$C003", "0", "0", "32", "0.5", "32", "10", "20480"});
+        readings.read_rating(n, {"1", "$C003", "32000", "0", "0", "32", "0.5", "32", "10", "$C000", "20480"});
     }
     EXPECT_THAT(readings.reading_line(), HasSubstr("#4FRY$C003"));
     readings.read({"1", "garbled"});

@@ -8,6 +8,8 @@
 #include "core/machine/emulators/pmac/pmac_emulator.h"
 #include "tests/core/machine/drivers/session_wire.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 #include <string>
@@ -23,9 +25,11 @@ struct PmacHolder {
 
 /// The axes of the thesis with soft limits of 90 degrees; protections as they come from the factory.
 inline machine::PmacSettings wire_settings(std::string_view letters = "XYZA",
-                                           std::shared_ptr<const kinematics::ArmModel> arm = nullptr) {
+                                           std::shared_ptr<const kinematics::ArmModel> arm = nullptr,
+                                           machine::Parting parting = machine::Parting::takes_power) {
     machine::PmacSettings settings = machine::arm_settings_of(letters);
     settings.arm = std::move(arm);
+    settings.parting = parting;
     for (machine::PmacAxis& axis : settings.axes) {
         axis.min_deg = -90.0;
         axis.max_deg = 90.0;
@@ -56,9 +60,11 @@ public:
                       std::string_view letters = "XYZA",
                       machine::PmacEmulatorOptions options = {},
                       const std::string& more_setup = {},
-                      std::shared_ptr<const kinematics::ArmModel> arm = nullptr)
+                      std::shared_ptr<const kinematics::ArmModel> arm = nullptr,
+                      machine::Parting parting = machine::Parting::takes_power)
         : PmacHolder(std::move(options)),
-          SessionWire(card, machine::pmac::PmacSession(wire_settings(letters, std::move(arm))), 0.002) {
+          SessionWire(
+              card, machine::pmac::PmacSession(wire_settings(letters, std::move(arm), parting)), 0.002) {
         for (const char c : arm_setup + more_setup) {
             card.receive(std::string(1, c == '\n' ? '\r' : c));
         }
@@ -73,6 +79,14 @@ public:
         begin_faults(faults);
     }
 
+    /// As a driver does before it drops the link.
+    void leave() {
+        session.leave(now);
+        ASSERT_TRUE(run_until([this] { return state() != machine::DriverState::stopping; }, 15.0));
+        session.closed();
+    }
+    /// The link is made once more.
+    void come_back() { greet(); }
     /// Lets the same time pass for both.
     void pass(double seconds) {
         run_until([] { return false; }, seconds);

@@ -1,0 +1,80 @@
+#include "ui/actions/machine_news.h"
+
+#include "core/base/sentences.h"
+#include "core/machine/drivers/pmac/placed_refusals.h"
+#include "core/machine/drivers/pmac/pmac_driver.h"
+#include "core/machine/drivers/pmac/protections.h"
+
+#include <utility>
+
+namespace millwright::actions {
+
+void MachineNews::follow(const ControllerView& machine,
+                         const std::shared_ptr<machine::Driver>& driver,
+                         Session& session) {
+    log_messages(machine, session);
+    tell_protections(driver, session);
+    tell_answer(machine, session);
+}
+
+void MachineNews::sent(int answer, machine::PmacFile file) {
+    sent_ = SentFile{answer, std::move(file)};
+}
+
+/// What banners say as long as it is so: alarms with their reason, a lost link, why nothing could be
+/// connected.
+void MachineNews::log_messages(const ControllerView& machine, Session& session) {
+    const auto log = [&](std::string& last, const std::string& now, const std::string& before) {
+        if (now != std::exchange(last, now) && !now.empty()) {
+            session.log.push_back(before + as_sentence(now));
+        }
+    };
+    const bool alarm = machine.connected() && machine.status.state == machine::DriverState::alarm;
+    const std::string& message = machine.status.message;
+    log(message_,
+        alarm && message.empty() ? "there is an alarm"
+        : machine.connected()    ? message
+                                 : std::string(),
+        alarm ? "Alarm: " : "");
+    log(failure_, machine.failure ? machine.failure->message : std::string(), "");
+}
+
+/// When it is connected, and again when its motors get power.
+void MachineNews::tell_protections(const std::shared_ptr<machine::Driver>& driver, Session& session) {
+    const auto* const card = dynamic_cast<const machine::PmacDriver*>(driver.get());
+    if (card == nullptr) {
+        protections_off_.clear();
+        driver_.reset();
+        return;
+    }
+    if (driver_.lock() != driver) {
+        driver_ = driver;
+        told_ = false;
+        powered_ = card->enabled();
+    }
+    const bool powered = card->enabled();
+    told_ = told_ && !(powered && !std::exchange(powered_, powered));
+    powered_ = powered;
+    if (auto off = card->protections_off()) {
+        protections_off_ = std::move(*off);
+        if (!std::exchange(told_, true) && !protections_off_.empty()) {
+            tell(session, widgets::Severity::warning, machine::protections_notice(protections_off_));
+        }
+    }
+}
+
+void MachineNews::tell_answer(const ControllerView& machine, Session& session) {
+    const machine::CommandAnswer& answer = machine.status.answer;
+    if (!sent_ || !machine.connected() || answer.number != sent_->answer ||
+        answer.state == machine::CommandAnswer::State::pending) {
+        return;
+    }
+    const SentFile sent = *std::exchange(sent_, std::nullopt);
+    answer.text.empty()
+        ? tell(session, widgets::Severity::info, "The card took all settings.")
+        : tell(session,
+               widgets::Severity::warning,
+               "The card refused settings: " + machine::with_places(answer.text, sent.file, "line "));
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,44 @@
+// What the connected machine has to say once, whoever looks at the time: it goes into the log, and what a
+// person has to know before anything moves is told.
+#pragma once
+
+#include "core/machine/drivers/pmac/pmac_file.h"
+#include "ui/actions/controller.h"
+#include "ui/actions/session.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::actions {
+
+class MachineNews {
+public:
+    /// Once a frame. `driver`: null unless one is connected.
+    void
+    follow(const ControllerView& machine, const std::shared_ptr<machine::Driver>& driver, Session& session);
+    /// A file of settings went to the card, whose answer has the number `answer`.
+    void sent(int answer, machine::PmacFile file);
+    /// Of the connected card, a sentence for each; as it told last.
+    [[nodiscard]] const std::vector<std::string>& protections_off() const { return protections_off_; }
+
+private:
+    void log_messages(const ControllerView& machine, Session& session);
+    void tell_protections(const std::shared_ptr<machine::Driver>& driver, Session& session);
+    void tell_answer(const ControllerView& machine, Session& session);
+
+    struct SentFile {
+        int answer = 0;
+        machine::PmacFile file;
+    };
+
+    std::string message_, failure_; ///< that were logged last
+    std::weak_ptr<machine::Driver> driver_;
+    bool told_ = false;    ///< its protections
+    bool powered_ = false; ///< its motors, when it was last looked at
+    std::vector<std::string> protections_off_;
+    std::optional<SentFile> sent_;
+};
+
+} // namespace millwright::actions
