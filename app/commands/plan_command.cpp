@@ -85,6 +85,28 @@ void print_kept(const project::Plan& plan) {
     }
 }
 
+/// What each link of the whole chain brought, by the distance from the surface curve.
+void print_links(const project::Plan& plan) {
+    if (!plan.chain) {
+        return;
+    }
+    fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}\n",
+               "link of the chain, to the curve",
+               "max mm",
+               "mean mm",
+               "best max",
+               "best mean");
+    for (const grid::ImproverLink& link : plan.chain->outcome.links) {
+        fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}{}\n",
+                   link.name,
+                   fixed(link.reached.max, 4),
+                   fixed(link.reached.mean, 4),
+                   fixed(link.of_best.max, 4),
+                   fixed(link.of_best.mean, 4),
+                   link.refused.empty() ? std::string() : "  not taken: " + link.refused);
+    }
+}
+
 void print_summary(const project::Plan& plan, const project::Project& project) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "grid",
@@ -105,6 +127,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
         print_figures("path", *plan.path);
     }
     print_kept(plan);
+    print_links(plan);
     const project::Evaluation& chosen = *plan.program_path(project);
     if (project.toolpath.strategy != project::StrategyInput::zigzag) {
         fmt::print("strategy: {}\n", project::strategy_text(project));

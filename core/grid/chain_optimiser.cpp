@@ -65,11 +65,6 @@ double score(const ErrorSummary& s) {
     return s.max * s.mean;
 }
 
-bool not_above(const ErrorSummary& now, const ErrorSummary& before) {
-    return now.max <= before.max + negligible_mm && now.mean <= before.mean + negligible_mm &&
-           now.lmean <= before.lmean + negligible_mm && now.axis_max <= before.axis_max + negligible_rad;
-}
-
 } // namespace
 
 ChainOptimiser::ChainOptimiser(const ErrorModel& model,
@@ -109,33 +104,50 @@ void ChainOptimiser::measure_start(const Progress& progress) {
     widest_gap_mm_ = (1.0 + settings_.tracks.gap_allowance) * model_.track_gap(state_.best, direction_);
     state_.start = state_.now = state_.of_best = found;
     state_.note = "Start measured";
-    links_.push_back({"start", found, true});
+    state_.links.push_back({"start", found, found, {}});
     bests_.front().reached = found;
     state_.done = start_measured;
     stage_ = Stage::tracks;
 }
 
-/// Makes `nodes` the best grid if they keep the promise and score better. True if they keep it.
-bool ChainOptimiser::consider(const NodeArray& nodes, const Progress& progress) {
+/// What of the promise the grid of `state_.now` breaks; empty: nothing.
+std::string ChainOptimiser::fault_of(const Grid& grid) const {
+    const ErrorSummary& now = state_.now;
+    const ErrorSummary& start = state_.start;
+    if (!(now.max <= start.max + negligible_mm)) {
+        return "a larger error than at the start";
+    }
+    if (!(now.mean <= start.mean + negligible_mm && now.lmean <= start.lmean + negligible_mm)) {
+        return "a larger mean error than at the start";
+    }
+    if (!(now.axis_max <= start.axis_max + negligible_rad)) {
+        return "the tool axis further off than at the start";
+    }
+    return model_.track_gap(grid, direction_) > widest_gap_mm_ ? "tracks too far apart" : std::string();
+}
+
+/// Makes `nodes` the best grid if they keep the promise and score better. Why they do not keep it; empty if
+/// they do.
+std::string ChainOptimiser::consider(const NodeArray& nodes, const Progress& progress) {
     state_.current = nodes;
     if (!(min_corner_jacobian(nodes) >= settings_.least_jacobian)) {
-        return false;
+        return "a cell that nearly folds";
     }
     const Grid grid(nodes);
     state_.now = summary(measure(model_, grid, direction_, fine, progress));
-    if (!not_above(state_.now, state_.start) || model_.track_gap(grid, direction_) > widest_gap_mm_) {
-        return false;
+    if (std::string fault = fault_of(grid); !fault.empty()) {
+        return fault;
     }
     accepted_ = nodes;
     if (score(state_.now) < score(state_.of_best)) {
         state_.best = grid;
         state_.of_best = state_.now;
     }
-    return true;
+    return {};
 }
 
-void ChainOptimiser::end_link(std::string name, bool accepted) {
-    links_.push_back({std::move(name), state_.now, accepted});
+void ChainOptimiser::end_link(std::string name, std::string refused) {
+    state_.links.push_back({std::move(name), state_.now, state_.of_best, std::move(refused)});
     if (score(state_.of_best) < score(bests_.back().reached)) {
         bests_.push_back({state_.best, state_.of_best});
     }
@@ -167,7 +179,7 @@ void ChainOptimiser::choose_tracks(const Progress& progress) {
         take("best nodes of the start's tracks", candidates, a_gap, a_gap, progress.part(0.95, 1.0));
     }
     ++state_.round;
-    state_.note = links_.back().name;
+    state_.note = state_.links.back().name;
     accepted_ = state_.best.array();
     state_.done = tracks_chosen;
     begin_descent(progress);
@@ -207,8 +219,9 @@ bool ChainOptimiser::take(const std::string& name,
     if (!tracks) {
         return false;
     }
-    const bool kept = consider(array_of(*tracks), progress);
-    end_link(name, kept);
+    std::string refused = consider(array_of(*tracks), progress);
+    const bool kept = refused.empty();
+    end_link(name, std::move(refused));
     return kept;
 }
 
@@ -287,7 +300,7 @@ void ChainOptimiser::descend(const Progress& progress) {
         ++done;
         progress.report(done_of_all(iterations_of_level_ + done));
     }
-    kept_ = consider(next.nodes(), progress);
+    refused_ = consider(next.nodes(), progress);
     descent_ = std::move(next);
     iterations_of_level_ += done;
     state_.iteration += done;
@@ -318,7 +331,7 @@ void ChainOptimiser::leap(const Progress& progress) {
 }
 
 void ChainOptimiser::end_descent(const Progress& progress) {
-    end_link(fmt::format("all nodes at once, exponent {:g}", exponent()), kept_);
+    end_link(fmt::format("all nodes at once, exponent {:g}", exponent()), refused_);
     ++state_.round;
     ++level_;
     iterations_of_level_ = 0;

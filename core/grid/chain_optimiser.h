@@ -30,13 +30,6 @@ struct ChainSettings {
     double least_jacobian = 0.015; ///< of a corner triangle in a grid that is accepted, 1 on a uniform grid
 };
 
-/// What one link of the chain brought.
-struct ChainLink {
-    std::string name;
-    ErrorSummary reached; ///< of the grid after it, finely
-    bool accepted = true; ///< whether that grid keeps the promise
-};
-
 /// First step: measures the start. Second: the tracks and their nodes, beside what the track optimiser makes
 /// of the start's own; where they break the promise they are chosen anew with a price on the tool axis. Then
 /// a few iterations of a descent a step. `best` has the least product of max and mean of the grids that keep
@@ -54,7 +47,6 @@ public:
 
     bool advance(const Progress& progress) override;
     [[nodiscard]] const ImproverState& state() const override { return state_; }
-    [[nodiscard]] const std::vector<ChainLink>& links() const { return links_; }
 
 private:
     enum class Stage { start, tracks, descent, leap, done };
@@ -80,8 +72,9 @@ private:
     void end_descent(const Progress& progress);
     [[nodiscard]] int iterations_allowed() const;
     [[nodiscard]] double exponent() const;
-    bool consider(const NodeArray& nodes, const Progress& progress);
-    void end_link(std::string name, bool accepted);
+    [[nodiscard]] std::string fault_of(const Grid& grid) const;
+    std::string consider(const NodeArray& nodes, const Progress& progress);
+    void end_link(std::string name, std::string refused);
     void finish(const Progress& progress);
     [[nodiscard]] double done_of_all(int of_level) const;
 
@@ -97,8 +90,7 @@ private:
     std::size_t level_ = 0; // 0: the exponent of the tracks; n: exponents[n - 1]
     int iterations_of_level_ = 0;
     int leaps_of_level_ = 0;
-    bool kept_ = false; // the promise, by the nodes that were looked at last
-    std::vector<ChainLink> links_;
+    std::string refused_;     // why the nodes that were looked at last are not taken
     NodeArray accepted_;      // where the next descent begins
     std::vector<Best> bests_; // after each link, if it was better than that before
 };

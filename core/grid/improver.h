@@ -8,6 +8,7 @@
 #include "core/grid/grid.h"
 
 #include <string>
+#include <vector>
 
 namespace millwright::grid {
 
@@ -19,6 +20,15 @@ enum class ImproverStatus {
     folded,          ///< a cell turned over; `best` is from before
     not_finite,      ///< a number left the finite range; `best` is from before
     singular,        ///< a node's 2 x 2 system had no solution; `best` is from before
+};
+
+/// What one link brought, of a method that is a chain of several.
+struct ImproverLink {
+    std::string name;
+    ErrorSummary reached; ///< of the nodes at its end
+    ErrorSummary of_best; ///< of the best grid so far
+    std::string
+        refused; ///< why the nodes at its end were not taken, "tracks too far apart"; empty: they were
 };
 
 /// What a person watches. `best` is never worse than the start in the mean error.
@@ -35,6 +45,7 @@ struct ImproverState {
     std::string note{};     ///< one sentence: what was just done, or why it ended
     std::string warning{};  ///< a sentence about the weight; empty: nothing is wrong with it
     double done = 0.0;      ///< of the whole way, 0 to 1, never falling; 1 at the end only
+    std::vector<ImproverLink> links{}; ///< that are done; of the whole chain only
 };
 
 class GridImprover {

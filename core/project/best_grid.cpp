@@ -1,6 +1,7 @@
 // The last link of the whole chain. It judges moves by the surface curve between their ends; on the finished
 // part, where the nearest point of the surface counts, another method may have found more.
-#include "core/project/grids.h"
+#include "core/project/internal/best_grid.h"
+
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ std::optional<Evaluation> made(const GridMaking& by, const Evaluation& uniform, 
 
 } // namespace
 
-Evaluation improved_evaluation(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
+Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
     if (by.method != GridMethod::chain || by.effort == Effort::live) {
         return evaluation_by(by, uniform, progress);
     }

@@ -134,7 +134,8 @@ Evaluation evaluate(const Workpiece& workpiece,
             param,
             cross,
             gap,
-            length};
+            length,
+            workpiece.sequencing.goal};
 }
 
 } // namespace millwright::project

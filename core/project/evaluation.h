@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace millwright::project {
 
@@ -27,6 +28,7 @@ struct GridOutcome {
     std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
     std::string note = {};    ///< one sentence; empty for the uniform grid
     std::string warning = {}; ///< about the weight that it was to be made by; empty: nothing is wrong
+    std::vector<grid::ImproverLink> links = {}; ///< of the whole chain
 };
 
 struct Evaluation {
@@ -41,6 +43,8 @@ struct Evaluation {
     /// Largest distance of neighbouring tracks, mm; nothing where the strategy sets its tracks itself.
     std::optional<double> track_gap;
     double path_length = 0.0; ///< mm
+    /// By which the branches and turns of its path were chosen.
+    toolpath::SequencingGoal goal = toolpath::SequencingGoal::nearest;
 };
 
 /// Surface, machine and direction that an evaluation is made for. Shared by all stages of one plan.

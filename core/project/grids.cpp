@@ -279,7 +279,8 @@ GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progr
             state.start,
             state.of_best,
             state.note,
-            state.warning};
+            state.warning,
+            state.links};
 }
 
 std::string_view title_of_making(GridMethod method) {

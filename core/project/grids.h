@@ -20,6 +20,9 @@ enum class Effort { live, full };
 /// Samples inside a move: while dragging, and for figures that are reported.
 inline constexpr int live_samples = 8;
 inline constexpr int report_samples = 40;
+[[nodiscard]] constexpr int samples_of(Effort effort) {
+    return effort == Effort::live ? live_samples : report_samples;
+}
 
 /// The weight of the elliptic functional that was chosen on `patch`, where the error density of the uniform
 /// grid (or of a later one) is `error`; null, if nothing is known of it, for a choice that needs it. Throws
@@ -81,15 +84,18 @@ struct GridMaking {
 };
 
 /// The grid with its error. Where that is worse than `uniform`, the evaluation of the uniform grid, measured
-/// like `uniform`, with a note that says so. Grids are made for the branches that each move would take by
-/// itself: where only the way by another goal than SequencingGoal::nearest is worse, the path follows the
-/// nearest branches or those of least error, and the note says which. Throws Error or Cancelled.
+/// like `uniform`, with a note that says so. Throws Error or Cancelled.
 [[nodiscard]] Evaluation
 evaluation_by(const GridMaking& by, const Evaluation& uniform, const Progress& progress);
 
-/// The same, but the whole chain ends with the best grid of all methods: where one of them is better on the
-/// finished part (largest * mean error) and keeps the chain's promise there, its grid, with a note that says
-/// so. The others have their standard settings. Throws Error or Cancelled.
+/// The same for the program of a project. The whole chain ends with the best grid of all methods: where one
+/// of them is better on the finished part (largest * mean error) and keeps the chain's promise there, its
+/// grid, with a note that says so; the others have their standard settings.
+///
+/// Grids are made, and judged, for the nearest branches and without the points that the sequencing adds. The
+/// one that is found is then run as the sequencing wants it. Where that is worse than `uniform`, which is run
+/// like this, too, the path follows the nearest branches or those of least error, the first that is not, or
+/// the way of least error (largest * mean); the note says which. Throws Error or Cancelled.
 [[nodiscard]] Evaluation
 improved_evaluation(const GridMaking& by, const Evaluation& uniform, const Progress& progress);
 

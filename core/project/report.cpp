@@ -63,6 +63,19 @@ Json gap_of(const Evaluation& evaluation) {
     return evaluation.track_gap ? Json(rounded(*evaluation.track_gap)) : Json();
 }
 
+Json links_of(const GridOutcome& outcome) {
+    Json json = Json::array();
+    for (const grid::ImproverLink& link : outcome.links) {
+        json.push_back({{"name", link.name},
+                        {"max", rounded(link.reached.max)},
+                        {"mean", rounded(link.reached.mean)},
+                        {"best_max", rounded(link.of_best.max)},
+                        {"best_mean", rounded(link.of_best.mean)},
+                        {"refused", link.refused}});
+    }
+    return json;
+}
+
 Json errors(const Plan& plan,
             const Evaluation& evaluation,
             const std::optional<double>& time,
@@ -89,6 +102,9 @@ Json errors(const Plan& plan,
     json["norm"] = norm_of(evaluation.outcome);
     json["note"] = evaluation.outcome.note;
     json["warning"] = evaluation.outcome.warning;
+    if (!evaluation.outcome.links.empty()) {
+        json["links"] = links_of(evaluation.outcome);
+    }
     return json;
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -45,6 +46,27 @@ void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
         ui, ask, project::mix_numbers(), mix, [](Project& p) -> grid::MixSettings& {
             return p.grid.elliptic.mix;
         });
+}
+
+std::string short_name(const std::string& link) {
+    constexpr std::string_view usual = "all nodes at once, ";
+    return capitalised(link.starts_with(usual) ? link.substr(usual.size()) : link);
+}
+
+/// What each link of the whole chain left the best grid with.
+void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links) {
+    ui.note("Best grid after each link: largest / mean to curve, mm");
+    for (std::size_t n = 0; n < links.size(); ++n) {
+        const grid::ImproverLink& link = links[n];
+        const std::string at_its_end =
+            fmt::format("{}: {:.4f} / {:.4f} mm at its end", link.name, link.reached.max, link.reached.mean);
+        ui.value(fmt::format("link_{}", n),
+                 short_name(link.name),
+                 fmt::format("{:.3f} / {:.3f}", link.of_best.max, link.of_best.mean),
+                 {},
+                 link.refused.empty() ? at_its_end + "."
+                                      : fmt::format("{}, not taken: {}.", at_its_end, link.refused));
+    }
 }
 
 /// What it takes; where that is much, whether it is made all the same.
@@ -193,6 +215,9 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         }
     }
     ui.note(status_text(*now.watched));
+    if (const auto& state = now.watched->state; state && state->links.size() > 1) {
+        draw_links(ui, state->links);
+    }
     if (const GridMethod watched = now.watched->method; watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);
         action_button(ui,
