@@ -48,9 +48,10 @@ void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
         });
 }
 
+/// What of its name tells a link from those before it: "exponent 16".
 std::string short_name(const std::string& link) {
-    constexpr std::string_view usual = "all nodes at once, ";
-    return capitalised(link.starts_with(usual) ? link.substr(usual.size()) : link);
+    const std::size_t comma = link.rfind(", ");
+    return capitalised(comma == std::string::npos ? link : link.substr(comma + 2));
 }
 
 /// What each link of the whole chain left the best grid with.

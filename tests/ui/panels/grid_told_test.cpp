@@ -1,6 +1,7 @@
 // What the window tells of grids while they are made and after: progress, cancelling, warnings, failures.
 #include "tests/ui/panels/person.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,6 +72,30 @@ TEST_F(GridTold, AWatchedChainThatIsCancelledIsNoProgram) {
     EXPECT_TRUE(person_.sees("inspector/watch/grid_use_chain"));
     EXPECT_EQ(person_.workshop().look().shown_name(), "Track optimiser");
     person_.keep("grid-watched-cancelled");
+}
+
+TEST_F(GridTold, AWatchedChainTellsWhatEachLinkBrought) {
+    change(8, GridMethod::tracks);
+    person_.workshop().edit("Shorten the chain",
+                            [](project::Project& p) {
+                                p.grid.chain.first_iterations = 20;
+                                p.grid.chain.later_iterations = 10;
+                            },
+                            {});
+    person_.wait_idle();
+    person_.click("inspector/watch/grid_chain");
+    const auto watched = [&] { return person_.workshop().look().watched; };
+    ASSERT_TRUE(person_.live_until(
+        [&] {
+            return watched() && watched()->state && watched()->state->status != grid::ImproverStatus::running;
+        },
+        120.0));
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/watch/link_1"));
+    const auto& links = watched()->state->links;
+    EXPECT_EQ(links.back().name, "all nodes at once, exponent 32");
+    EXPECT_TRUE(person_.sees(fmt::format("inspector/watch/link_{}", links.size() - 1)));
+    person_.keep("grid-chain-links");
 }
 
 TEST_F(GridTold, AWeightThatIsNotPositiveStaysTold) {
