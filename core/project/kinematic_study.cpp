@@ -69,31 +69,35 @@ public:
     }
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
-        return row_of_grid(
-            method, improved_evaluation({grid_method, input_, workpiece_}, uniform_, progress), progress);
+        const Evaluation found =
+            improved_evaluation({grid_method, input_, workpiece_}, uniform_, progress.part(0.0, making));
+        return row_of_grid(method, found, progress.part(making, 1.0));
     }
     /// The chain's grid, and the same with its branches and turns chosen for the least error of the path.
     [[nodiscard]] std::array<StudyRow, 2>
     chain_rows(StudyMethod chain, StudyMethod sequenced, const Progress& progress) const {
-        constexpr double making = 0.9; // share of the chain
         const Evaluation found = improved_evaluation(
             {GridMethod::chain, input_, workpiece_}, uniform_, progress.part(0.0, making));
-        return {row_of_grid(chain, found, progress),
+        return {row_of_grid(chain, found, progress.part(making, making)),
                 sequenced_row(sequenced, found, progress.part(making, 1.0))};
     }
 
 private:
+    static constexpr double making = 0.9; // share of the grid in a row
+
     [[nodiscard]] StudyRow
     sequenced_row(StudyMethod method, const Evaluation& nearest, const Progress& progress) const {
         Workpiece sequenced = workpiece_;
         sequenced.sequencing.goal = toolpath::SequencingGoal::error;
-        const Evaluation found = evaluate(sequenced, nearest.outcome, report_samples, progress);
+        const Evaluation found =
+            evaluate(sequenced, nearest.outcome, report_samples, progress.part(0.0, making));
         const bool worse = is_worse(found, nearest, workpiece_.machine);
         const bool better = is_worse(nearest, found, workpiece_.machine);
+        const Progress told = progress.part(making, 1.0);
         if (better && !worse) {
-            return row_of(method, found, progress);
+            return row_of(method, found, told);
         }
-        StudyRow kept = row_of(method, nearest, progress);
+        StudyRow kept = row_of(method, nearest, told);
         kept.note = worse ? "No sequence is better in every figure than the nearest branch; it is kept."
                           : "No sequence is better in any figure than the nearest branch; it is kept.";
         kept.no_gain = true;
@@ -156,7 +160,7 @@ const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
 /// The rows with a set-up where the part has moved, beside those without in `unmoved`.
 std::vector<StudyRow>
 rows_there(const Bench& there, const std::vector<StudyRow>& unmoved, const Progress& progress) {
-    StudyRow uniform = there.uniform_row(StudyMethod::set_up, progress);
+    StudyRow uniform = there.uniform_row(StudyMethod::set_up, progress.part(0.0, 0.0));
     auto [chain, sequenced] = there.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress);
     compare_with_unmoved(uniform, row_of(unmoved, StudyMethod::uniform));
     compare_with_unmoved(chain, row_of(unmoved, StudyMethod::chain));
@@ -230,8 +234,8 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
     const Workpiece workpiece = workpiece_of(project, folders);
     try {
         std::vector<StudyRow> rows;
-        const Bench there(of, workpiece, project.grid, progress);
-        rows.push_back(there.uniform_row(StudyMethod::uniform, progress));
+        const Bench there(of, workpiece, project.grid, progress.part(0.0, 0.005));
+        rows.push_back(there.uniform_row(StudyMethod::uniform, progress.part(0.005, 0.01)));
         rows.push_back(there.improved_row(
             StudyMethod::redistribution, GridMethod::redistribution, progress.part(0.01, 0.02)));
         rows.push_back(
@@ -244,7 +248,9 @@ std::vector<StudyRow> studied(const StudyCase& of, const Folders& folders, const
         rows.insert(rows.end(), by_chain.begin(), by_chain.end());
         const auto moved = in_best_set_up(workpiece, progress.part(0.5, 0.6));
         const std::vector<StudyRow> with_set_up =
-            moved ? rows_there(Bench(of, *moved, project.grid, progress), rows, progress.part(0.6, 1.0))
+            moved ? rows_there(Bench(of, *moved, project.grid, progress.part(0.6, 0.6)),
+                               rows,
+                               progress.part(0.6, 1.0))
                   : unmoved_rows(rows);
         rows.insert(rows.end(), with_set_up.begin(), with_set_up.end());
         return rows;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace millwright::project {
@@ -88,6 +89,21 @@ TEST(KinematicStudy, TheDomeFarFromTheAxisGainsByItsSetUp) {
 TEST(KinematicStudy, CoversFourSurfacesOnThreeMachines) {
     EXPECT_EQ(full_study().size(), 4U * 3U * 5U);
     EXPECT_EQ(quick_study().size(), 4U * 3U);
+}
+
+// It stood at its end from the first row on.
+TEST(KinematicStudy, ItsProgressGoesWithItsWork) {
+    std::optional<double> at_the_chain;
+    const Progress progress(
+        [&](const Progress::Report& report) {
+            if (!at_the_chain && report.text == "Moving all nodes at once") {
+                at_the_chain = report.fraction;
+            }
+        },
+        {});
+    (void)studied({"dome", "ca-head", 6, 4}, folders, progress);
+    ASSERT_TRUE(at_the_chain.has_value());
+    EXPECT_LT(*at_the_chain, 0.3);
 }
 
 TEST(KinematicStudy, RefusesWhatItDoesNotKnow) {
