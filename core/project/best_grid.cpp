@@ -16,10 +16,6 @@ namespace {
 constexpr std::array others{
     GridMethod::tracks, GridMethod::redistribution, GridMethod::harmonic, GridMethod::elliptic};
 
-double score(const Evaluation& of) {
-    return of.closest.max * of.closest.mean;
-}
-
 /// Not worse than `uniform` also in the mean over the length, and its tracks not much farther apart.
 bool keeps_promise(const Evaluation& found,
                    const Evaluation& uniform,
@@ -62,6 +58,7 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
             (kept && score(*found) >= score(best))) {
             continue;
         }
+        found->outcome.links = std::move(best.outcome.links); // what the chain did stays told
         best = *std::move(found);
         best.outcome.note =
             fmt::format("On the finished part no link of the chain is better than \"{}\": its grid "

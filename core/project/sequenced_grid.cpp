@@ -34,10 +34,6 @@ std::vector<SequencingGoal> ways_for(SequencingGoal goal) {
     return ways;
 }
 
-double score(const Evaluation& of) {
-    return of.closest.max * of.closest.mean;
-}
-
 std::string added_points_sentence(const Evaluation& found) {
     const grid::Grid& grid = found.outcome.grid;
     const auto added = std::ssize(found.toolpath.points) - static_cast<std::ptrdiff_t>(grid.nu()) * grid.nv();

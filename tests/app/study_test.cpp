@@ -123,22 +123,24 @@ TEST(StudyCommand, NamesWhatTheStudyDoesNotHave) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+/// `millwright study set-up` of a few places and nodes, the project there written to `accepted`.
+Ended set_up_study(const ScratchFolder& scratch,
+                   const std::string& project,
+                   const std::string& accepted,
+                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{
+        "study", "set-up", project, "--out", scratch / "out", "--places", "5", "--nodes", "6"};
+    words.insert(words.end(), {"--accept", accepted});
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+}
+
 TEST(StudyCommand, APartIsNotMovedForAGainOfTheSizeOfRounding) {
     const ScratchFolder scratch;
     const auto project =
         small_project(scratch.path(), "dome", "\"file\": \"rotary-tilt-listing\"", "\"file\": \"ca-head\"");
     const std::string accepted = scratch / "there.json";
-    const Ended ended = run({"study",
-                             "set-up",
-                             project,
-                             "--out",
-                             scratch / "out",
-                             "--places",
-                             "5",
-                             "--nodes",
-                             "6",
-                             "--accept",
-                             accepted});
+    const Ended ended = set_up_study(scratch, project, accepted);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nno gain: "));
     EXPECT_FALSE(nlohmann::json::parse(content_of(accepted)).at("machine").contains("workpiece_offset"));
@@ -148,19 +150,7 @@ TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");
     const std::string accepted = scratch / "there.json";
-    const Ended ended = run({"study",
-                             "set-up",
-                             project,
-                             "--out",
-                             scratch / "out",
-                             "--places",
-                             "5",
-                             "--nodes",
-                             "6",
-                             "--up",
-                             "c",
-                             "--accept",
-                             accepted});
+    const Ended ended = set_up_study(scratch, project, accepted, {"--up", "c"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nstart "));
     EXPECT_THAT(ended.out, HasSubstr("\nbest "));

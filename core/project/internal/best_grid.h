@@ -5,6 +5,11 @@
 
 namespace millwright::project {
 
+/// Smaller is better: largest * mean distance from the surface.
+[[nodiscard]] inline double score(const Evaluation& of) {
+    return of.closest.max * of.closest.mean;
+}
+
 /// As evaluation_by(), and the last link of the chain: see improved_evaluation().
 [[nodiscard]] Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Progress& progress);
 

@@ -59,6 +59,21 @@ TEST(GridEvaluation, TheGoalIsFollowedWhereItCostsNoGain) {
     EXPECT_THAT(made.found.outcome.note, testing::Not(testing::HasSubstr("it follows")));
 }
 
+TEST(GridEvaluation, WhatTheChainDidStaysToldWhereAnotherGridIsTaken) {
+    GridInput input;
+    input.nu = 12;
+    input.nv = 8;
+    input.direction = grid::TrackDirection::along_u;
+    const Workpiece workpiece{geometry::surface_preset("saddle").make().patch(geometry::PatchId{0}),
+                              test::machine("bc-table-head"),
+                              input.direction};
+    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_samples, {});
+    const Evaluation found = improved_evaluation({GridMethod::chain, input, workpiece}, uniform, {});
+    EXPECT_THAT(found.outcome.note, testing::HasSubstr("On the finished part no link of the chain"));
+    ASSERT_FALSE(found.outcome.links.empty());
+    EXPECT_EQ(found.outcome.links.front().name, "start");
+}
+
 /// The dome on a table with a head, 20 x 20 nodes along v, with a largest turn of a rotary axis.
 Made tracks_on_the_dome(double largest_step_deg) {
     GridInput input;
