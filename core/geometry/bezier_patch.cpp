@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/geometry/internal/bernstein.h"
+#include "core/geometry/internal/unit_normal.h"
 
 #include <fmt/format.h>
 
@@ -165,14 +166,7 @@ std::optional<Vec3> BezierPatch::unit_normal(double u, double v) const {
 }
 
 std::optional<Vec3> BezierPatch::unit_normal(const SurfaceDerivatives& at) const {
-    constexpr double smallest =
-        1e-12; // |S_u x S_v| against the patch's size squared: rounding alone is 1e-15
-    const Vec3 N = at.du.cross(at.dv);
-    const double length = N.norm();
-    if (!(length > smallest * box_.diagonal().squaredNorm())) {
-        return std::nullopt;
-    }
-    return Vec3(N / length);
+    return geometry::unit_normal(box_, at.du, at.dv);
 }
 
 } // namespace millwright::geometry

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace millwright::grid {
@@ -52,6 +53,14 @@ std::vector<Vec2> places_of(const TrackOf& of, int k, const Vec2& cell, const Be
     return found;
 }
 
+/// The indices of `values`, the least first.
+std::vector<std::size_t> ascending(const std::vector<double>& values) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return values[n]; });
+    return order;
+}
+
 std::vector<Vec2> shortest(const PathObjective& objective,
                            const TrackOf& of,
                            const BentTrackSettings& settings,
@@ -71,14 +80,16 @@ std::vector<Vec2> shortest(const PathObjective& objective,
         const std::vector<Vec2>& there = places[static_cast<std::size_t>(k) + 1];
         std::vector<double> next(there.size(), infinity);
         std::vector<std::size_t>& before = from.emplace_back(there.size(), 0);
+        const std::vector<std::size_t> cheapest_first = ascending(reached);
         for (std::size_t b = 0; b < there.size(); ++b) {
             const double gaps = objective.of_gaps(of.nodes, of.track, k + 1, there[b]);
-            for (std::size_t a = 0; a < here.size(); ++a) {
-                if (!(reached[a] + gaps < next[b])) {
-                    continue;
+            for (const std::size_t a : cheapest_first) {
+                const double room = next[b] - reached[a] - gaps;
+                if (!(room > 0.0)) {
+                    break;
                 }
                 const double sum =
-                    reached[a] + gaps + objective.of_move(of.nodes, of.track, k, here[a], there[b]);
+                    reached[a] + gaps + objective.of_move(of.nodes, of.track, k, here[a], there[b], room);
                 if (sum < next[b]) {
                     next[b] = sum;
                     before[b] = a;

@@ -16,9 +16,7 @@ namespace millwright::grid {
 namespace {
 
 constexpr int iterations_a_step = 5;
-constexpr double still = 1e-4; // cells: an iteration that moves no node further has settled
-constexpr double negligible_mm = 1e-6;
-constexpr double negligible_rad = 1e-8;
+constexpr double still = 1e-4;           // cells: an iteration that moves no node further has settled
 constexpr double room_for_corners = 0.9; // of the start's smallest corner triangle, where that is small
 constexpr double usual_corner = 0.02;
 

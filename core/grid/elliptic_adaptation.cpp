@@ -240,6 +240,9 @@ void EllipticAdaptation::measure_start(Position& at, const Progress& progress) c
     at.coarse_start = at.state.start;
     at.coarse_best = at.state.start.mean;
     at.state.start = at.state.now = at.state.of_best = finely(start_, progress);
+    if (settings_.gap_allowance < any_gap) {
+        at.widest_gap = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
+    }
 }
 
 ErrorSummary EllipticAdaptation::finely(const Grid& grid, const Progress& progress) const {
@@ -359,17 +362,26 @@ void EllipticAdaptation::take(Position& at, const NodeArray& nodes, const Progre
     if (has_gained && std::ranges::none_of(at.candidates, [&](const CandidatePtr& earlier) {
             return dominates(earlier->error, at.state.now);
         })) {
-        at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
-        if (at.candidates.size() > most_candidates) {
-            at.candidates.erase(std::ranges::max_element(
-                at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; }));
-        }
+        keep(at, grid);
     }
     const bool axis_is_kept = at.state.now.axis_max <= at.coarse_start->axis_max;
     if (at.state.now.mean < at.coarse_best && axis_is_kept) {
         at.coarse_best = at.state.now.mean;
         at.state.best = grid;
         at.state.of_best = at.state.now;
+    }
+}
+
+/// As a candidate, unless its tracks lie too far apart.
+void EllipticAdaptation::keep(Position& at, const Grid& grid) const {
+    if (std::isfinite(at.widest_gap) && model_.track_gap(grid, settings_.direction) > at.widest_gap) {
+        at.too_wide.push_back(at.state.now.mean);
+        return;
+    }
+    at.candidates.push_back(std::make_shared<const Candidate>(Candidate{grid, at.state.now}));
+    if (at.candidates.size() > most_candidates) {
+        at.candidates.erase(
+            std::ranges::max_element(at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; }));
     }
 }
 
@@ -415,7 +427,8 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     at.state.best = start_;
     at.state.of_best = at.state.start;
     if (at.candidates.empty()) {
-        at.state.note = "No grid was better than the start";
+        at.state.note = "No grid was better than the start" +
+                        refusals(at.too_wide, {}, infinity, settings_.gap_allowance);
         return;
     }
     std::ranges::sort(at.candidates, {}, [](const CandidatePtr& c) { return c->error.mean; });
@@ -424,16 +437,11 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
         return progress.part(n / paths, (n + 1) / paths);
     };
     const GridPromise promise(model_, start_, settings_.direction, share(0));
-    const double widest = (1.0 + settings_.gap_allowance) * model_.track_gap(start_, settings_.direction);
     CandidatePtr chosen;
     double least = infinity;
     int kept = 0;
-    std::vector<double> too_wide, worse_elsewhere; // their means
+    std::vector<double> worse_elsewhere; // their means
     for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
-        if (model_.track_gap((*c)->grid, settings_.direction) > widest) {
-            too_wide.push_back((*c)->error.mean);
-            continue;
-        }
         const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
         if (!path) {
             worse_elsewhere.push_back((*c)->error.mean);
@@ -452,7 +460,8 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     at.state.note =
         (chosen ? "Best grid: " + mean_sentence(at.state.of_best)
                 : std::string("No grid was better than the start")) +
-        refusals(too_wide, worse_elsewhere, chosen ? chosen->error.mean : infinity, settings_.gap_allowance);
+        refusals(
+            at.too_wide, worse_elsewhere, chosen ? chosen->error.mean : infinity, settings_.gap_allowance);
 }
 
 void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {

@@ -10,12 +10,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace millwright::grid {
+
+inline constexpr double any_gap = 1e9; ///< an allowance that allows every gap between tracks
 
 struct EllipticAdaptationSettings {
     TrackDirection direction = TrackDirection::along_v;
@@ -32,7 +35,7 @@ struct EllipticAdaptationSettings {
     double memory = 0.5; ///< share of the earlier rounds in the error density: damps the outer loop
     Sampling sampling = coarse;
     WeightPtr region{}; ///< how much of the weight counts (region.h), in solver coordinates; null: all
-    double gap_allowance = 1e9; ///< share by which the track gap of the grid that is taken may grow
+    double gap_allowance = any_gap; ///< share by which the track gap of the grid that is taken may grow
 
     friend bool operator==(const EllipticAdaptationSettings&, const EllipticAdaptationSettings&) = default;
 };
@@ -97,6 +100,8 @@ private:
         WeightPtr round_weight{};                       ///< null between two rounds
         std::shared_ptr<const EllipticSolver> solver{}; ///< null between two rounds
         std::vector<CandidatePtr> candidates{};         ///< none dominated by one before it
+        std::vector<double> too_wide{};                 ///< the means of those whose tracks lie too far apart
+        double widest_gap = std::numeric_limits<double>::infinity(); ///< mm on the surface
         FunctionalWeights functional{};
         int falls = 0;
         int iterations_before = 0;                       ///< done before the solver started
@@ -114,6 +119,7 @@ private:
     void fall(Position& at, SolverStatus failure) const;
     void end_round(Position& at, SolverStatus solved) const;
     void confirm(Position& at, const Progress& progress) const;
+    void keep(Position& at, const Grid& grid) const;
     void choose(Position& at, const Progress& progress) const;
     [[nodiscard]] ErrorSummary finely(const Grid& grid, const Progress& progress) const;
 

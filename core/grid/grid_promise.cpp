@@ -20,8 +20,9 @@ GridPromise::GridPromise(const ErrorModel& model,
 
 std::optional<ErrorSummary> GridPromise::kept_by(const Grid& grid, const Progress& progress) const {
     const ErrorSummary path = model_.on_path(grid, direction_, progress);
-    const bool path_is_kept =
-        path.mean <= path_.mean && path.max <= path_.max && path.axis_max <= path_.axis_max;
+    const bool path_is_kept = path.mean <= path_.mean + negligible_mm &&
+                              path.max <= path_.max + negligible_mm &&
+                              path.axis_max <= path_.axis_max + negligible_rad;
     if (path_is_kept && mean_of_moves(model_, grid, direction_, progress) < mean_of_moves_) {
         return path;
     }

@@ -8,6 +8,11 @@
 
 namespace millwright::grid {
 
+// Above the start's figures, and still no worse: what rounding makes of moves that are in both grids.
+inline constexpr double negligible_mm =
+    1e-6; ///< a nanometre: rounding on a part of a metre is a tenth of that
+inline constexpr double negligible_rad = 1e-8; ///< a nanometre at 100 mm
+
 /// What the start is worth: its path as it is run (ErrorModel::on_path), and each of its moves by itself.
 /// Judged finely.
 class GridPromise {
@@ -19,7 +24,7 @@ public:
                 const Progress& progress);
 
     /// The figures of the path over `grid` if its mean, max and largest axis deviation are not above the
-    /// start's and its moves have a lower mean; else nothing. Throws Cancelled.
+    /// start's (by what is not negligible) and its moves have a lower mean; else nothing. Throws Cancelled.
     [[nodiscard]] std::optional<ErrorSummary> kept_by(const Grid& grid, const Progress& progress) const;
 
 private:

@@ -39,16 +39,16 @@ bool PathDescent::search(const std::vector<Vec2>& direction, const Progress& pro
     double factor = std::min(1.0, longest_step / length);
     for (int halving = 0; halving < most_halvings; ++halving, factor /= 2.0) {
         NodeArray tried = objective_.moved(nodes_, factor, direction);
-        const double there = objective_.value(tried, progress);
-        if (there <= value_ + sufficient_decrease * factor * slope) {
-            std::vector<Vec2> gradient = objective_.gradient(tried, progress);
+        const PathCost there = objective_.cost(tried, progress);
+        if (there.sum <= value_ + sufficient_decrease * factor * slope) {
+            std::vector<Vec2> gradient = objective_.gradient(tried, there, progress);
             std::vector<Vec2> change = gradient;
             add(change, -1.0, gradient_);
             std::vector<Vec2> step(direction.size(), Vec2::Zero());
             add(step, factor, direction);
             memory_.remember(std::move(step), std::move(change));
             nodes_ = std::move(tried);
-            value_ = there;
+            value_ = there.sum;
             gradient_ = std::move(gradient);
             last_step_ = factor * length;
             return true;
@@ -75,13 +75,13 @@ bool PathDescent::leap(const Progress& progress) {
         const Progress part = progress.part(static_cast<double>(sweep) / sweeps, (sweep + 1.0) / sweeps);
         found = shortest_bent_tracks(objective_, std::move(found), {.reach = reach}, part);
     }
-    const double there = objective_.value(found, progress);
-    if (!(there < (1.0 - least_gain) * value_)) {
+    const PathCost there = objective_.cost(found, progress);
+    if (!(there.sum < (1.0 - least_gain) * value_)) {
         return false;
     }
-    gradient_ = objective_.gradient(found, progress);
+    gradient_ = objective_.gradient(found, there, progress);
     nodes_ = std::move(found);
-    value_ = there;
+    value_ = there.sum;
     memory_.clear(); // of another valley
     return true;
 }

@@ -14,7 +14,7 @@ namespace millwright::grid {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double difference = 2e-4; // cells: below the error's own kinks where branches change
+constexpr double difference = 1e-6; // cells: bends and rounding both stay below 1e-3 of a slope
 
 } // namespace
 
@@ -82,8 +82,9 @@ template <class Nodes> double PathObjective::corners_of_cell(const Nodes& nodes,
     return settings_.corner_weight * sum;
 }
 
-/// All that depends on node (i, j).
-template <class Nodes> double PathObjective::at_node(const Nodes& nodes, int i, int j) const {
+/// All that depends on node (i, j); `cost(i, j, from, to)` is that of the move that begins at node (i, j).
+template <class Nodes, class Cost>
+double PathObjective::at_node(const Nodes& nodes, int i, int j, const Cost& cost) const {
     double sum = 0.0;
     for (const int row : {i - 1, i}) {
         for (const int column : {j - 1, j}) {
@@ -100,21 +101,21 @@ template <class Nodes> double PathObjective::at_node(const Nodes& nodes, int i, 
         if (row >= 0 && row + 1 < rows_) {
             const Vec2& from = nodes.at(row, j);
             const Vec2& to = nodes.at(row + 1, j);
-            sum += rows_are_tracks ? gap_cost(from, to) : move_cost(from, to);
+            sum += rows_are_tracks ? gap_cost(from, to) : cost(row, j, from, to);
         }
     }
     for (const int column : {j - 1, j}) {
         if (column >= 0 && column + 1 < columns_) {
             const Vec2& from = nodes.at(i, column);
             const Vec2& to = nodes.at(i, column + 1);
-            sum += rows_are_tracks ? move_cost(from, to) : gap_cost(from, to);
+            sum += rows_are_tracks ? cost(i, column, from, to) : gap_cost(from, to);
         }
     }
     return sum;
 }
 
-double
-PathObjective::of_move(const NodeArray& nodes, int track, int k, const Vec2& from, const Vec2& to) const {
+double PathObjective::of_move(
+    const NodeArray& nodes, int track, int k, const Vec2& from, const Vec2& to, double most) const {
     const bool rows_are_tracks = direction_ == TrackDirection::along_v;
     const auto index = [&](int t, int n) { return rows_are_tracks ? nodes.index(t, n) : nodes.index(n, t); };
     const Around moved(nodes, {index(track, k), from}, {index(track, k + 1), to});
@@ -125,7 +126,7 @@ PathObjective::of_move(const NodeArray& nodes, int track, int k, const Vec2& fro
             sum += rows_are_tracks ? corners_of_cell(moved, side, k) : corners_of_cell(moved, k, side);
         }
     }
-    return sum < infinity ? sum + move_cost(from, to) : infinity;
+    return sum < most ? sum + move_cost(from, to) : infinity;
 }
 
 double PathObjective::of_gaps(const NodeArray& nodes, int track, int k, const Vec2& place) const {
@@ -136,61 +137,73 @@ double PathObjective::of_gaps(const NodeArray& nodes, int track, int k, const Ve
     return before + (track + 1 < tracks ? gap_cost(place, node(track + 1)) : 0.0);
 }
 
-double PathObjective::value(const NodeArray& nodes, const Progress& progress) const {
+PathCost PathObjective::cost(const NodeArray& nodes, const Progress& progress) const {
     const bool rows_are_tracks = direction_ == TrackDirection::along_v;
+    PathCost cost{0.0, std::vector<double>(nodes.nodes.size(), 0.0)};
     std::vector<double> sums(static_cast<std::size_t>(rows_), 0.0);
     parallel_for(rows_, 1, [&](std::ptrdiff_t row) {
         progress.check();
         const int i = static_cast<int>(row);
         double& sum = sums[static_cast<std::size_t>(row)];
-        for (int j = 0; j < columns_ && i + 1 < rows_; ++j) {
-            sum += j + 1 < columns_ ? corners_of_cell(nodes, i, j) : 0.0;
+        for (int j = 0; j + 1 < columns_ && i + 1 < rows_; ++j) {
+            sum += corners_of_cell(nodes, i, j);
         }
         if (!(sum < infinity)) {
             return;
         }
         for (int j = 0; j < columns_; ++j) {
             const Vec2& here = nodes.at(i, j);
+            double& move = cost.moves[nodes.index(i, j)];
             if (i + 1 < rows_) {
-                sum += rows_are_tracks ? gap_cost(here, nodes.at(i + 1, j))
-                                       : move_cost(here, nodes.at(i + 1, j));
+                const Vec2& next = nodes.at(i + 1, j);
+                sum += rows_are_tracks ? gap_cost(here, next) : (move = move_cost(here, next));
             }
             if (j + 1 < columns_) {
-                sum += rows_are_tracks ? move_cost(here, nodes.at(i, j + 1))
-                                       : gap_cost(here, nodes.at(i, j + 1));
+                const Vec2& next = nodes.at(i, j + 1);
+                sum += rows_are_tracks ? (move = move_cost(here, next)) : gap_cost(here, next);
             }
         }
     });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    cost.sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+    return cost;
 }
 
-/// One-sided where a node `difference` further is out of reach.
-double PathObjective::slope(const NodeArray& nodes, int i, int j, int coordinate) const {
-    Vec2 step = Vec2::Zero();
-    step[coordinate] = difference * cell_[coordinate];
-    const Vec2& here = nodes.at(i, j);
-    const std::size_t node = nodes.index(i, j);
-    const double ahead = at_node(Around(nodes, {node, here + step}), i, j);
-    const double behind = at_node(Around(nodes, {node, here - step}), i, j);
-    if (ahead < infinity && behind < infinity) {
-        return (ahead - behind) / (2.0 * difference);
+double PathObjective::value(const NodeArray& nodes, const Progress& progress) const {
+    return cost(nodes, progress).sum;
+}
+
+/// To the other side where a node `difference` further is out of reach; `now` is at_node().
+double PathObjective::slope(const NodeArray& nodes, int i, int j, int coordinate, double now) const {
+    const auto cost = [this](int, int, const Vec2& from, const Vec2& to) { return move_cost(from, to); };
+    for (const double way : {difference, -difference}) {
+        Vec2 there = nodes.at(i, j);
+        there[coordinate] += way * cell_[coordinate];
+        const double then = at_node(Around(nodes, {nodes.index(i, j), there}), i, j, cost);
+        if (then < infinity) {
+            return (then - now) / way;
+        }
     }
-    const double now = at_node(nodes, i, j);
-    return ahead < infinity    ? (ahead - now) / difference
-           : behind < infinity ? (now - behind) / difference
-                               : 0.0;
+    return 0.0;
 }
 
 std::vector<Vec2> PathObjective::gradient(const NodeArray& nodes, const Progress& progress) const {
+    return gradient(nodes, cost(nodes, progress), progress);
+}
+
+std::vector<Vec2>
+PathObjective::gradient(const NodeArray& nodes, const PathCost& cost, const Progress& progress) const {
+    expects(cost.sum < infinity, "a gradient is taken where the objective is finite");
+    const auto known = [&](int i, int j, const Vec2&, const Vec2&) { return cost.moves[nodes.index(i, j)]; };
     std::vector<Vec2> found(nodes.nodes.size(), Vec2::Zero());
     parallel_for(rows_, 1, [&](std::ptrdiff_t row) {
         progress.check();
         const int i = static_cast<int>(row);
         for (int j = 0; j < columns_; ++j) {
             const Vec2 free = freedom(nodes, i, j, true);
+            const double now = at_node(nodes, i, j, known);
             for (const int coordinate : {0, 1}) {
                 if (free[coordinate] > 0.0) {
-                    found[nodes.index(i, j)][coordinate] = slope(nodes, i, j, coordinate);
+                    found[nodes.index(i, j)][coordinate] = slope(nodes, i, j, coordinate, now);
                 }
             }
         }

@@ -7,6 +7,7 @@
 #include "core/grid/error_model.h"
 #include "core/grid/move_cost.h"
 
+#include <limits>
 #include <vector>
 
 namespace millwright::grid {
@@ -20,6 +21,11 @@ struct PathObjectiveSettings {
     double narrowest_gap = 0.5;   ///< the same
     double gap_softness = 0.1;    ///< mean gaps beyond, that cost one
     Sampling sampling = coarse;
+};
+
+struct PathCost {
+    double sum = 0.0;
+    std::vector<double> moves; ///< a node: of the move that begins there; 0 of a track's last
 };
 
 /// Lengths are in cells of the uniform grid with the same outline. The corners stay, nodes of the outline
@@ -36,14 +42,25 @@ public:
     /// Infinity where a corner triangle is too small or a move is out of reach. Throws Cancelled.
     [[nodiscard]] double value(const NodeArray& nodes, const Progress& progress) const;
 
-    /// d value / d node by central differences, a cell; zero along what may not move. Throws Cancelled.
+    /// value(), and what it is made of.
+    [[nodiscard]] PathCost cost(const NodeArray& nodes, const Progress& progress) const;
+
+    /// d value / d node by differences, a cell; zero along what may not move. Throws
+    /// Cancelled, and Defect where value() is not finite.
     [[nodiscard]] std::vector<Vec2> gradient(const NodeArray& nodes, const Progress& progress) const;
+    /// The same where the `cost` of `nodes` is at hand.
+    [[nodiscard]] std::vector<Vec2>
+    gradient(const NodeArray& nodes, const PathCost& cost, const Progress& progress) const;
 
     /// What depends on nodes `k` and `k + 1` of a track alone, were they at `from` and `to` and all others of
     /// the other tracks as in `nodes`: the move, and the corners of the cells on both its sides. Infinity as
-    /// in value().
-    [[nodiscard]] double
-    of_move(const NodeArray& nodes, int track, int k, const Vec2& from, const Vec2& to) const;
+    /// in value(), and where the corners alone cost `most` or more.
+    [[nodiscard]] double of_move(const NodeArray& nodes,
+                                 int track,
+                                 int k,
+                                 const Vec2& from,
+                                 const Vec2& to,
+                                 double most = std::numeric_limits<double>::infinity()) const;
 
     /// The gaps from node `k` of a track, were it at `place`, to its neighbours across.
     [[nodiscard]] double of_gaps(const NodeArray& nodes, int track, int k, const Vec2& place) const;
@@ -61,8 +78,9 @@ private:
     [[nodiscard]] double move_cost(const Vec2& from, const Vec2& to) const;
     [[nodiscard]] double gap_cost(const Vec2& from, const Vec2& to) const;
     template <class Nodes> [[nodiscard]] double corners_of_cell(const Nodes& nodes, int i, int j) const;
-    template <class Nodes> [[nodiscard]] double at_node(const Nodes& nodes, int i, int j) const;
-    [[nodiscard]] double slope(const NodeArray& nodes, int i, int j, int coordinate) const;
+    template <class Nodes, class Cost>
+    [[nodiscard]] double at_node(const Nodes& nodes, int i, int j, const Cost& cost) const;
+    [[nodiscard]] double slope(const NodeArray& nodes, int i, int j, int coordinate, double now) const;
 
     const ErrorModel* model_;
     TrackDirection direction_;

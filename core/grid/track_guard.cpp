@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/grid/grid_promise.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,6 @@ namespace {
 
 using Tracks = std::vector<MeasuredTrack>;
 
-constexpr double negligible_mm = 1e-6;  // a nanometre: rounding on a part of a metre is a tenth of that
-constexpr double negligible_rad = 1e-8; // a nanometre at 100 mm
 constexpr std::array quantities{&MoveError::tip, &MoveError::off_surface, &MoveError::param};
 
 /// Whether a version has to be better by itself, or is only one part of a better grid.

@@ -9,19 +9,21 @@ namespace millwright::kinematics {
 
 namespace {
 
-/// A rotation about a unit direction (Rodrigues), cheap to apply.
-class Turn {
-public:
-    Turn(const Vec3& direction, double angle) : k_(direction), sin_(std::sin(angle)), cos_(std::cos(angle)) {}
-
-    [[nodiscard]] Vec3 operator()(const Vec3& r) const {
-        return cos_ * r + sin_ * k_.cross(r) + (1.0 - cos_) * k_.dot(r) * k_;
-    }
-
-private:
-    Vec3 k_;
-    double sin_, cos_;
-};
+/// The rotation about a unit direction (Rodrigues).
+Mat3 turn_about(const Vec3& k, double angle) {
+    const double s = std::sin(angle);
+    const double c = std::cos(angle);
+    const Vec3 ks = s * k;
+    const Vec3 kc = (1.0 - c) * k;
+    const double xy = kc.x() * k.y();
+    const double xz = kc.x() * k.z();
+    const double yz = kc.y() * k.z();
+    Mat3 turn;
+    turn << c + kc.x() * k.x(), xy - ks.z(), xz + ks.y(), //
+        xy + ks.z(), c + kc.y() * k.y(), yz - ks.x(),     //
+        xz - ks.y(), yz + ks.x(), c + kc.z() * k.z();
+    return turn;
+}
 
 /// Visits the axes from the tool to the workpiece with the sense in which each moves the tool on the part.
 template <class Visit> void from_tool_to_workpiece(const MachineModel& machine, Visit&& visit) {
@@ -50,11 +52,46 @@ geometry::ToolPose forward(const MachineModel& machine, const AxisPositions& pos
             tip += amount * axis.direction;
             return;
         }
-        const Turn turn(axis.direction, amount);
-        tip = axis.point + turn(tip - axis.point);
-        tool = turn(tool);
+        const Mat3 turn = turn_about(axis.direction, amount);
+        tip = axis.point + turn * (tip - axis.point);
+        tool = turn * tool;
     });
     return {tip - machine.workpiece_origin(), tool};
+}
+
+StraightForward::StraightForward(const MachineModel& machine,
+                                 const AxisPositions& from,
+                                 const AxisPositions& to)
+    : tool_(machine.description().tool_axis) {
+    Vec3 begin = machine.description().tool_tip;
+    Vec3 step = Vec3::Zero();
+    from_tool_to_workpiece(machine, [&](int n, double sense) {
+        const MachineAxis& axis = machine.axis(n);
+        const double amount = sense * physical(axis, from[n]);
+        const double way = sense * (to[n] - from[n]);
+        if (axis.kind == AxisKind::linear) {
+            begin += amount * axis.direction;
+            step += way * axis.direction;
+            return;
+        }
+        turns_.at(count_++) = {begin - axis.point, step, axis.direction, amount, way};
+        begin = axis.point;
+        step.setZero();
+    });
+    begin_ = begin - machine.workpiece_origin();
+    step_ = step;
+}
+
+geometry::ToolPose StraightForward::at(double t) const {
+    Vec3 tip = Vec3::Zero();
+    Vec3 tool = tool_;
+    for (std::size_t n = 0; n < count_; ++n) {
+        const Turn& turn = turns_[n];
+        const Mat3 turned = turn_about(turn.direction, turn.angle + t * turn.way);
+        tip = turned * (tip + turn.begin + t * turn.step);
+        tool = turned * tool;
+    }
+    return {tip + begin_ + t * step_, tool};
 }
 
 LinearMap linear_map(const MachineModel& machine, const AxisPositions& positions) {
@@ -68,11 +105,9 @@ LinearMap linear_map(const MachineModel& machine, const AxisPositions& positions
             map.tip_at_zero += sense * axis.zero_offset * axis.direction;
             return;
         }
-        const Turn turn(axis.direction, sense * physical(axis, positions[n]));
-        map.tip_at_zero = axis.point + turn(map.tip_at_zero - axis.point);
-        for (int k = 0; k < 3; ++k) {
-            map.columns.col(k) = turn(map.columns.col(k));
-        }
+        const Mat3 turn = turn_about(axis.direction, sense * physical(axis, positions[n]));
+        map.tip_at_zero = axis.point + turn * (map.tip_at_zero - axis.point);
+        map.columns = turn * map.columns;
     });
     map.tip_at_zero -= machine.workpiece_origin();
     return map;
@@ -90,13 +125,11 @@ Jacobian jacobian(const MachineModel& machine, const AxisPositions& positions) {
             J.col(n).head<3>() = sense * axis.direction;
             return;
         }
-        const Turn turn(axis.direction, amount);
-        tip = axis.point + turn(tip - axis.point);
-        tool = turn(tool);
-        for (Eigen::Index k = 0; k < J.cols(); ++k) {
-            J.col(k).head<3>() = turn(J.col(k).head<3>());
-            J.col(k).tail<3>() = turn(J.col(k).tail<3>());
-        }
+        const Mat3 turn = turn_about(axis.direction, amount);
+        tip = axis.point + turn * (tip - axis.point);
+        tool = turn * tool;
+        J.topRows<3>() = turn * J.topRows<3>();
+        J.bottomRows<3>() = turn * J.bottomRows<3>();
         J.col(n).head<3>() = sense * axis.direction.cross(tip - axis.point);
         J.col(n).tail<3>() = sense * axis.direction.cross(tool);
     });

@@ -6,10 +6,36 @@
 #include "core/geometry/tool_pose.h"
 #include "core/kinematics/machine_model.h"
 
+#include <array>
+#include <cstddef>
+
 namespace millwright::kinematics {
 
 /// The tool pose in workpiece coordinates. `positions` has axis_count() entries.
 [[nodiscard]] geometry::ToolPose forward(const MachineModel& machine, const AxisPositions& positions);
+
+/// forward() along a straight line in axis coordinates: what all its points share is computed once.
+class StraightForward {
+public:
+    StraightForward(const MachineModel& machine, const AxisPositions& from, const AxisPositions& to);
+
+    /// The pose at fraction `t` of the way, 0 to 1; forward(machine, from + t (to - from)) but for rounding.
+    [[nodiscard]] geometry::ToolPose at(double t) const;
+
+private:
+    /// After the linear axes before it, all relative to a point on the rotary axis.
+    struct Turn {
+        Vec3 begin = Vec3::Zero();
+        Vec3 step = Vec3::Zero();
+        Vec3 direction = Vec3::UnitZ();
+        double angle = 0.0;
+        double way = 0.0;
+    };
+    std::array<Turn, 3> turns_; // from the tool to the workpiece
+    std::size_t count_ = 0;
+    Vec3 tool_;
+    Vec3 begin_, step_; // of the linear axes after the last turn
+};
 
 /// Columns: one an axis. Rows 0-2: d tip / d position; rows 3-5: d axis / d position (mm, rad).
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 9>;

@@ -200,7 +200,7 @@ std::string turn_sentence(const MachineModel& machine, const std::vector<AxisPos
 
 AxisPositions with_tip_at(const MachineModel& machine, AxisPositions positions, const Vec3& tip) {
     const LinearMap map = linear_map(machine, positions);
-    const Vec3 solved = map.columns.partialPivLu().solve(tip - map.tip_at_zero);
+    const Vec3 solved = map.columns.inverse() * (tip - map.tip_at_zero);
     for (int k = 0; k < 3; ++k) {
         positions[machine.linear_axes()[static_cast<std::size_t>(k)]] = solved[k];
     }

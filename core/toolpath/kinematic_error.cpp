@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
-#include "core/geometry/surface_tangents.h"
+#include "core/geometry/surface_point.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
@@ -39,8 +39,8 @@ struct Node {
 };
 
 ToolPose pose_at(const BezierPatch& patch, const Vec2& uv, bool flipped) {
-    const geometry::SurfaceTangents at = geometry::tangents(patch, uv.x(), uv.y());
-    const Vec3 normal = unit_normal(patch, at).value_or(Vec3::Zero());
+    const geometry::SurfacePoint at = geometry::point_of(patch, uv.x(), uv.y());
+    const Vec3 normal = at.normal.value_or(Vec3::Zero());
     return {at.position, flipped ? Vec3(-normal) : normal};
 }
 
@@ -60,31 +60,43 @@ Node node_at(const MachineModel& machine, const ToolPose& pose) {
     return node;
 }
 
-/// `node` solved again with the free angle of its neighbour.
+/// Whether `node` is solved with the free angle of its neighbour.
+bool borrows_angle(const Node& node, const Node& neighbour) {
+    return node.on_pole && !neighbour.on_pole && !neighbour.branches.empty();
+}
+
 Node off_the_pole(const MachineModel& machine, Node node, const Node& neighbour) {
-    if (node.on_pole && !neighbour.on_pole && !neighbour.branches.empty()) {
-        node.branches = kinematics::inverse_branches(machine, node.pose, neighbour.branches.front());
-    }
+    node.branches = kinematics::inverse_branches(machine, node.pose, neighbour.branches.front());
+    node.on_pole = false;
     return node;
 }
 
 /// The branch of `to` nearest to `from`, in the turn nearest to it.
-AxisPositions follow(const MachineModel& machine, const AxisPositions& from, std::vector<AxisPositions> to) {
-    for (AxisPositions& branch : to) {
+AxisPositions
+follow(const MachineModel& machine, const AxisPositions& from, const std::vector<AxisPositions>& to) {
+    AxisPositions nearest;
+    double least = infinity;
+    for (AxisPositions branch : to) {
         for (const int n : machine.rotary_axes()) {
             branch[n] += 2.0 * pi * std::round((from[n] - branch[n]) / (2.0 * pi));
         }
+        const double travel = kinematics::rotary_travel(machine, from, branch);
+        if (nearest.size() == 0 || travel < least) {
+            least = travel;
+            nearest = branch;
+        }
     }
-    return kinematics::nearest_branch(machine, to, from);
+    return nearest;
 }
 
-grid::MoveError judge(const MachineModel& machine,
-                      const Node& first,
-                      const Node& second,
-                      const ChordCurve& curve,
-                      int tip_samples) {
-    const Node a = off_the_pole(machine, first, second);
-    const Node b = off_the_pole(machine, second, first);
+grid::MoveError
+judge(const MachineModel& machine, const Node& a, const Node& b, const ChordCurve& curve, int tip_samples) {
+    if (borrows_angle(a, b)) {
+        return judge(machine, off_the_pole(machine, a, b), b, curve, tip_samples);
+    }
+    if (borrows_angle(b, a)) {
+        return judge(machine, a, off_the_pole(machine, b, a), curve, tip_samples);
+    }
     if (a.branches.empty() || b.branches.empty()) {
         return {infinity, infinity, curve.length(), infinity, infinity};
     }

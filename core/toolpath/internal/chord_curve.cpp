@@ -38,9 +38,9 @@ ChordCurve::Nearest ChordCurve::nearest(const Vec3& p) const {
             ((x * span[0] + y * span[1] + z * span[2]) * inverse_square).cwiseMax(0.0).cwiseMin(1.0);
         const Lanes squared =
             (x - s * span[0]).square() + (y - s * span[1]).square() + (z - s * span[2]).square();
-        if (squared.minCoeff() < least) {
-            std::ptrdiff_t lane = 0;
-            least = squared.minCoeff(&lane);
+        if (const double in_pack = squared.minCoeff(); in_pack < least) {
+            least = in_pack;
+            const auto lane = std::ranges::find(squared, in_pack) - squared.begin();
             chord = n * lanes + static_cast<std::size_t>(lane);
         }
     }

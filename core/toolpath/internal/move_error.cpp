@@ -1,5 +1,6 @@
 #include "core/toolpath/internal/move_error.h"
 
+#include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
 
 #include <algorithm>
@@ -7,27 +8,60 @@
 
 namespace millwright::toolpath {
 
+namespace {
+
+/// The largest of many angles, of which only the last is worth an arc tangent.
+class LargestAngle {
+public:
+    void see(const Vec3& a, const Vec3& b) {
+        const double across = a.cross(b).squaredNorm();
+        const double along = a.dot(b);
+        if (wider(across, along)) {
+            across_ = across;
+            along_ = along;
+        }
+    }
+    [[nodiscard]] double angle() const { return std::atan2(std::sqrt(across_), along_); }
+
+private:
+    [[nodiscard]] bool wider(double across, double along) const {
+        if (along > 0.0 && along_ > 0.0) {
+            return across * square(along_) > across_ * square(along);
+        }
+        return std::atan2(std::sqrt(across), along) > angle();
+    }
+
+    double across_ = 0.0; // |a x b|^2
+    double along_ = 1.0;  // a . b
+};
+
+} // namespace
+
 grid::MoveError move_error(const kinematics::MachineModel& machine,
                            const kinematics::AxisPositions& from,
                            const kinematics::AxisPositions& to,
                            const ChordCurve& curve,
                            int tip_samples) {
-    const kinematics::AxisPositions step = to - from;
-    double squared = 0.0;
-    grid::MoveError error;
-    error.length = curve.length();
+    const kinematics::StraightForward way(machine, from, to);
+    double tip = 0.0; // squares
+    double off_surface = 0.0;
+    double param = 0.0;
+    LargestAngle axis;
     for (int k = 1; k <= tip_samples; ++k) {
         const double t = static_cast<double>(k) / (tip_samples + 1);
-        const geometry::ToolPose actual = kinematics::forward(machine, from + t * step);
+        const geometry::ToolPose actual = way.at(t);
         const ChordCurve::Nearest nearest = curve.nearest(actual.tip);
-        squared = std::max(squared, nearest.squared);
-        const double off = std::abs((actual.tip - nearest.point).dot(nearest.normal.normalized()));
-        error.off_surface = std::max(error.off_surface, off);
-        error.param = std::max(error.param, (actual.tip - curve.at(t)).norm());
-        error.axis = std::max(error.axis, angle_between(actual.axis, nearest.normal));
+        const double off = square((actual.tip - nearest.point).dot(nearest.normal));
+        tip = std::max(tip, nearest.squared);
+        off_surface = std::max(off_surface, off / nearest.normal.squaredNorm());
+        param = std::max(param, (actual.tip - curve.at(t)).squaredNorm());
+        axis.see(actual.axis, nearest.normal);
     }
-    error.tip = std::sqrt(squared);
-    return error;
+    return {.tip = std::sqrt(tip),
+            .axis = axis.angle(),
+            .length = curve.length(),
+            .off_surface = std::sqrt(off_surface),
+            .param = std::sqrt(param)};
 }
 
 } // namespace millwright::toolpath

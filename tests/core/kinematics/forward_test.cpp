@@ -73,6 +73,23 @@ TEST(Forward, EqualsTheProductOfFrames) {
     }
 }
 
+TEST(StraightForward, IsTheForwardOfEveryPointOnTheWay) {
+    std::mt19937 random(9);
+    for (const MachineModel& machine : machines()) {
+        for (int trial = 0; trial < 20; ++trial) {
+            const AxisPositions from = random_positions(machine, random);
+            const AxisPositions to = random_positions(machine, random);
+            const StraightForward way(machine, from, to);
+            for (const double t : {0.0, 0.3, 0.5, 1.0}) {
+                const geometry::ToolPose pose = way.at(t);
+                const geometry::ToolPose expected = forward(machine, from + t * (to - from));
+                EXPECT_LT((pose.tip - expected.tip).norm(), 1e-11) << machine.name() << " at " << t;
+                EXPECT_LT((pose.axis - expected.axis).norm(), 1e-14) << machine.name() << " at " << t;
+            }
+        }
+    }
+}
+
 TEST(Forward, OfTheLinearAxesAloneIsTheLinearMap) {
     std::mt19937 random(5);
     for (const MachineModel& machine : machines()) {

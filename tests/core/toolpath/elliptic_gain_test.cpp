@@ -4,6 +4,7 @@
 // The harmonic map: 35 and 35 % on the dome along u and v, 27 and 37 % on the bells. The nodes of each track
 // shared out by the monitor: 36, 40, 31 and 37 %, and the largest error falls by 93, 94, 53 and 94 %.
 #include "core/grid/elliptic_adaptation.h"
+#include "core/grid/grid_promise.h"
 #include "core/grid/redistribution.h"
 #include "tests/support/paths.h"
 
@@ -79,8 +80,8 @@ void expect_gain_along_tracks(grid::GridImprover& improver,
     const grid::ErrorSummary before = error.on_path(uniform, direction, {});
     const grid::ErrorSummary after = error.on_path(state.best, direction, {});
     EXPECT_LT(after.mean, (1.0 - least_gain) * before.mean);
-    EXPECT_LE(after.max, before.max);
-    EXPECT_LE(after.axis_max, before.axis_max);
+    EXPECT_LE(after.max, before.max + grid::negligible_mm);
+    EXPECT_LE(after.axis_max, before.axis_max + grid::negligible_rad);
     EXPECT_LE(error.track_gap(state.best, direction), 1.15 * error.track_gap(uniform, direction));
 }
 

@@ -1,4 +1,4 @@
-#include "core/geometry/surface_tangents.h"
+#include "core/geometry/surface_point.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
     return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
 
-TEST(SurfaceDerivatives, OfFirstOrderAreTheSameBits) {
+TEST(SurfacePoint, IsTheSameBitsAsTheDerivatives) {
     std::mt19937 random(64);
     std::uniform_real_distribution<double> parameter(-0.2, 1.2);
     for (int round = 0; round < 200; ++round) {
@@ -32,12 +32,11 @@ TEST(SurfaceDerivatives, OfFirstOrderAreTheSameBits) {
         for (int k = 0; k < 20; ++k) {
             const double u = k == 0 ? 0.0 : parameter(random);
             const double v = k == 1 ? 1.0 : parameter(random);
-            const SurfaceDerivatives all = patch.derivatives(u, v);
-            const SurfaceTangents first = tangents(patch, u, v);
-            ASSERT_TRUE(same_bits(first.position, all.position)) << round;
-            ASSERT_TRUE(same_bits(first.du, all.du)) << round;
-            ASSERT_TRUE(same_bits(first.dv, all.dv)) << round;
-            EXPECT_EQ(unit_normal(patch, first), patch.unit_normal(u, v));
+            const SurfacePoint point = point_of(patch, u, v);
+            ASSERT_TRUE(same_bits(point.position, patch.derivatives(u, v).position)) << round;
+            const std::optional<Vec3> normal = patch.unit_normal(u, v);
+            ASSERT_TRUE(point.normal && normal) << round;
+            ASSERT_TRUE(same_bits(*point.normal, *normal)) << round;
         }
     }
 }

@@ -1,6 +1,7 @@
-#include "core/geometry/surface_tangents.h"
+#include "core/geometry/surface_point.h"
 
 #include "core/geometry/internal/bernstein.h"
+#include "core/geometry/internal/unit_normal.h"
 
 namespace millwright::geometry {
 
@@ -38,16 +39,6 @@ Sums<Point> sums(const ControlNet& net, const Basis& bu, const Basis& bv, const 
     return sum;
 }
 
-/// Quotient rule for S = A / w.
-SurfaceTangents projected(const Sums<Eigen::Vector4d>& h) {
-    const double w = h.s.w();
-    SurfaceTangents at;
-    at.position = h.s.head<3>() / w;
-    at.du = (h.u.head<3>() - h.u.w() * at.position) / w;
-    at.dv = (h.v.head<3>() - h.v.w() * at.position) / w;
-    return at;
-}
-
 Eigen::Vector4d homogeneous(const ControlNet& net, std::size_t n) {
     const double w = net.weights[n];
     const Vec3 weighted = w * net.points[n];
@@ -56,21 +47,22 @@ Eigen::Vector4d homogeneous(const ControlNet& net, std::size_t n) {
 
 } // namespace
 
-SurfaceTangents tangents(const BezierPatch& patch, double u, double v) {
+SurfacePoint point_of(const BezierPatch& patch, double u, double v) {
     Basis bu, bv;
     fill(bu, patch.degree_u(), u);
     fill(bv, patch.degree_v(), v);
     const ControlNet& net = patch.net();
-    if (patch.rational()) {
-        return projected(
-            sums<Eigen::Vector4d>(net, bu, bv, [&](std::size_t n) { return homogeneous(net, n); }));
+    const Box3& box = patch.control_box();
+    if (!patch.rational()) {
+        const auto h = sums<Vec3>(net, bu, bv, [&](std::size_t n) -> const Vec3& { return net.points[n]; });
+        return {h.s, unit_normal(box, h.u, h.v)};
     }
-    const auto h = sums<Vec3>(net, bu, bv, [&](std::size_t n) -> const Vec3& { return net.points[n]; });
-    return {h.s, h.u, h.v};
-}
-
-std::optional<Vec3> unit_normal(const BezierPatch& patch, const SurfaceTangents& at) {
-    return patch.unit_normal({.position = at.position, .du = at.du, .dv = at.dv});
+    const auto h = sums<Eigen::Vector4d>(net, bu, bv, [&](std::size_t n) { return homogeneous(net, n); });
+    const double w = h.s.w(); // S = A / w, and the quotient rule
+    const Vec3 position = h.s.head<3>() / w;
+    const Vec3 du = (h.u.head<3>() - h.u.w() * position) / w;
+    const Vec3 dv = (h.v.head<3>() - h.v.w() * position) / w;
+    return {position, unit_normal(box, du, dv)};
 }
 
 } // namespace millwright::geometry
