@@ -69,6 +69,15 @@ void add_arm_actions(Actions& actions) {
         drawn,
         [](Hands& hands) { hands.workshop.arm().go_home(); });
     add(actions,
+        {"arm.open",
+         menu,
+         "Open an arm",
+         "The file of an arm that does not ship with the program.",
+         "",
+         icons::folder},
+        drawn,
+        [](Hands& hands) { hands.session.question = FileQuestion::open_arm; });
+    add(actions,
         {"arm.go_joints",
          menu,
          "Go to the goal by joints",

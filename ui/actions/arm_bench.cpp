@@ -201,6 +201,7 @@ void ArmBench::stop() {
     motion_.reset();
     held_.reset();
     held_line_.reset();
+    wants_path_motion_ = false;
 }
 
 void ArmBench::play(ArmPlay motion) {
@@ -258,6 +259,7 @@ void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
         if (path_wish_) {
             path_.forget();
             path_wish_.reset();
+            wants_path_motion_ = false;
         }
         return;
     }
@@ -268,7 +270,8 @@ void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
     if (!same) {
         path_wish_ = std::move(wish);
         path_wish_->joints = joints_;
-        path_wish_->planned = false;
+        path_wish_->motion = 0;
+        wants_path_motion_ = false; // it would be that of the path before
         path_.want(*path_wish_);
     }
 }
@@ -279,13 +282,14 @@ void ArmBench::want_path_motion() {
     }
     ArmPathWish wish = *path_wish_;
     wish.joints = joints_;
-    wish.planned = wants_path_motion_ = true;
+    wish.motion = ++path_motions_;
+    wants_path_motion_ = true;
     path_.want(std::move(wish));
 }
 
 std::shared_ptr<const ArmPathAnswer> ArmBench::take_path_motion() {
     auto answer = path_.answer();
-    if (!wants_path_motion_ || !answer || !answer->wish.planned) {
+    if (!wants_path_motion_ || !answer || answer->wish.motion != path_motions_) {
         return nullptr;
     }
     wants_path_motion_ = false;

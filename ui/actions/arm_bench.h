@@ -140,6 +140,8 @@ public:
     void want_path_motion();
     /// A motion that was wanted, once; or why there is none.
     [[nodiscard]] std::shared_ptr<const ArmPathAnswer> take_path_motion();
+    /// One is wanted, and not yet taken.
+    [[nodiscard]] bool works_out_path_motion() const { return wants_path_motion_; }
     /// The newest answer; null without a path.
     [[nodiscard]] std::shared_ptr<const ArmPathAnswer> path() const;
     void wait_idle() const;
@@ -176,6 +178,7 @@ private:
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;
+    int path_motions_ = 0; ///< how many were wanted: an answer to an earlier wish is none to the last
     ArmPathWork path_;
 };
 

@@ -19,7 +19,7 @@ constexpr double share_to_beginning = 0.25;
 kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
     kinematics::ArmPathSettings settings;
     settings.aim = motion::aim_of(wish.arm->arm(), wish.most_lean);
-    if (!wish.planned) {
+    if (wish.motion == 0) {
         settings.tip_tolerance = shown_tolerance;
         settings.axis_tolerance = shown_axis_tolerance;
         settings.longest_step = shown_step;
@@ -48,7 +48,7 @@ void find(ArmPathAnswer& answer, const Progress& progress) {
         kinematics::follow_path_well(arm, ways, wish.joints, settings_of(wish), progress);
     answer.track = track_of(path, ways);
     answer.reach = kinematics::reach_of(path, ways);
-    if (wish.planned) {
+    if (wish.motion > 0) {
         motion::ArmMotion motion(arm, wish.joints);
         if (path.whole()) {
             const kinematics::JointPositions& first = path.points.front().joints;

@@ -21,7 +21,7 @@ struct ArmPathWish {
     Frame base_T_part = Frame::Identity();
     double most_lean = 0.0;            ///< of the tool from what is programmed
     kinematics::JointPositions joints; ///< where the arm stands
-    bool planned = false;              ///< its motion is wanted, too
+    int motion = 0; ///< which time it is, from 1, that its motion is wanted, too; 0: it is not
 };
 
 struct ArmPathAnswer {

@@ -106,6 +106,9 @@ Permission can_send_path(const Workbench& now) {
     if (!able.allowed) {
         return able;
     }
+    if (now.arm.works_out_path_motion()) {
+        return Permission::refused("Its motion is being worked out.");
+    }
     const auto path = now.arm.path();
     if (!path || !path->track) {
         return Permission::refused("There is no path on the arm: show one first.");

@@ -39,7 +39,7 @@ void CardRun::follow(const machine::DriverStatus& status, double seconds) {
     waited_ +=
         under_way || seen_ ? 0.0 : seconds; // what is told of the machine may be older than the program
     seen_ = seen_ || under_way;
-    if (!under_way && (seen_ || waited_ > longest_wait)) {
+    if (plan_ && !under_way && (seen_ || waited_ > longest_wait)) {
         const bool well = status.state == machine::DriverState::idle;
         broken_off_ = well ? std::nullopt : place_;
         plan_.reset();

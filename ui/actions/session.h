@@ -87,6 +87,7 @@ enum class FileQuestion {
     save_points,
     open_motion_program, ///< of the arm's card
     save_motion_program,
+    open_arm,         ///< a file of one's own
     play_motion_file, ///< of the thesis's kind: lines and arcs of the tool
     load_card_settings
 };

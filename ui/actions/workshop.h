@@ -124,6 +124,9 @@ public:
     /// Gives a program in the card's language to the connected card, which runs it at once. `duration`: s, 0
     /// where it is not known; `ends`: of each line, empty where they are not. Throws Error.
     void run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends);
+    /// Draws the arm of a file of one's own in place of the present one. Throws Error with what is wrong in
+    /// it.
+    void open_arm(const std::filesystem::path& file);
     /// Lines and arcs of the tool from where the arm stands. Throws Error with the line of what is wrong.
     void play_motion_file(const std::filesystem::path& file);
     /// Sends a file of settings to the card, and tells what is dangerous or refused in it. Throws Error.

@@ -119,7 +119,7 @@ void Workshop::follow_arm_work() {
                                                          project::base_T_path(now.project.arm.path),
                                                          from_degrees(now.project.arm.path.most_lean_deg),
                                                          arm_->joints(),
-                                                         false})
+                                                         0})
                              : std::nullopt);
     if (const auto answer = arm_->take_path_motion()) {
         guarded([&] {
@@ -132,8 +132,8 @@ void Workshop::follow_arm_work() {
 }
 
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
+    expect_start(motion, arm_->joints());
     if (look().arm_connected()) {
-        expect_start(motion, arm_->joints());
         const auto lines =
             machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes));
         const auto axes = std::ssize(look().controller.axes);
@@ -145,6 +145,12 @@ void Workshop::play_on_arm(const motion::Trajectory& motion) {
     } else {
         arm_->play(play_of(motion));
     }
+}
+
+void Workshop::open_arm(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    arm_->load(fs::absolute(file).string());
+    session_.fit_wanted = true; // arms differ in size
 }
 
 void Workshop::play_motion_file(const fs::path& file) {

@@ -59,6 +59,12 @@ Permission can_jog(const Workbench& now, int joint) {
     return now.controller.status.activity == machine::Activity::jog ? Permission{} : at_rest(now.controller);
 }
 
+/// The joint that + and - jog; -1 while no keys do.
+int joint_of_keys(const Workbench& now) {
+    const actions::HandSettings& hand = now.session.hand;
+    return hand.arm_keys ? std::min(hand.arm_joint, now.arm.arm().joint_count() - 1) : -1;
+}
+
 /// A key has no tip that tells why it does nothing.
 void tell_refusal(ActionQueue& ask, std::string_view what, const widgets::Permission& why) {
     ask.show([text = fmt::format("{}: {}", what, why.reason)](actions::Session& session) {
@@ -230,8 +236,9 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
     const auto button = [&](const std::string& name, double sign, int joint) {
         const std::string id = (sign > 0.0 ? "plus_" : "minus_") + name;
+        const Rank rank = joint >= 0 && joint == joint_of_keys(now) ? Rank::primary : Rank::normal;
         return ui.hold_button(
-            id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog(now, joint), {{}, Rank::normal, -1.0F, {}});
+            id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog(now, joint), {{}, rank, -1.0F, {}});
     };
     if (now.session.hand.arm_frame == ArmFrame::joints) {
         const int joints = now.arm.arm().joint_count(), a_row = is_low(ui) ? 3 : 1;
@@ -268,7 +275,12 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
         });
     }
     const widgets::FieldInfo percent{
-        "speed", "Speed %", {}, "Of 30 \u00b0/s and 150 mm/s, which no jog by hand exceeds", 1.0, 100.0};
+        "speed",
+        "Speed %",
+        {},
+        "Of 30 \u00b0/s and 150 mm/s, which no jog by hand exceeds; a PMAC goes no faster than 5 \u00b0/s",
+        1.0,
+        100.0};
     if (const auto value = widgets::slider(ui, hand.arm_percent, percent)) {
         ask.show([value = *value](actions::Session& session) { session.hand.arm_percent = value; });
     }
@@ -281,9 +293,8 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       "the terminal, X gives the keys back")) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
     }
-    if (hand.arm_keys) {
-        ui.note("Joint " +
-                now.arm.arm().joint(std::min(hand.arm_joint, now.arm.arm().joint_count() - 1)).name +
+    if (const int joint = joint_of_keys(now); joint >= 0) {
+        ui.note("Joint " + now.arm.arm().joint(joint).name +
                 " by + and \u2212, held, whatever is chosen above.");
     }
 }
@@ -336,7 +347,7 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
         return;
     }
     const int joints = now.arm.arm().joint_count();
-    const int joint = std::min(now.session.hand.arm_joint, joints - 1);
+    const int joint = joint_of_keys(now);
     for (int n = 0; n < std::min(joints, 5); ++n) {
         // With Shift, too: where + is Shift and =, it is down while another joint is chosen.
         if (render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {

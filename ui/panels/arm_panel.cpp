@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <span>
 
 namespace millwright::panels {
@@ -110,14 +112,22 @@ void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (arms_.empty()) {
         arms_ = project::arm_ids(now.assets);
     }
-    std::vector<widgets::Option> options;
-    int at = 0;
-    for (const std::string& id : arms_) {
-        at = id == now.arm.name() ? static_cast<int>(options.size()) : at;
-        options.push_back({id, id});
+    if (now.arm.loaded() && std::ranges::find(arms_, now.arm.name()) == arms_.end()) {
+        arms_.push_back(now.arm.name()); // opened from a file
     }
+    std::vector<std::string> labels;
+    std::ranges::transform(arms_, std::back_inserter(labels), [](const std::string& name) {
+        return std::filesystem::path(name).filename().string();
+    });
+    std::vector<widgets::Option> options;
+    for (std::size_t n = 0; n < arms_.size(); ++n) {
+        options.push_back({arms_[n], labels[n]});
+    }
+    const auto found = std::ranges::find(arms_, now.arm.name());
+    const int at = found == arms_.end() ? 0 : static_cast<int>(found - arms_.begin());
     const auto permitted = ui.permitted(by_hand(now));
-    if (const auto chosen = ui.choice("arm", "Arm", at, options, "An arm that ships with the program")) {
+    if (const auto chosen = ui.choice(
+            "arm", "Arm", at, options, "One that ships with the program, or was opened: Arm > Open an arm")) {
         ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
         ask.show([](actions::Session& session) { session.fit_wanted = true; }); // arms differ in size
     }

@@ -25,7 +25,7 @@ private:
     void draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
-    std::vector<std::string> arms_; ///< that ship with the program; looked up once
+    std::vector<std::string> arms_; ///< that ship with the program, looked up once, and what was opened
 };
 
 } // namespace millwright::panels

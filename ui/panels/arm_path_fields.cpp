@@ -158,6 +158,9 @@ void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actio
         ui.note("Being worked out \u2026");
     }
     action_button(ui, now, ask, catalogue, "arm.send_path");
+    if (now.arm.works_out_path_motion()) {
+        ui.note("Its motion is being worked out \u2026");
+    }
 }
 
 } // namespace millwright::panels

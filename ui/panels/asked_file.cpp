@@ -25,7 +25,7 @@ bool is_opened(const fs::path& file) {
            project::is_plot_file(file);
 }
 
-constexpr std::array<AskedFile, 10> questions{
+constexpr std::array<AskedFile, 11> questions{
     {{FileQuestion::open,
       "Open a project, G-code, a surface, a plot or a picture",
       true,
@@ -57,6 +57,13 @@ constexpr std::array<AskedFile, 10> questions{
       [](actions::Workshop& workshop, const fs::path& file) { workshop.export_surface(file); },
       "No STEP, glb, STL, OBJ or PLY files here.",
       exchange::is_surface_file},
+     {FileQuestion::open_arm,
+      "Open an arm",
+      true,
+      extension,
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_arm(file); },
+      "No arms (.json) here."},
      {FileQuestion::open_points,
       "Open taught points",
       true,

@@ -3,10 +3,13 @@
 #include "core/base/sentences.h"
 #include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/links/serial_ports.h"
+#include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/stands_fields.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -83,6 +86,24 @@ std::string state_text(const machine::DriverStatus& status) {
         text += " (" + std::string(machine::to_text(status.activity)) + ")";
     }
     return text;
+}
+
+/// The counts of a degree are those of one arm's drives, whichever arm is drawn.
+void draw_arm_of_card(Ui& ui, const Workbench& now) {
+    constexpr std::string_view own = "motoman-l3";
+    if (now.arm.loaded() && now.arm.name() != own) {
+        (void)widgets::banner(
+            ui,
+            "other_arm",
+            {widgets::Severity::warning,
+             fmt::format(
+                 "The card drives a Motoman L-3 and has its counts of a degree. Drawn is another arm, "
+                 "'{}', whose joints and limits would be taken for it.",
+                 now.arm.arm().name()),
+             {}});
+    } else {
+        ui.note("It moves the driven joints of a Motoman L-3. Nothing moves by connecting.");
+    }
 }
 
 } // namespace
@@ -175,7 +196,7 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
             choose(ask,
                    [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
         }
-        ui.note("It moves the driven joints of a Motoman L-3. Nothing moves by connecting.");
+        draw_arm_of_card(ui, now);
     } else {
         const widgets::FieldInfo info{
             "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};

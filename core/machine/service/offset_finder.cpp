@@ -39,14 +39,17 @@ public:
     [[nodiscard]] double bias() const { return bias_; }
     void kill() const { card_.ask(fmt::format("#{}K", motor_)); }
     /// From here on they are given back however this ends.
-    void begin() {
+    /// The card itself takes the power beyond `most_way` counts of a try, however busy this computer is.
+    void begin(double most_way) {
         kill();
         give_back_ = {[this] { kill(); },
                       [this] { set_motor_variable(card_, motor_, output_bias, bias_); },
                       [this] { set_motor_variable(card_, motor_, gain, gain_); },
                       [this] { set_motor_variable(card_, motor_, fatal_following_error, error_limit_); }};
         set_motor_variable(card_, motor_, gain, 0.0);
-        set_motor_variable(card_, motor_, fatal_following_error, 0.0); // an open end of the loop drifts far
+        constexpr double of_count = 16.0, greatest = 8'388'607.0; // Ix11 counts in sixteenths
+        set_motor_variable(
+            card_, motor_, fatal_following_error, std::min(std::floor(of_count * most_way), greatest));
     }
     void end() {
         while (!give_back_.empty()) {
@@ -64,6 +67,8 @@ private:
 };
 
 class Finder {
+    static constexpr double runaway = 2.0; ///< times as fast as at first
+
 public:
     Finder(const CardTalk& card, int motor, const OffsetSearch& search)
         : card_(card), motor_(motor), search_(search), borrowed_(card, motor),
@@ -71,7 +76,7 @@ public:
           begin_(motor_position(card, motor)) {}
 
     [[nodiscard]] OffsetFound find() {
-        borrowed_.begin();
+        borrowed_.begin(search_.most_way);
         OffsetFound found;
         found.before = static_cast<int>(std::lround(borrowed_.bias()));
         const int from = search_.from.value_or(found.before);
@@ -92,10 +97,13 @@ private:
         const double start = motor_position(card_, motor_);
         card_.ask(fmt::format("#{}J/", motor_));
         int seen = 0;
-        for (double time = 0.0; time < search_.look && seen == 0; time += search_.glance) {
+        double time = 0.0;
+        while (time < search_.look && seen == 0) {
             card_.wait(search_.glance);
+            time += search_.glance;
             const double now = motor_position(card_, motor_);
             farthest_ = std::max(farthest_, std::abs(now - begin_));
+            speed_ = std::abs(now - start) / time;
             seen = now - start >= search_.creep ? 1 : start - now >= search_.creep ? -1 : 0;
         }
         borrowed_.kill();
@@ -125,9 +133,25 @@ private:
         }
     }
 
-    /// From `offset` on in growing steps, one at which the motor goes to `sense`.
+    /// From `offset` on in growing steps, one at which the motor goes to `sense`. On the way there it goes
+    /// the other way ever more slowly: where it goes faster it would run away.
     int moving(int offset, int sense) {
-        for (int step = 1; direction(offset) != sense; step *= 2) {
+        double first = 0.0; // counts/s the other way
+        for (int step = 1;; step *= 2) {
+            const int way = direction(offset);
+            if (way == sense) {
+                return offset;
+            }
+            first = way != 0 && !(first > 0.0) ? speed_ : first;
+            if (way != 0 && speed_ > runaway * first) {
+                throw Error(fmt::format("motor {} goes {} faster with every bit that should drive it {}: its "
+                                        "encoder counts the other way",
+                                        motor_,
+                                        sense > 0 ? "back" : "forward",
+                                        sense > 0 ? "forward" : "back"),
+                            {},
+                            fmt::format("turn the sense of its encoder (I{})", 895 + 5 * motor_));
+            }
             if (std::abs(offset) >= limit_) {
                 throw Error(fmt::format("motor {} does not go {} with any offset up to {} bits (Ix69)",
                                         motor_,
@@ -138,7 +162,6 @@ private:
             }
             offset = std::clamp(offset + sense * step, -limit_, limit_);
         }
-        return offset;
     }
 
     /// The offset nearest to `other` at which the motor goes to `sense`, as it does at `at`.
@@ -157,6 +180,7 @@ private:
     int limit_; ///< bits
     double begin_;
     double farthest_ = 0.0;
+    double speed_ = 0.0; ///< counts/s, of the last try
 };
 
 } // namespace

@@ -103,6 +103,7 @@ TEST(CardRun, KeepsWhereItWasBrokenOff) {
     lost.state = DriverState::alarm;
     lost.link_lost = true;
     run.follow(lost, 0.1);
+    run.follow(lost, 0.1); // it stays lost
     EXPECT_FALSE(run.place());
     ASSERT_TRUE(run.broken_off());
     EXPECT_DOUBLE_EQ(run.broken_off()->share, 0.25);

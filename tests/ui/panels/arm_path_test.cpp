@@ -63,6 +63,16 @@ protected:
     Person person_;
 };
 
+TEST_F(ArmPath, GoesAgainFromWhereItStandsThen) {
+    show();
+    go();
+    arm().set_joints(arm().arm().home());
+    const kinematics::JointPositions here = arm().joints();
+    person_.click("inspector/path/arm_send_path");
+    ASSERT_TRUE(person_.live_until([&] { return arm().moving(); }, 60.0));
+    EXPECT_EQ(arm().path()->motion->at(0.0).position, here);
+}
+
 TEST_F(ArmPath, AProjectsProgramIsGreenWhereTheArmReachesIt) {
     show();
     ASSERT_TRUE(arm().path());

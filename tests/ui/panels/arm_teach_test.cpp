@@ -1,4 +1,5 @@
 // C6 and S7: points taught and programs written by mouse and keys at the drawn arm.
+#include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "core/project/taught_points.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace millwright::panels {
@@ -114,6 +116,19 @@ TEST_F(ArmTeaching, PointsAreSavedAndOpenedAsAFile) {
     person_.workshop().run("arm.open_points");
     person_.frames(3);
     EXPECT_TRUE(person_.sees("dialogs/files/open"));
+}
+
+TEST_F(ArmTeaching, AnArmOfAFileOfOnesOwnIsDrawnAndABrokenOneIsNot) {
+    const auto file = person_.folder() / "mine.json";
+    std::filesystem::copy_file("assets/arms/scara.json", file);
+    person_.workshop().open_arm(file);
+    person_.frames(3);
+    EXPECT_EQ(arm().name(), std::filesystem::absolute(file).string());
+    EXPECT_EQ(arm().arm().joint_count(), 4);
+
+    write_file(file, "{}");
+    EXPECT_THROW(person_.workshop().open_arm(file), Error);
+    EXPECT_EQ(arm().arm().joint_count(), 4);
 }
 
 TEST_F(ArmTeaching, AProgramIsWrittenWithItsFaultsByLineAndSimulated) {

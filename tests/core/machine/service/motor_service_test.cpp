@@ -65,6 +65,20 @@ TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
     EXPECT_EQ(away.ask("I129"), "0");
 }
 
+TEST(OffsetFinderC2, DoesNotChaseAMotorWhoseEncoderCountsTheOtherWay) {
+    for (const double bias : {60.0, -996.0, 5.0}) {
+        PmacPlant wrong;
+        wrong.speed_per_bit = -wrong.speed_per_bit;
+        wrong.bias = bias;
+        test::PmacCard pmac({.plants = {wrong}});
+        EXPECT_THAT(reason([&] { (void)find_offset(talk_to(pmac), 1); }),
+                    HasSubstr("encoder counts the other"))
+            << bias;
+        EXPECT_FALSE(pmac.card.enabled(1));
+        EXPECT_EQ(pmac.ask("I129"), "0");
+    }
+}
+
 /// As the driver in an alarm: variables are set, motors are told nothing.
 TEST(OffsetFinderC2, GivesBackWhatItChangedWheneverTheCardTakesNoMoreCommands) {
     for (int last = 0; last < 40; ++last) {

@@ -7,6 +7,7 @@
 #include "core/machine/drivers/pmac/internal/following_watch.h"
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/internal/motor_readings.h"
+#include "core/machine/drivers/pmac/internal/steady_speed.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
 
 #include <cstdint>
@@ -104,6 +105,7 @@ private:
     };
     struct MotorState {
         double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
+        SteadySpeed shown_speed{};
         std::uint32_t word_1 = 0, word_2 = 0;
         double target = 0.0;    ///< of the last jog
         bool had_power = false; ///< since what is under way began

@@ -84,7 +84,7 @@ DriverStatus PmacSession::status() const {
         const double scale = settings_.axes[axis].counts_per_degree;
         status.position[n] = from_degrees(motors_[axis].counts / scale);
         if (!unseen_) {
-            status.velocity[n] = from_degrees(motors_[axis].speed / scale);
+            status.velocity[n] = from_degrees(motors_[axis].shown_speed.counts_per_s() / scale);
         }
     }
     status.powered = enabled();

@@ -1,4 +1,5 @@
 // What a round of answers says, and what follows from it.
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_model.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
@@ -59,6 +60,11 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
         motor.counts = *counts;
         motor.word_1 = words->first;
         motor.word_2 = words->second;
+        if (!polled_ || (motor.standing() && exactly_equal(motor.speed, 0.0))) {
+            motor.shown_speed.stand(*counts, now);
+        } else {
+            motor.shown_speed.see(*counts, now);
+        }
         motor.had_power = motor.had_power || motor.enabled();
     }
     system_1_ = system->first;
