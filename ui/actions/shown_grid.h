@@ -10,4 +10,8 @@ namespace millwright::actions {
 /// unless that of a strategy is shown.
 [[nodiscard]] project::GridMethod shown_grid(const Workbench& now);
 
+/// Whether this is the grid of before the last change, on the surface and machine of now: it stands in until
+/// the new one is there, and stays where the work was cancelled.
+[[nodiscard]] bool is_old_grid(const project::Evaluation& evaluation);
+
 } // namespace millwright::actions

@@ -63,7 +63,8 @@ std::string cell_of(const Evaluation* evaluation, int column) {
 
 ErrorRow
 row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
-    ErrorRow row{std::move(id), {std::move(name)}};
+    const bool old = evaluation != nullptr && actions::is_old_grid(*evaluation);
+    ErrorRow row{std::move(id), {std::move(name) + (old ? " (old grid)" : "")}};
     for (int column = 1; column < static_cast<int>(columns.size()) - 1; ++column) {
         row.cells.push_back(cell_of(evaluation, column));
     }

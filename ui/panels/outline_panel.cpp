@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace millwright::panels {
@@ -35,7 +37,18 @@ std::string error_of(const Workbench& now, GridMethod method) {
     if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
         return "as uniform";
     }
-    return evaluation ? length_text(evaluation->closest.mean) + " mm" : "...";
+    if (!evaluation) {
+        return "...";
+    }
+    return length_text(evaluation->closest.mean) +
+           (actions::is_old_grid(*evaluation) ? " mm, old grid" : " mm");
+}
+
+/// Short enough for its column however many they are.
+std::string counted(std::ptrdiff_t count, std::string_view what) {
+    constexpr std::ptrdiff_t told_whole = 100'000;
+    return count < told_whole ? fmt::format("{} {}", count, what)
+                              : fmt::format("{} k {}", (count + 500) / 1000, what);
 }
 
 /// Grids that are always made, or that the program uses.
@@ -68,12 +81,12 @@ std::vector<Row> rows_of(const Workbench& now) {
     const auto shown = now.shown();
     rows.push_back({"toolpath",
                     "Toolpath",
-                    shown ? fmt::format("{} moves", shown->field.moves.size()) : "...",
+                    shown ? counted(std::ssize(shown->field.moves), "moves") : "...",
                     Workspace::toolpath});
     const auto program = now.program();
     rows.push_back({"program",
                     "Program",
-                    program ? fmt::format("{} blocks", program->block_count()) : "...",
+                    program ? counted(program->block_count(), "blocks") : "...",
                     Workspace::program});
     const auto trajectory = now.trajectory();
     rows.push_back(

@@ -145,6 +145,22 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     }
 }
 
+TEST(Workbench, CallsAGridOldThatStandsInForTheNewOne) {
+    Person person;
+    person.open(dome);
+    auto now = person.workshop().look();
+    project::PublishedPlan plan = *now.plan;
+    const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
+    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic");
+
+    project::Evaluation carried = *plan.plan.evaluation(GridMethod::elliptic);
+    carried.outcome.status = grid::ImproverStatus::running;
+    plan.plan.evaluation(GridMethod::elliptic) =
+        std::make_shared<const project::Evaluation>(std::move(carried));
+    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (old grid)");
+}
+
 TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
     Person person;
     person.click("menu/workspaces/grid");
