@@ -326,6 +326,12 @@ int program_toolpath(const std::string& file,
     const CutProgram program = read_to_use(file, reading);
     if (!given(command, "--spindle") && program.spindle_rpm > 0.0) {
         cutting.cutting.spindle_rpm = program.spindle_rpm;
+    } else if (!given(command, "--spindle")) {
+        fmt::print(
+            stderr,
+            "millwright: {}: the program says nothing of its spindle: {:.0f} 1/min are taken (--spindle)\n",
+            file,
+            cutting.cutting.spindle_rpm);
     }
     const std::vector<std::string> header{"program: " + std::filesystem::path(file).filename().string()};
     const auto* const shaped =

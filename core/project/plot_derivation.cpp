@@ -131,6 +131,13 @@ void PlotDerivation::cut_program() {
                                    result_.spindle_rpm()),
                        "the field Spindle under Work says so; its arrow takes that of the program"});
     }
+    if (!(read.spindle_rpm > 0.0) && !settings_.spindle_rpm) {
+        note(Diagnostic{
+            {},
+            fmt::format("the program says nothing of its spindle: here it turns {:.0f} times a minute",
+                        result_.spindle_rpm()),
+            "another speed is set under Work"});
+    }
     use(read.path);
 }
 

@@ -15,9 +15,8 @@ Permission has_path(const Workbench& now) {
         return Permission::refused("Open a plot or a picture first.");
     }
     if (!made || !made->finished || !now.plot.is_current(*made)) {
-        return Permission::refused(now.plot.activity().busy
-                                       ? "The path is still being computed."
-                                       : "Its path was cancelled: change something, or open the file again.");
+        return Permission::refused(now.plot.given_up() ? "Its path was cancelled."
+                                                       : "The path is still being computed.");
     }
     return made->path && !made->failure
                ? Permission{}

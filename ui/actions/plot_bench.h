@@ -38,6 +38,14 @@ public:
         return made.revision > before_ && made.input == input_;
     }
     [[nodiscard]] project::Activity activity() const { return worker_.activity(); }
+    /// What the settings of now ask for was given up: nothing is there of it, and nothing will be.
+    [[nodiscard]] bool given_up() const {
+        if (input_.file.empty() || activity().busy) {
+            return false;
+        }
+        const auto made = latest(); // after that, since the worker ends with it
+        return !made || !made->finished || !is_current(*made);
+    }
     /// Levels as they are in force, or about to be.
     [[nodiscard]] std::vector<plot::Level> levels() const;
     [[nodiscard]] const std::vector<plot::Material>& materials() const { return materials_; }

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -58,6 +59,19 @@ fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& option
     return own;
 }
 
+/// Of what has no ending that tells its kind.
+void expect_text(const fs::path& file) {
+    constexpr std::size_t beginning = 4096;
+    std::string begin(beginning, ' ');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin.find('\0') != std::string::npos) {
+        throw Error("is no G-code, and of no kind that can be opened",
+                    file,
+                    "pictures are PNG, JPEG, BMP, PGM or PPM files");
+    }
+}
+
 } // namespace
 
 void Workshop::open(const fs::path& file) {
@@ -71,6 +85,7 @@ void Workshop::open(const fs::path& file) {
         return;
     }
     if (!is_project_file(file)) {
+        expect_text(file);
         open_gcode(file);
         return;
     }
@@ -125,6 +140,22 @@ void Workshop::open_gcode(const fs::path& file) {
     remember(file);
 }
 
+namespace {
+
+/// What was set for one drawing and would be a surprise in the next: levels, the side of the cutter, hatches,
+/// links and order of strokes, the place on the machine, a frame, leave to go through the plate. Tools,
+/// speeds, depths, the plate, machine and control stay.
+void forget_drawing(project::PlotSettings& settings) {
+    const plot::StrokePlan usual{.tool_diameter = settings.strokes.tool_diameter};
+    settings.levels.clear();
+    settings.strokes = usual;
+    settings.origin = Vec2::Zero();
+    settings.frame.reset();
+    settings.through = false;
+}
+
+} // namespace
+
 void Workshop::open_plot(const fs::path& file) {
     if (jobs_->view().running) {
         throw Error("a job is running; a plot can be opened when it has ended", file);
@@ -140,7 +171,7 @@ void Workshop::open_plot(const fs::path& file) {
          [&](project::Project& draft) {
              if (draft.plot.file != whole) {
                  draft.plot.file = whole;
-                 draft.plot.settings.levels.clear();
+                 forget_drawing(draft.plot.settings);
              }
          },
          {});

@@ -273,9 +273,9 @@ bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (const auto typed = ui.text_field("name", "File name", name_, ending_text(about(asked_)))) {
-        name_ = *typed;
-    }
+    const bool was_typing = ui.was_typing();
+    const auto typed = ui.text_field("name", "File name", name_, ending_text(about(asked_)));
+    name_ = typed.value_or(name_);
     const std::string name = widgets::typed_text(ui, "name").value_or(name_);
     const fs::path file = file_to_save(name);
     std::error_code unreadable;
@@ -288,7 +288,10 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
                              : file.filename().string() + " is there already and would be replaced.");
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
-    if (draw_save_button(ui, allowed, replaced)) {
+    const bool clicked = draw_save_button(ui, allowed, replaced);
+    // Enter replaces nothing, and is none of this dialog's while a folder is typed.
+    const bool entered = ui.enter_pressed() && (typed || !was_typing) && allowed.allowed && replaced.empty();
+    if (clicked || entered) {
         if (const auto answer = about(asked_).answer) {
             ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
         } else {
@@ -309,7 +312,10 @@ bool FilePanel::draw_save_button(Ui& ui, const Permission& allowed, const fs::pa
     return ui.button(id,
                      replaced.empty() ? "Save" : "Replace",
                      allowed,
-                     {icons::save, replaced.empty() ? Rank::primary : Rank::danger, -1.0F, {}});
+                     {icons::save,
+                      replaced.empty() ? Rank::primary : Rank::danger,
+                      -1.0F,
+                      replaced.empty() ? "Enter" : ""});
 }
 
 void FilePanel::draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const {

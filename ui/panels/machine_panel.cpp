@@ -13,6 +13,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace millwright::panels {
@@ -50,6 +51,24 @@ std::string checked_sentence(const Workbench& now, const std::string& name) {
         name,
         another ? ", the machine of the workbench" : "",
         another ? " Those of the connected one are checked before it moves." : "");
+}
+
+/// 1/min that the program shown begins with, on a machine that has no words for its spindle.
+std::optional<double> spindle_by_hand(const Workbench& now) {
+    using machine::DriverKind;
+    const DriverKind kind = now.controller.choice.kind;
+    const bool in_file = now.in_file();
+    const auto program = !in_file             ? now.program()
+                         : now.opened->motion ? now.opened->motion->program
+                                              : nullptr;
+    if (!now.controller.connected() || (kind != DriverKind::records && kind != DriverKind::stream) ||
+        !program) {
+        return std::nullopt;
+    }
+    constexpr std::size_t beginning = 1000; // blocks: a spindle turns before the first cut
+    const auto blocks = std::span(program->blocks).first(std::min(beginning, program->blocks.size()));
+    const auto on = std::ranges::find(blocks, gcode::BlockKind::spindle_on, &gcode::Block::kind);
+    return on == blocks.end() ? std::nullopt : std::optional(on->spindle_rpm);
 }
 
 } // namespace
@@ -127,6 +146,16 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     begin_fields(ui, now, ask);
     const actions::BeginAt& begin = now.session.begin;
+    if (const auto rpm = spindle_by_hand(now)) {
+        (void)widgets::banner(
+            ui,
+            "spindle_by_hand",
+            {widgets::Severity::warning,
+             fmt::format("This machine is told nothing of its spindle: switch it on by hand "
+                         "before it runs, {:.0f} 1/min.",
+                         *rpm),
+             {}});
+    }
     action_button(ui,
                   now,
                   ask,

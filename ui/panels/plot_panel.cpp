@@ -314,6 +314,17 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("Nothing is open yet. Choose a sample at the left to see how it goes.");
         return;
     }
+    if (now.plot.given_up()) {
+        (void)widgets::banner(ui,
+                              "given_up",
+                              {widgets::Severity::warning,
+                               "Cancelled: nothing was worked out with these settings, and what is drawn is "
+                               "of those before.",
+                               {}});
+        if (ui.button("again", "Work it out", {}, {icons::reset, widgets::Rank::normal, -1.0F, {}})) {
+            ask.plot([](actions::PlotBench& bench) { bench.read_again(); });
+        }
+    }
     action_button(ui, now, ask, catalogue_, "plot.to_machine", widgets::Rank::primary);
     {
         const auto line = ui.row(2);

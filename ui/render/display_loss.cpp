@@ -5,6 +5,8 @@
 namespace millwright::render {
 
 void watch_display() {
+    // As when a window goes away from which something is being dropped: nothing that ends this program.
+    XSetErrorHandler([](Display* /*display*/, XErrorEvent* /*error*/) { return 0; });
     XSetIOErrorHandler([](Display* /*display*/) {
         display_lost();
         return 0;

@@ -66,7 +66,7 @@ protected:
 TEST_F(ArmPath, GoesAgainFromWhereItStandsThen) {
     show();
     go();
-    arm().set_joints(arm().arm().home());
+    arm().go_home();
     const kinematics::JointPositions here = arm().joints();
     person_.click("inspector/path/arm_send_path");
     ASSERT_TRUE(person_.live_until([&] { return arm().moving(); }, 60.0));

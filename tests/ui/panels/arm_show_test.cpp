@@ -33,7 +33,6 @@ protected:
         person_.press_key(render::Key::s, true);
         person_.frames(2);
         person_.fill_in("dialogs/files/name", (person_.folder() / "show.json").string());
-        person_.click("dialogs/files/save");
         const TaughtPoint ready{"Ready", {0.0, -90.0, 90.0, 0.0, 0.0}, false, 50.0};
         project::write_taught_points({ready}, person_.folder() / "ready.json");
         write_file(person_.folder() / "thesis.mot",

@@ -47,8 +47,6 @@ TEST(PlotFiles, TheProgramsOwnSpindleCountsUntilAPersonTypesAnother) {
 TEST(PlotFiles, NothingOfTheFileBeforeIsShownOrSentForThisOne) {
     Bench bench("assets/samples/plot/everyday.plt");
     EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), IsEmpty());
-    bench.person.click("inspector/travel/order"); // takes its time where there is much to order
-    bench.settle();
     std::string strokes = "IN;SP1;";
     for (int n = 0; n < 50'000; ++n) {
         const int at = (n * 7919) % 10'000;
@@ -56,6 +54,10 @@ TEST(PlotFiles, NothingOfTheFileBeforeIsShownOrSentForThisOne) {
                    std::to_string(at + 5) + "," + std::to_string(n % 9973) + ";";
     }
     bench.person.workshop().receive({file_in(bench, "many.plt", strokes)});
+    bench.person.workshop().edit( // takes its time where there is much to order
+        "Order",
+        [](project::Project& draft) { draft.plot.settings.strokes.order = true; },
+        {});
     bench.plot().cancel(); // before anything of it is there
     bench.plot().wait_idle();
     bench.person.frames(3);
@@ -81,7 +83,36 @@ TEST(PlotFiles, FiguresOfOtherSettingsAreNotShownForThese) {
     EXPECT_FALSE(bench.plot().is_current(*bench.plot().latest()));
     bench.person.frames(3);
     EXPECT_THAT(bench.person.refusal("inspector/plot_write_path"), HasSubstr("was cancelled"));
+    EXPECT_TRUE(bench.person.sees("inspector/given_up"));
     bench.person.keep("plot-other-settings");
+    bench.person.click("inspector/again");
+    bench.settle();
+    EXPECT_FALSE(bench.person.sees("inspector/given_up"));
+    EXPECT_TRUE(bench.plot().is_current(bench.made()));
+}
+
+TEST(PlotFiles, WhatWasSetForOneDrawingIsNotDoneToTheNext) {
+    Bench bench("assets/samples/plot/everyday.plt");
+    bench.person.workshop().edit("Shape",
+                                 [](project::Project& draft) {
+                                     project::PlotSettings& set = draft.plot.settings;
+                                     set.strokes.link = 3.0;
+                                     set.strokes.hatch_pitch = 1.0;
+                                     set.strokes.tool_diameter = 2.0;
+                                     set.origin = {5.0, 5.0};
+                                     set.through = true;
+                                     set.plate = 4.0;
+                                 },
+                                 {});
+    bench.drop(file_in(bench, "line.plt", "IN;SP1;PU0,0;PD400,0;PU;"));
+    const project::PlotSettings& set = bench.plot().settings();
+    EXPECT_EQ(set.strokes, (plot::StrokePlan{.tool_diameter = 2.0}));
+    EXPECT_EQ(set.origin, Vec2(0.0, 0.0));
+    EXPECT_FALSE(set.through);
+    EXPECT_EQ(set.plate, 4.0);
+    bench.person.press_key(render::Key::z, true);
+    EXPECT_EQ(bench.plot().file().filename(), "everyday.plt");
+    EXPECT_EQ(bench.plot().settings().strokes.link, 3.0);
 }
 
 TEST(PlotFiles, WhatIsWrongWithAFileStandsUnderNoticesAndItsNameBelow) {

@@ -41,6 +41,7 @@ RecordSession& RecordsDriver::talk() const {
 Capabilities RecordsDriver::capabilities() const {
     Capabilities able;
     able.overrides = able.single_block = able.optional_stop = able.piecewise = able.told_place = true;
+    able.tells_spindle = false;
     return able;
 }
 

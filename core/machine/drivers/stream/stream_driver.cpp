@@ -53,6 +53,7 @@ std::string StreamDriver::lost() const {
 Capabilities StreamDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
     able.told_place = true;
+    able.tells_spindle = false;
     return able;
 }
 

@@ -108,7 +108,9 @@ void select_pen(Run& run, const Given& given) {
     if (!known) {
         run.pen.put_away(); // what follows was meant for another pen than any that is there
         return run.refuse(
-            fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
+            fmt::format("there is no pen {}; the highest is {}. Nothing is drawn from here to the next pen",
+                        number,
+                        run.settings.highest_pen));
     }
     run.pen.select(static_cast<int>(number));
     run.plot.pens.try_emplace(static_cast<int>(number), run.usual);
