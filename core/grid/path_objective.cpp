@@ -156,11 +156,13 @@ PathCost PathObjective::cost(const NodeArray& nodes, const Progress& progress) c
             double& move = cost.moves[nodes.index(i, j)];
             if (i + 1 < rows_) {
                 const Vec2& next = nodes.at(i + 1, j);
-                sum += rows_are_tracks ? gap_cost(here, next) : (move = move_cost(here, next));
+                move = rows_are_tracks ? move : move_cost(here, next);
+                sum += rows_are_tracks ? gap_cost(here, next) : move;
             }
             if (j + 1 < columns_) {
                 const Vec2& next = nodes.at(i, j + 1);
-                sum += rows_are_tracks ? (move = move_cost(here, next)) : gap_cost(here, next);
+                move = rows_are_tracks ? move_cost(here, next) : move;
+                sum += rows_are_tracks ? move : gap_cost(here, next);
             }
         }
     });

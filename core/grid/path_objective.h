@@ -45,7 +45,7 @@ public:
     /// value(), and what it is made of.
     [[nodiscard]] PathCost cost(const NodeArray& nodes, const Progress& progress) const;
 
-    /// d value / d node by differences, a cell; zero along what may not move. Throws
+    /// d value / d node by one-sided differences, a cell; zero along what may not move. Throws
     /// Cancelled, and Defect where value() is not finite.
     [[nodiscard]] std::vector<Vec2> gradient(const NodeArray& nodes, const Progress& progress) const;
     /// The same where the `cost` of `nodes` is at hand.

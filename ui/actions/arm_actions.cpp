@@ -28,7 +28,8 @@ Permission can_go(const Workbench& now) {
 }
 
 Permission moves(const Workbench& now) {
-    return now.arm.moving() ? Permission{} : Permission::refused("Nothing moves.");
+    return now.arm.moving() || now.arm.works_out_path_motion() ? Permission{}
+                                                               : Permission::refused("Nothing moves.");
 }
 
 Permission can_enable(const Workbench& now) {

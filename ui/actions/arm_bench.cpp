@@ -205,9 +205,8 @@ void ArmBench::stop() {
 }
 
 void ArmBench::play(ArmPlay motion) {
+    stop();
     motion_ = std::move(motion);
-    held_.reset();
-    held_line_.reset();
     time_ = 0.0;
     refusal_.clear();
 }
@@ -276,7 +275,7 @@ void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
     }
 }
 
-void ArmBench::want_path_motion() {
+void ArmBench::want_path_motion(bool of_card) {
     if (!path_wish_) {
         throw Error("there is no path on the arm", {}, "show one first");
     }
@@ -284,6 +283,7 @@ void ArmBench::want_path_motion() {
     wish.joints = joints_;
     wish.motion = ++path_motions_;
     wants_path_motion_ = true;
+    of_card_ = of_card;
     path_.want(std::move(wish));
 }
 
@@ -351,7 +351,9 @@ void ArmBench::follow(const JointPositions& told, bool known) {
         joints[n] = told[n];
     }
     if ((joints - joints_).cwiseAbs().maxCoeff() > 0.0) {
-        stop();
+        motion_.reset();
+        held_.reset();
+        held_line_.reset();
         refusal_.clear(); // of what was drawn before
         joints_ = joints;
         if (known) {

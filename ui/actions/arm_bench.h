@@ -137,7 +137,10 @@ public:
     /// of the wish are those of now.
     void look_at_path(std::optional<ArmPathWish> wish);
     /// Works out the motion of the path that is looked at; what comes of it is told by take_path_motion().
-    void want_path_motion();
+    /// `of_card`: it is a connected arm that shall go it, not the drawn one.
+    void want_path_motion(bool of_card);
+    void call_off_path_motion() { wants_path_motion_ = false; }
+    [[nodiscard]] bool path_motion_is_of_card() const { return of_card_; }
     /// A motion that was wanted, once; or why there is none.
     [[nodiscard]] std::shared_ptr<const ArmPathAnswer> take_path_motion();
     /// One is wanted, and not yet taken.
@@ -178,6 +181,7 @@ private:
     MotionProgramBench program_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;
+    bool of_card_ = false; ///< the motion that is wanted
     int path_motions_ = 0; ///< how many were wanted: an answer to an earlier wish is none to the last
     ArmPathWork path_;
 };

@@ -269,7 +269,7 @@ void add_arm_teach_actions(Actions& actions) {
          "",
          icons::toolpath},
         can_send_path,
-        [](Hands& hands) { hands.workshop.arm().want_path_motion(); });
+        [](Hands& hands) { hands.workshop.arm().want_path_motion(hands.now.arm_connected()); });
 }
 
 } // namespace millwright::actions

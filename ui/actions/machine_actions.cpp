@@ -1,6 +1,7 @@
 #include "core/base/error.h"
 #include "core/machine/driver.h"
 #include "core/machine/job_queue.h"
+#include "ui/actions/arm_bench.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
@@ -102,7 +103,7 @@ Permission can_stop(const Workbench& now) {
     const DriverState state = now.controller.status.state;
     const bool by_hand =
         now.controller.connected() && (state == DriverState::running || state == DriverState::holding);
-    if (now.job.running || by_hand) {
+    if (now.job.running || by_hand || now.arm.works_out_path_motion()) {
         return {};
     }
     const bool stops = now.controller.connected() && state == DriverState::stopping;
@@ -110,9 +111,10 @@ Permission can_stop(const Workbench& now) {
 }
 
 void stop(Hands& hands) {
+    hands.workshop.arm().call_off_path_motion();
     if (hands.now.job.running) {
         hands.jobs.stop();
-    } else {
+    } else if (hands.now.controller.connected()) {
         hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
     }
 }
@@ -197,6 +199,7 @@ Permission can_stop_at_once(const Workbench& now) {
 }
 
 void stop_at_once(Hands& hands) {
+    hands.workshop.arm().call_off_path_motion();
     hands.workshop.plot().table().emergency_stop();
     hands.workshop.controller().emergency_stop();
     hands.jobs.emergency_stop();

@@ -10,7 +10,7 @@ namespace millwright::actions {
 /// unless that of a strategy is shown.
 [[nodiscard]] project::GridMethod shown_grid(const Workbench& now);
 
-/// Whether this is the grid of before the last change, on the surface and machine of now: it stands in until
+/// Whether this grid was made before the last change and measured on what is there now: it stands in until
 /// the new one is there, and stays where the work was cancelled.
 [[nodiscard]] bool is_old_grid(const project::Evaluation& evaluation);
 

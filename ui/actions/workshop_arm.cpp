@@ -56,6 +56,15 @@ void expect_start(const motion::Trajectory& motion, const kinematics::JointPosit
     }
 }
 
+/// Nothing came between while the motion was worked out: no stop, no loss of power, no other arm.
+bool can_go_path(const Workbench& now, bool of_card) {
+    using machine::DriverState;
+    const machine::DriverStatus& status = now.controller.status;
+    const bool rests = status.state == DriverState::idle || status.state == DriverState::stopped;
+    return of_card ? now.arm_connected() && rests && status.powered && status.position_known
+                   : !now.arm_connected();
+}
+
 std::string counted(std::size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -121,6 +130,12 @@ void Workshop::follow_arm_work() {
                                                          arm_->joints(),
                                                          0})
                              : std::nullopt);
+    if (arm_->works_out_path_motion() && !can_go_path(now, arm_->path_motion_is_of_card())) {
+        arm_->call_off_path_motion();
+        tell(session_,
+             widgets::Severity::warning,
+             "The path is not gone: the arm is not as it was when that was asked for. Ask for it again.");
+    }
     if (const auto answer = arm_->take_path_motion()) {
         guarded([&] {
             if (!answer->motion) {

@@ -59,7 +59,7 @@ fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& option
     return own;
 }
 
-/// Of what has no ending that tells its kind.
+/// Of what is read as G-code.
 void expect_text(const fs::path& file) {
     constexpr std::size_t beginning = 4096;
     std::string begin(beginning, ' ');

@@ -97,8 +97,8 @@ void draw_arm_of_card(Ui& ui, const Workbench& now) {
             "other_arm",
             {widgets::Severity::warning,
              fmt::format(
-                 "The card drives a Motoman L-3 and has its counts of a degree. Drawn is another arm, "
-                 "'{}', whose joints and limits would be taken for it.",
+                 "The card's counts of a degree are those of a Motoman L-3. Joints and limits would be "
+                 "those of the arm that is drawn, '{}'.",
                  now.arm.arm().name()),
              {}});
     } else {

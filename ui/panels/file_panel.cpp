@@ -273,9 +273,8 @@ bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const bool was_typing = ui.was_typing();
-    const auto typed = ui.text_field("name", "File name", name_, ending_text(about(asked_)));
-    name_ = typed.value_or(name_);
+    const bool elsewhere = ui.was_typing() && !widgets::typed_text(ui, "name");
+    name_ = ui.text_field("name", "File name", name_, ending_text(about(asked_))).value_or(name_);
     const std::string name = widgets::typed_text(ui, "name").value_or(name_);
     const fs::path file = file_to_save(name);
     std::error_code unreadable;
@@ -290,7 +289,7 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_cancel(ui, now, ask);
     const bool clicked = draw_save_button(ui, allowed, replaced);
     // Enter replaces nothing, and is none of this dialog's while a folder is typed.
-    const bool entered = ui.enter_pressed() && (typed || !was_typing) && allowed.allowed && replaced.empty();
+    const bool entered = ui.enter_pressed() && !elsewhere && allowed.allowed && replaced.empty();
     if (clicked || entered) {
         if (const auto answer = about(asked_).answer) {
             ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });

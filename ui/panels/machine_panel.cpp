@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -68,7 +69,8 @@ std::optional<double> spindle_by_hand(const Workbench& now) {
     constexpr std::size_t beginning = 1000; // blocks: a spindle turns before the first cut
     const auto blocks = std::span(program->blocks).first(std::min(beginning, program->blocks.size()));
     const auto on = std::ranges::find(blocks, gcode::BlockKind::spindle_on, &gcode::Block::kind);
-    return on == blocks.end() ? std::nullopt : std::optional(on->spindle_rpm);
+    return on == blocks.end() || !(std::abs(on->spindle_rpm) > 0.0) ? std::nullopt
+                                                                    : std::optional(on->spindle_rpm);
 }
 
 } // namespace
@@ -146,16 +148,6 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     begin_fields(ui, now, ask);
     const actions::BeginAt& begin = now.session.begin;
-    if (const auto rpm = spindle_by_hand(now)) {
-        (void)widgets::banner(
-            ui,
-            "spindle_by_hand",
-            {widgets::Severity::warning,
-             fmt::format("This machine is told nothing of its spindle: switch it on by hand "
-                         "before it runs, {:.0f} 1/min.",
-                         *rpm),
-             {}});
-    }
     action_button(ui,
                   now,
                   ask,
@@ -174,6 +166,16 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
     ui.keep_clear(ui.path("machine_emergency_stop"));
+    if (const auto rpm = spindle_by_hand(now)) {
+        (void)widgets::banner(
+            ui,
+            "spindle_by_hand",
+            {widgets::Severity::warning,
+             fmt::format("This machine is told nothing of its spindle: switch it on by hand "
+                         "before it runs, {:.0f} 1/min.",
+                         *rpm),
+             {}});
+    }
     draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);
 }

@@ -39,17 +39,19 @@ public:
     [[nodiscard]] double bias() const { return bias_; }
     void kill() const { card_.ask(fmt::format("#{}K", motor_)); }
     /// From here on they are given back however this ends.
-    /// The card itself takes the power beyond `most_way` counts of a try, however busy this computer is.
-    void begin(double most_way) {
+    /// However busy this computer is, the card itself ends a try that goes farther than `most_of_try` counts.
+    void begin(double most_of_try) {
         kill();
         give_back_ = {[this] { kill(); },
                       [this] { set_motor_variable(card_, motor_, output_bias, bias_); },
                       [this] { set_motor_variable(card_, motor_, gain, gain_); },
                       [this] { set_motor_variable(card_, motor_, fatal_following_error, error_limit_); }};
         set_motor_variable(card_, motor_, gain, 0.0);
-        constexpr double of_count = 16.0, greatest = 8'388'607.0; // Ix11 counts in sixteenths
-        set_motor_variable(
-            card_, motor_, fatal_following_error, std::min(std::floor(of_count * most_way), greatest));
+        constexpr double of_count = 16.0, greatest = 8'388'607.0; // Ix11 counts in sixteenths; 0: no limit
+        set_motor_variable(card_,
+                           motor_,
+                           fatal_following_error,
+                           std::clamp(std::floor(of_count * most_of_try), 1.0, greatest));
     }
     void end() {
         while (!give_back_.empty()) {
@@ -67,8 +69,6 @@ private:
 };
 
 class Finder {
-    static constexpr double runaway = 2.0; ///< times as fast as at first
-
 public:
     Finder(const CardTalk& card, int motor, const OffsetSearch& search)
         : card_(card), motor_(motor), search_(search), borrowed_(card, motor),
@@ -76,7 +76,8 @@ public:
           begin_(motor_position(card, motor)) {}
 
     [[nodiscard]] OffsetFound find() {
-        borrowed_.begin(search_.most_way);
+        constexpr double share_of_try = 0.25; // of the way of all of them
+        borrowed_.begin(share_of_try * search_.most_way);
         OffsetFound found;
         found.before = static_cast<int>(std::lround(borrowed_.bias()));
         const int from = search_.from.value_or(found.before);
@@ -97,24 +98,26 @@ private:
         const double start = motor_position(card_, motor_);
         card_.ask(fmt::format("#{}J/", motor_));
         int seen = 0;
-        double time = 0.0;
-        while (time < search_.look && seen == 0) {
+        for (double time = 0.0; time < search_.look && seen == 0; time += search_.glance) {
             card_.wait(search_.glance);
-            time += search_.glance;
             const double now = motor_position(card_, motor_);
             farthest_ = std::max(farthest_, std::abs(now - begin_));
-            speed_ = std::abs(now - start) / time;
             seen = now - start >= search_.creep ? 1 : start - now >= search_.creep ? -1 : 0;
         }
         borrowed_.kill();
         await_rest();
         if (farthest_ > search_.most_way) {
-            throw Error(fmt::format("motor {} went {:.0f} counts, and {:.0f} were allowed",
-                                    motor_,
-                                    farthest_,
-                                    search_.most_way),
-                        {},
-                        "begin with an offset nearer to standstill, or allow a longer way");
+            throw Error(
+                fmt::format("motor {} went {:.0f} counts, and {:.0f} were allowed",
+                            motor_,
+                            farthest_,
+                            search_.most_way),
+                {},
+                fmt::format(
+                    "begin with an offset nearer to standstill, allow a longer way, or turn the sense "
+                    "of its encoder (I{:03}): where that is wrong the search goes ever faster the "
+                    "wrong way",
+                    895 + 5 * motor_));
         }
         return seen;
     }
@@ -133,25 +136,9 @@ private:
         }
     }
 
-    /// From `offset` on in growing steps, one at which the motor goes to `sense`. On the way there it goes
-    /// the other way ever more slowly: where it goes faster it would run away.
+    /// From `offset` on in growing steps, one at which the motor goes to `sense`.
     int moving(int offset, int sense) {
-        double first = 0.0; // counts/s the other way
-        for (int step = 1;; step *= 2) {
-            const int way = direction(offset);
-            if (way == sense) {
-                return offset;
-            }
-            first = way != 0 && !(first > 0.0) ? speed_ : first;
-            if (way != 0 && speed_ > runaway * first) {
-                throw Error(fmt::format("motor {} goes {} faster with every bit that should drive it {}: its "
-                                        "encoder counts the other way",
-                                        motor_,
-                                        sense > 0 ? "back" : "forward",
-                                        sense > 0 ? "forward" : "back"),
-                            {},
-                            fmt::format("turn the sense of its encoder (I{})", 895 + 5 * motor_));
-            }
+        for (int step = 1; direction(offset) != sense; step *= 2) {
             if (std::abs(offset) >= limit_) {
                 throw Error(fmt::format("motor {} does not go {} with any offset up to {} bits (Ix69)",
                                         motor_,
@@ -162,6 +149,7 @@ private:
             }
             offset = std::clamp(offset + sense * step, -limit_, limit_);
         }
+        return offset;
     }
 
     /// The offset nearest to `other` at which the motor goes to `sense`, as it does at `at`.
@@ -180,7 +168,6 @@ private:
     int limit_; ///< bits
     double begin_;
     double farthest_ = 0.0;
-    double speed_ = 0.0; ///< counts/s, of the last try
 };
 
 } // namespace

@@ -27,7 +27,7 @@ struct OffsetFound {
 };
 
 /// Leaves the motor without power, and all variables as they were. Throws Error if it does not move either
-/// way within Ix69, goes too far, or the wrong way (its encoder's sense); also then the motor has no power.
+/// way within Ix69, or goes too far; also then the motor has no power.
 [[nodiscard]] OffsetFound find_offset(const CardTalk& card, int motor, const OffsetSearch& search = {});
 
 } // namespace millwright::machine

@@ -51,9 +51,10 @@ grid::MoveError move_error(const kinematics::MachineModel& machine,
         const double t = static_cast<double>(k) / (tip_samples + 1);
         const geometry::ToolPose actual = way.at(t);
         const ChordCurve::Nearest nearest = curve.nearest(actual.tip);
+        const double normal = nearest.normal.squaredNorm(); // 0 where those of the chord's ends cancel
         const double off = square((actual.tip - nearest.point).dot(nearest.normal));
         tip = std::max(tip, nearest.squared);
-        off_surface = std::max(off_surface, off / nearest.normal.squaredNorm());
+        off_surface = normal > 0.0 ? std::max(off_surface, off / normal) : off_surface;
         param = std::max(param, (actual.tip - curve.at(t)).squaredNorm());
         axis.see(actual.axis, nearest.normal);
     }

@@ -67,15 +67,20 @@ TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
 
 TEST(OffsetFinderC2, DoesNotChaseAMotorWhoseEncoderCountsTheOtherWay) {
     for (const double bias : {60.0, -996.0, 5.0}) {
-        PmacPlant wrong;
-        wrong.speed_per_bit = -wrong.speed_per_bit;
-        wrong.bias = bias;
-        test::PmacCard pmac({.plants = {wrong}});
-        EXPECT_THAT(reason([&] { (void)find_offset(talk_to(pmac), 1); }),
-                    HasSubstr("encoder counts the other"))
-            << bias;
-        EXPECT_FALSE(pmac.card.enabled(1));
-        EXPECT_EQ(pmac.ask("I129"), "0");
+        for (const double glance : {0.005, 0.1}) { // of a busy computer
+            PmacPlant wrong;
+            wrong.speed_per_bit = -wrong.speed_per_bit;
+            wrong.bias = bias;
+            test::PmacCard pmac({.plants = {wrong}});
+            const OffsetSearch search{.glance = glance};
+            EXPECT_THAT(reason([&] { (void)find_offset(talk_to(pmac), 1, search); }),
+                        HasSubstr("counts, and 10000 were allowed"))
+                << bias;
+            const double coasts = wrong.coast_time * 200.0 * 2.0 * 996.0;
+            EXPECT_LT(std::abs(pmac.card.position(1)), 1.25 * search.most_way + coasts) << bias;
+            EXPECT_FALSE(pmac.card.enabled(1));
+            EXPECT_EQ(pmac.ask("I129"), "0");
+        }
     }
 }
 

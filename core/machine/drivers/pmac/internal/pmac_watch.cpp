@@ -56,11 +56,13 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
             return;
         }
         MotorState& motor = motors_[n];
+        const bool was_home = motor.home();
         motor.speed = polled_ && since > 0.0 ? (*counts - motor.counts) / since : 0.0;
         motor.counts = *counts;
         motor.word_1 = words->first;
         motor.word_2 = words->second;
-        if (!polled_ || (motor.standing() && exactly_equal(motor.speed, 0.0))) {
+        const bool zeroed = motor.home() != was_home; // its counts begin anew
+        if (!polled_ || zeroed || (motor.standing() && exactly_equal(motor.speed, 0.0))) {
             motor.shown_speed.stand(*counts, now);
         } else {
             motor.shown_speed.see(*counts, now);
