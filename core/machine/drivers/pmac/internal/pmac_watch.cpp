@@ -68,6 +68,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
             motor.shown_speed.see(*counts, now);
         }
         motor.had_power = motor.had_power || motor.enabled();
+        motor.lag_is_old = (!polled_ || motor.lag_is_old) && motor.left_behind() && !motor.enabled();
     }
     system_1_ = system->first;
     system_2_ = system->second;
@@ -151,7 +152,7 @@ std::string PmacSession::reason_of_kill(bool now) const {
         if (motor.faulty() && !motor.enabled()) {
             return fmt::format("motor {}: its amplifier reports a fault", settings_.axes[n].motor);
         }
-        if (motor.left_behind() && !motor.enabled()) {
+        if (motor.left_behind() && !motor.enabled() && !motor.lag_is_old) {
             return fmt::format("motor {}: its following error became too great", settings_.axes[n].motor);
         }
     }

@@ -145,6 +145,19 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
     EXPECT_TRUE(wire.card.enabled(1));
 }
 
+TEST(PmacTypedLinesF2, ThatGivePowerAreNotHeldUpByWhatAMotorToldBeforeTheyCame) {
+    PmacWire wire({}, false, "XYZA", {}, "I111=1\nI129=3000\n#1J/\n");
+    EXPECT_FALSE(wire.card.enabled(1)) << "its following error was too great at once";
+    wire.session.let_lines_give_power();
+    (void)wire.session.command({"#2J/"}, false);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.card.enabled(2));
+    EXPECT_NE(wire.state(), DriverState::alarm);
+    (void)wire.session.command({"#1J/"}, false); // and is too great again
+    wire.pass(0.5);
+    EXPECT_EQ(wire.state(), DriverState::alarm);
+}
+
 TEST(PmacTypedLinesF2, NoneGivesPowerBackBehindAKill) {
     PmacWire wire;
     for (const std::vector<std::string>& lines :
