@@ -121,6 +121,9 @@ int cut(const Options& options) {
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     print_summary(plan, project);
     print_why_higher(project, plan);
+    if (const std::string why = project::why_not_kept(project, *plan.program_path(project)); !why.empty()) {
+        fmt::print(stderr, "warning: {}\n", why);
+    }
     print_bites(*plan.cut);
     return 0;
 }

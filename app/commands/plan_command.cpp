@@ -161,11 +161,12 @@ void print_path(std::string_view name,
                 const std::optional<double>& time) {
     const double step =
         toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
-    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
                name,
                of.toolpath.points.size(),
                fixed(of.closest.max, 4),
                fixed(of.closest.mean, 4),
+               fixed(to_degrees(of.closest.axis_max), 2),
                fixed(to_degrees(of.axes.rotary_travel), 1),
                fixed(to_degrees(step), 2),
                time ? fixed(*time, 1) : std::string("-"));
@@ -176,11 +177,12 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
     if (!plan.unsequenced) {
         return;
     }
-    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
+    fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
                "sequence",
                "points",
                "max mm",
                "mean mm",
+               "axis deg",
                "rotation deg",
                "in a cut deg",
                "time s");
@@ -236,6 +238,13 @@ int plan(const Options& options) {
     print_warnings(plan);
     print_summary(plan, opened.project);
     print_sequencing(plan, opened.project);
+    for (const std::string& remark :
+         {project::why_not_kept(opened.project, *plan.program_path(opened.project)),
+          project::crossing_remark(opened.project)}) {
+        if (!remark.empty()) {
+            fmt::print(stderr, "warning: {}\n", remark);
+        }
+    }
     if (plan.cut) {
         print_cut(opened.project, plan);
     }

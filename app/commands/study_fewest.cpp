@@ -5,6 +5,7 @@
 #include "app/progress_printer.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/project/assets.h"
 #include "core/project/fewest_points_study.h"
 
@@ -36,12 +37,13 @@ void print(const project::FewestPointsRow& row) {
         row.uniform && row.fewest
             ? fixed(static_cast<double>(*row.uniform) / static_cast<double>(*row.fewest), 2)
             : std::string("-");
-    fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12}\n",
+    fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12} {:>9}\n",
                shortest(row.tolerance),
                text_of(row.uniform),
                text_of(row.fewest),
                ratio,
-               row.fewest ? fixed(row.largest, 5) : std::string("-"));
+               row.fewest ? fixed(row.largest, 5) : std::string("-"),
+               row.fewest ? fixed(to_degrees(row.largest_axis), 2) : std::string("-"));
 }
 
 int fewest_points(const Options& options) {
@@ -55,8 +57,13 @@ int fewest_points(const Options& options) {
     const auto rows = project::fewest_points(options.of, options.tolerances, folders, progress);
     printer.finish();
     fmt::print("{} on {}, {} tracks\n", options.of.surface, options.of.machine, options.of.tracks);
-    fmt::print(
-        "{:>12} {:>10} {:>10} {:>8} {:>12}\n", "tolerance mm", "uniform", "fewest", "ratio", "largest mm");
+    fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12} {:>9}\n",
+               "tolerance mm",
+               "uniform",
+               "fewest",
+               "ratio",
+               "largest mm",
+               "axis deg");
     for (const project::FewestPointsRow& row : rows) {
         print(row);
     }

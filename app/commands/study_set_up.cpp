@@ -117,7 +117,9 @@ int set_up(const Options& options) {
     print("start", study.search.start);
     print("best", study.search.best);
     const bool gains = study.search.best.cost < study.search.start.cost;
-    if (!gains) {
+    if (!std::isfinite(study.search.best.cost)) {
+        fmt::print("out of reach: from no place that was searched the machine reaches the whole part\n");
+    } else if (!gains) {
         fmt::print("no gain: no better place than the start was found\n");
     }
     const std::string edge = project::edge_sentence(study.search,

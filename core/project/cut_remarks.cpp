@@ -57,4 +57,26 @@ std::string why_higher(const Project& project, const Plan& plan) {
         way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
 }
 
+std::string why_not_kept(const Project& project, const Evaluation& path) {
+    const bool asked = project.toolpath.strategy == StrategyInput::fewest_points &&
+                       project.tool.cutter != toolpath::CutterKind::point;
+    if (!asked || path.closest.max <= project.toolpath.tolerance_mm) {
+        return {};
+    }
+    return fmt::format(
+        "the tip keeps the tolerance of {} mm, this cutter does not: {} mm at worst. Where it does "
+        "not fit, or cuts into its sides, more points do not help: another or a smaller cutter does",
+        shortest(project.toolpath.tolerance_mm),
+        fixed(path.closest.max, 4));
+}
+
+std::string crossing_remark(const Project& project) {
+    const bool crosses =
+        project.toolpath.strategy == StrategyInput::spiral && project.grid.method != GridMethod::uniform;
+    return crosses ? "a spiral crosses the grid's tracks, for which its nodes were placed: compare with the "
+                     "uniform "
+                     "grid, which may serve it better"
+                   : std::string();
+}
+
 } // namespace millwright::project

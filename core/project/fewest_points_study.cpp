@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
+#include "core/base/units.h"
 #include "core/grid/fewest_nodes.h"
 
 #include <fmt/format.h>
@@ -78,14 +79,17 @@ private:
 /// Of one track.
 struct Found {
     std::optional<int> uniform, fewest;
-    double largest = 0.0;
+    grid::MoveError largest;
 };
 
-double largest_of(const grid::ErrorModel& model, const grid::PlacedTrack& placed) {
-    double largest = 0.0;
+/// Of tip and axis, each by itself.
+grid::MoveError largest_of(const grid::ErrorModel& model, const grid::PlacedTrack& placed) {
+    grid::MoveError largest;
     for (std::size_t n = 1; n < placed.places.size(); ++n) {
         const Vec2 from = placed.track.at(placed.places[n - 1]);
-        largest = std::max(largest, model.move(from, placed.track.at(placed.places[n]), grid::fine).tip);
+        const grid::MoveError move = model.move(from, placed.track.at(placed.places[n]), grid::fine);
+        largest.tip = std::max(largest.tip, move.tip);
+        largest.axis = std::max(largest.axis, move.axis);
     }
     return largest;
 }
@@ -135,12 +139,13 @@ std::vector<FewestPointsRow> fewest_points(const FewestPointsCase& of,
     });
     std::vector<FewestPointsRow> rows;
     for (std::size_t row = 0; row < tolerances.size(); ++row) {
-        FewestPointsRow sum{tolerances[row], 0, 0, 0.0};
+        FewestPointsRow sum{.tolerance = tolerances[row], .uniform = 0, .fewest = 0};
         for (std::size_t track = 0; track < tracks.size(); ++track) {
             const Found& of_track = found[row * tracks.size() + track];
             add(sum.uniform, of_track.uniform);
             add(sum.fewest, of_track.fewest);
-            sum.largest = std::max(sum.largest, of_track.largest);
+            sum.largest = std::max(sum.largest, of_track.largest.tip);
+            sum.largest_axis = std::max(sum.largest_axis, of_track.largest.axis);
         }
         rows.push_back(sum);
     }
@@ -148,16 +153,18 @@ std::vector<FewestPointsRow> fewest_points(const FewestPointsCase& of,
 }
 
 std::string fewest_points_csv(const FewestPointsCase& of, std::span<const FewestPointsRow> rows) {
-    std::string text = "surface,machine,tracks,tolerance_mm,uniform_points,fewest_points,largest_mm\n";
+    std::string text =
+        "surface,machine,tracks,tolerance_mm,uniform_points,fewest_points,largest_mm,largest_axis_deg\n";
     for (const FewestPointsRow& row : rows) {
-        text += fmt::format("{},{},{},{},{},{},{:.6f}\n",
+        text += fmt::format("{},{},{},{},{},{},{:.6f},{:.4f}\n",
                             of.surface,
                             of.machine,
                             of.tracks,
                             row.tolerance,
                             text_of(row.uniform),
                             text_of(row.fewest),
-                            row.largest);
+                            row.largest,
+                            to_degrees(row.largest_axis));
     }
     return text;
 }

@@ -24,6 +24,7 @@ struct FewestPointsRow {
         uniform; ///< with equal steps on each track; nothing where `most_uniform` a track do not do
     std::optional<int> fewest; ///< by grid::fewest_nodes; nothing where its lattice is too coarse
     double largest = 0.0;      ///< of the moves between the fewest, mm
+    double largest_axis = 0.0; ///< of the tool axis to the surface normal on them, rad
 };
 
 /// Nodes a track at which equal steps are given up.

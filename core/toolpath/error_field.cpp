@@ -7,6 +7,7 @@
 #include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace millwright::toolpath {
@@ -96,11 +97,16 @@ ErrorField error_field(const geometry::BezierPatch& patch,
     ErrorField field;
     const auto moves = std::max<std::ptrdiff_t>(0, std::ssize(toolpath.points) - 1);
     field.moves.resize(static_cast<std::size_t>(moves));
-    constexpr std::ptrdiff_t chunk = 16;
+    constexpr std::ptrdiff_t chunk = 16, reports = 100;
+    const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, moves / reports);
+    std::atomic<std::ptrdiff_t> done = 0;
     parallel_for(moves, chunk, [&](std::ptrdiff_t move) {
         progress.check();
         const auto n = static_cast<std::size_t>(move);
         field.moves[n] = deviation(cut, n, axes.positions[n], axes.positions[n + 1], samples);
+        if (const std::ptrdiff_t so_far = ++done; so_far % step == 0) {
+            progress.report(static_cast<double>(so_far) / static_cast<double>(moves));
+        }
     });
     progress.report(1.0);
     return field;

@@ -1,6 +1,8 @@
 #include "ui/panels/strategy_fields.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
 #include "ui/panels/internal/fields.h"
@@ -39,25 +41,18 @@ void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
 /// The points are chosen for the tip; what a cutter with a width does beside it they cannot help.
 void kept_tolerance(Ui& ui, const Workbench& now) {
     const auto path = now.program_path();
-    const double tolerance = now.project.toolpath.tolerance_mm;
-    if (!path || now.project.toolpath.strategy != StrategyInput::fewest_points ||
-        now.project.tool.cutter == toolpath::CutterKind::point || path->closest.max <= tolerance) {
-        return;
+    const std::string why = path ? project::why_not_kept(now.project, *path) : std::string();
+    if (!why.empty()) {
+        (void)widgets::banner(ui, "not_kept", {widgets::Severity::warning, as_sentence(why), {}});
     }
-    (void)widgets::banner(
-        ui,
-        "not_kept",
-        {widgets::Severity::warning,
-         "The tip keeps the tolerance, this cutter does not: " + length_text(path->closest.max) +
-             " mm at worst. Where it does not fit, or cuts into its sides, more points do not "
-             "help: another or a smaller cutter does.",
-         {}});
 }
 
 std::string grid_note(const Project& project) {
     if (project::follows_nodes(project.toolpath.strategy)) {
-        return fmt::format("Over the nodes of the grid: {}.",
-                           project::row_of(project::grid_methods(), project.grid.method).label);
+        const std::string crossing = project::crossing_remark(project);
+        return fmt::format("Over the nodes of the grid: {}.{}",
+                           project::row_of(project::grid_methods(), project.grid.method).label,
+                           crossing.empty() ? "" : " " + as_sentence(crossing));
     }
     switch (project.toolpath.strategy) {
     case StrategyInput::constant_scallop:

@@ -145,7 +145,8 @@ render::Picture render_view(const project::Project& project,
             const Pane first = drawn.front()->pane(sheet.signs, colors);
             draw_scale_bar(ui, first, drawn.front()->camera().pose().target);
             const Scene& last = parts.back().scene;
-            draw_legends(ui, upright_legends(ui, sheet.signs, last), colors, last);
+            const Scene& first_scene = parts.front().scene; // the same one where nothing is compared
+            draw_legends(ui, upright_legends(ui, sheet.signs, last), colors, last, &first_scene);
             (void)axis_gizmo(ui, drawn.back()->pane(sheet.signs, colors));
         }
     });

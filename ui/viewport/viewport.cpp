@@ -49,10 +49,11 @@ Rect quarter(const Rect& place, int row, int column, float space) {
 float draw_shared_legends(widgets::Ui& ui,
                           const Rect& place,
                           const Scene& scene,
+                          const Scene& beside,
                           const render::ViewColors& colors) {
     const float margin = ui.px(8.0F);
     const LegendPlaces places = lying_legends(ui, place, place.x + margin, scene);
-    draw_legends(ui, places, colors, scene);
+    draw_legends(ui, places, colors, scene, &beside);
     return places.free.h;
 }
 
@@ -206,7 +207,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     const render::ViewColors colors = render::view_colors(theme_of(ui));
     const float space = ui.px(gap);
     const float w = std::floor(0.5F * (place.w - space));
-    const float h = draw_shared_legends(ui, place, right.scene, colors);
+    const float h = draw_shared_legends(ui, place, right.scene, left.scene, colors);
     const Rect right_place{place.x + w + space, place.y, place.w - w - space, h};
     const Frame3D of_right{.ui = ui,
                            .scene = right.scene,

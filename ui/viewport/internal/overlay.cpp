@@ -299,10 +299,14 @@ float legend_strip_height(const widgets::Ui& ui) {
 void draw_legends(widgets::Ui& ui,
                   const LegendPlaces& places,
                   const render::ViewColors& colors,
-                  const Scene& scene) {
-    const std::vector<Legend> all = legends(scene, colors);
+                  const Scene& scene,
+                  const Scene* beside) {
+    std::vector<Legend> all = legends(scene, colors);
     for (std::size_t n = 0; n < std::min(all.size(), places.each.size()); ++n) {
-        const Legend& legend = all[n];
+        Legend& legend = all[n];
+        if (legend.largest && beside != nullptr && beside->shown) {
+            legend.largest = std::max(*legend.largest, beside->shown->closest.max);
+        }
         widgets::LegendView view = {
             .title = legend.title,
             .unit = legend.unit,

@@ -52,11 +52,13 @@ lying_legends(const widgets::Ui& ui, const widgets::Rect& picture, float left, c
 [[nodiscard]] LegendPlaces
 legends_of(const widgets::Ui& ui, const widgets::Rect& picture, const Scene& scene);
 
-/// What the colours of errors, weight and others mean; nothing where there are none.
+/// What the colours of errors, weight and others mean; nothing where there are none. `beside`: another scene
+/// that is drawn in the same colours of the errors.
 void draw_legends(widgets::Ui& ui,
                   const LegendPlaces& places,
                   const render::ViewColors& colors,
-                  const Scene& scene);
+                  const Scene& scene,
+                  const Scene* beside = nullptr);
 
 /// As high as a strip of lying legends.
 [[nodiscard]] float legend_strip_height(const widgets::Ui& ui);

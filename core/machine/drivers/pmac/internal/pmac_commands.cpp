@@ -173,6 +173,15 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
         return std::any_of(changes.begin(), changes.end(), [](const PowerChange& c) { return c.given; });
     });
     gave_power_ = gave_power_ || closes_loops_;
+    addressed = 0;
+    for (const std::string& line : lines) {
+        for (const PowerChange& change : power_changes_of(line, addressed)) {
+            for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
+                const bool other = change.motor && *change.motor != settings_.axes[n].motor;
+                motors_[n].lag_is_old = motors_[n].lag_is_old && other; // what it tells next is of this
+            }
+        }
+    }
     commanded_.clear();
     for (const std::string& line : lines) {
         commanded_ += line + "\n";
