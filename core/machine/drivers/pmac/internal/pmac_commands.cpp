@@ -178,7 +178,7 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
         for (const PowerChange& change : power_changes_of(line, addressed)) {
             for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
                 const bool other = change.motor && *change.motor != settings_.axes[n].motor;
-                motors_[n].lag_is_old = motors_[n].lag_is_old && other; // what it tells next is of this
+                motors_[n].gets_power = motors_[n].gets_power || !other;
             }
         }
     }

@@ -403,6 +403,10 @@ void PmacSession::finish_command(CommandAnswer::State state) {
     if (answer_.state == CommandAnswer::State::pending) {
         answer_.state = state;
     }
+    for (MotorState& motor : motors_) {
+        motor.lag_is_old = motor.lag_is_old && !motor.gets_power; // what it tells from here on is of this
+        motor.gets_power = false;
+    }
     if (stage_ == Stage::commanding) {
         finish(armed_ ? Stage::astir : Stage::ready);
         ask_ratings(); // it may have set some

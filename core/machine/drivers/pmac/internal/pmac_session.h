@@ -109,6 +109,7 @@ private:
         std::uint32_t word_1 = 0, word_2 = 0;
         double target = 0.0;     ///< of the last jog
         bool had_power = false;  ///< since what is under way began
+        bool gets_power = false; ///< by the command that is under way
         bool lag_is_old = false; ///< left_behind() was so when the card told for the first time, and since
         [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
         [[nodiscard]] bool faulty() const { return (word_2 >> 3 & 1U) != 0; } ///< its amplifier
