@@ -168,20 +168,17 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
     command_lines_.assign(lines.begin(), lines.end());
     only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
     int addressed = 0;
-    closes_loops_ = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-        const auto changes = power_changes_of(line, addressed);
-        return std::any_of(changes.begin(), changes.end(), [](const PowerChange& c) { return c.given; });
-    });
-    gave_power_ = gave_power_ || closes_loops_;
-    addressed = 0;
+    closes_loops_ = false;
     for (const std::string& line : lines) {
         for (const PowerChange& change : power_changes_of(line, addressed)) {
+            closes_loops_ = closes_loops_ || change.given;
             for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
                 const bool other = change.motor && *change.motor != settings_.axes[n].motor;
                 motors_[n].gets_power = motors_[n].gets_power || !other;
             }
         }
     }
+    gave_power_ = gave_power_ || closes_loops_;
     commanded_.clear();
     for (const std::string& line : lines) {
         commanded_ += line + "\n";
