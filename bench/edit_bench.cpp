@@ -32,7 +32,7 @@ void surface_path_and_error(benchmark::State& state) {
         edit(project);
         const Workpiece workpiece = workpiece_of(project, folders());
         benchmark::DoNotOptimize(
-            evaluate(workpiece, uniform_outcome(project.grid), live_samples, Progress()));
+            evaluate(workpiece, uniform_outcome(project.grid), live_sampling, Progress()));
     }
 }
 
@@ -41,8 +41,8 @@ void optimised_grid(benchmark::State& state, Effort effort) {
     for (auto _ : state) {
         edit(project);
         const Workpiece workpiece = workpiece_of(project, folders());
-        const int samples = effort == Effort::live ? live_samples : report_samples;
-        const Evaluation uniform = evaluate(workpiece, uniform_outcome(project.grid), samples, Progress());
+        const Evaluation uniform =
+            evaluate(workpiece, uniform_outcome(project.grid), sampling_of(effort), Progress());
         benchmark::DoNotOptimize(
             improved_evaluation({GridMethod::tracks, project.grid, workpiece, effort}, uniform, Progress()));
     }

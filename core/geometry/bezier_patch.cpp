@@ -2,8 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/geometry/internal/bernstein.h"
+#include "core/geometry/internal/homogeneous_point.h"
 #include "core/geometry/internal/unit_normal.h"
+#include "core/geometry/surface_point.h"
 
 #include <fmt/format.h>
 
@@ -13,60 +14,8 @@ namespace millwright::geometry {
 
 namespace {
 
-using Vec4 = Eigen::Vector4d;
-
-/// With first and second derivatives.
-struct Basis {
-    Bernstein value, first, second;
-};
-
-/// B_i'' = n (n-1) (B_(i-2) - 2 B_(i-1) + B_i)^(n-2).
-Basis basis_at(int n, double t) {
-    Basis basis;
-    auto& b = basis.value;
-    begin_at_degree(b, n - 2, t);
-    const auto lower = [&](int i) { return i < 0 || i > n - 2 ? 0.0 : b[static_cast<std::size_t>(i)]; };
-    for (int i = 0; i <= n; ++i) {
-        basis.second[static_cast<std::size_t>(i)] =
-            n < 2 ? 0.0 : n * (n - 1) * (lower(i - 2) - 2.0 * lower(i - 1) + lower(i));
-    }
-    if (n >= 2) {
-        raise_degree(b, n - 1, t);
-    }
-    differentiate(b, n, basis.first);
-    raise_degree(b, n, t);
-    return basis;
-}
-
-/// The homogeneous surface and its derivatives.
-struct Homogeneous {
-    Vec4 s = Vec4::Zero(), u = Vec4::Zero(), v = Vec4::Zero();
-    Vec4 uu = Vec4::Zero(), uv = Vec4::Zero(), vv = Vec4::Zero();
-};
-
-Homogeneous
-homogeneous_at(const std::vector<Vec4>& points, int rows, int columns, const Basis& bu, const Basis& bv) {
-    Homogeneous sum;
-    const Vec4* point = points.data();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rows); ++i) {
-        Vec4 row = Vec4::Zero(), row_v = Vec4::Zero(), row_vv = Vec4::Zero();
-        for (std::size_t j = 0; j < static_cast<std::size_t>(columns); ++j, ++point) {
-            row += bv.value[j] * *point;
-            row_v += bv.first[j] * *point;
-            row_vv += bv.second[j] * *point;
-        }
-        sum.s += bu.value[i] * row;
-        sum.u += bu.first[i] * row;
-        sum.v += bu.value[i] * row_v;
-        sum.uu += bu.second[i] * row;
-        sum.uv += bu.first[i] * row_v;
-        sum.vv += bu.value[i] * row_vv;
-    }
-    return sum;
-}
-
 /// Quotient rule for S = A / w.
-SurfaceDerivatives projected(const Homogeneous& h) {
+SurfaceDerivatives projected(const HomogeneousPoint& h) {
     const double w = h.s.w();
     SurfaceDerivatives at;
     at.position = h.s.head<3>() / w;
@@ -145,28 +94,30 @@ BezierPatch::BezierPatch(ControlNet net) : net_(std::move(net)) {
         rational_ = rational_ || !exactly_equal(w, 1.0);
         box_.extend(net_.points[n]);
     }
+    smallest_normal_ = geometry::smallest_normal(box_);
 }
 
 Vec3 BezierPatch::position(double u, double v) const {
-    return derivatives(u, v).position;
+    return with_homogeneous_point<0>(*this, u, v, [&](const HomogeneousPoint& h) -> Vec3 {
+        return rational_ ? Vec3(h.s.head<3>() / h.s.w()) : Vec3(h.s.head<3>());
+    });
 }
 
 SurfaceDerivatives BezierPatch::derivatives(double u, double v) const {
-    const Basis bu = basis_at(degree_u(), u);
-    const Basis bv = basis_at(degree_v(), v);
-    const Homogeneous h = homogeneous_at(homogeneous_, net_.rows, net_.columns, bu, bv);
     if (rational_) {
-        return projected(h);
+        return with_homogeneous_point<2>(*this, u, v, projected);
     }
-    return {h.s.head<3>(), h.u.head<3>(), h.v.head<3>(), h.uu.head<3>(), h.uv.head<3>(), h.vv.head<3>()};
+    return with_homogeneous_point<2>(*this, u, v, [](const HomogeneousPoint& h) -> SurfaceDerivatives {
+        return {h.s.head<3>(), h.u.head<3>(), h.v.head<3>(), h.uu.head<3>(), h.uv.head<3>(), h.vv.head<3>()};
+    });
 }
 
 std::optional<Vec3> BezierPatch::unit_normal(double u, double v) const {
-    return unit_normal(derivatives(u, v));
+    return point_of(*this, u, v).normal;
 }
 
 std::optional<Vec3> BezierPatch::unit_normal(const SurfaceDerivatives& at) const {
-    return geometry::unit_normal(box_, at.du, at.dv);
+    return geometry::unit_normal(smallest_normal_, at.du, at.dv);
 }
 
 } // namespace millwright::geometry

@@ -6,6 +6,7 @@
 #include "core/geometry/vectors.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,8 +56,13 @@ public:
     [[nodiscard]] int degree_u() const { return net_.rows - 1; }
     [[nodiscard]] int degree_v() const { return net_.columns - 1; }
     [[nodiscard]] bool rational() const { return rational_; }
+    /// (w x, w y, w z, w) of the control points, as the net has them.
+    [[nodiscard]] std::span<const Eigen::Vector4d> homogeneous() const { return homogeneous_; }
     /// The box of the control points, which holds the whole patch.
     [[nodiscard]] const Box3& control_box() const { return box_; }
+
+    /// Where |S_u x S_v| is not above this there is no normal.
+    [[nodiscard]] double smallest_normal() const { return smallest_normal_; }
 
     /// u and v may leave [0,1]: the polynomial goes on.
     [[nodiscard]] Vec3 position(double u, double v) const;
@@ -71,9 +77,10 @@ public:
 
 private:
     ControlNet net_;
-    std::vector<Eigen::Vector4d> homogeneous_; // (w x, w y, w z, w)
+    std::vector<Eigen::Vector4d> homogeneous_;
     bool rational_ = false;
     Box3 box_;
+    double smallest_normal_ = 0.0;
 };
 
 } // namespace millwright::geometry

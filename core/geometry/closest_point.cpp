@@ -17,6 +17,7 @@ Vec2 clamped(const Vec2& uv) {
 
 /// Gradient and Hessian of f = |S - p|^2 / 2 at one parameter.
 struct Quadratic {
+    Vec3 position = Vec3::Zero(); ///< S
     double f = 0.0;
     Vec2 gradient = Vec2::Zero();
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
@@ -27,6 +28,7 @@ Quadratic quadratic_at(const BezierPatch& patch, const Vec3& p, const Vec2& uv) 
     const SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     const Vec3 r = at.position - p;
     Quadratic q;
+    q.position = at.position;
     q.f = 0.5 * r.squaredNorm();
     q.gradient = {r.dot(at.du), r.dot(at.dv)};
     const double uu = at.du.squaredNorm();
@@ -97,8 +99,7 @@ ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, con
             break;
         }
     }
-    const Vec3 position = patch.position(uv.x(), uv.y());
-    return {uv, position, (position - point).norm()};
+    return {uv, now.position, (now.position - point).norm()};
 }
 
 struct ClosestPointSearch::Samples {
@@ -151,8 +152,14 @@ ClosestPoint ClosestPointSearch::closest(const Vec3& point) const {
 }
 
 ClosestPoint ClosestPointSearch::closest(const Vec3& point, const Vec2& guess) const {
+    expects(is_finite(point), "the closest point is asked for a finite point");
     const ClosestPoint from_guess = closest_point_near(samples_->patch, point, guess);
-    const ClosestPoint from_samples = closest(point);
+    const Vec2 sample = samples_->nearest(point);
+    constexpr double beside = 1.5 / Samples::side;
+    if ((sample - from_guess.parameters).cwiseAbs().maxCoeff() <= beside) {
+        return from_guess;
+    }
+    const ClosestPoint from_samples = closest_point_near(samples_->patch, point, sample);
     return from_guess.distance <= from_samples.distance ? from_guess : from_samples;
 }
 

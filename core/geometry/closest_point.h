@@ -26,7 +26,8 @@ public:
     ClosestPointSearch& operator=(ClosestPointSearch&&) noexcept;
 
     [[nodiscard]] ClosestPoint closest(const Vec3& point) const;
-    /// The better of the descents from `guess` and from the nearest sample.
+    /// The better of the descents from `guess` and from the nearest sample, where the first does not end
+    /// beside that sample anyway.
     [[nodiscard]] ClosestPoint closest(const Vec3& point, const Vec2& guess) const;
 
 private:

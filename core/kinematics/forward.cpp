@@ -94,6 +94,23 @@ geometry::ToolPose StraightForward::at(double t) const {
     return {tip + begin_ + t * step_, tool};
 }
 
+Bend StraightForward::bend() const {
+    double far = 0.0, fast = 0.0; // the largest length of the vector that is turned, and of its derivative
+    double angle = 0.0;
+    Bend bend;
+    for (std::size_t n = 0; n < count_; ++n) {
+        const Turn& turn = turns_[n];
+        far += std::max(turn.begin.norm(), (turn.begin + turn.step).norm());
+        fast += turn.step.norm();
+        const double way = std::abs(turn.way);
+        bend.tip += way * (way * far + 2.0 * fast);
+        fast += way * far;
+        angle += way;
+    }
+    bend.axis = angle * angle;
+    return bend;
+}
+
 LinearMap linear_map(const MachineModel& machine, const AxisPositions& positions) {
     LinearMap map{machine.description().tool_tip, Mat3::Zero()};
     const auto& linear = machine.linear_axes();

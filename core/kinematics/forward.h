@@ -14,6 +14,13 @@ namespace millwright::kinematics {
 /// The tool pose in workpiece coordinates. `positions` has axis_count() entries.
 [[nodiscard]] geometry::ToolPose forward(const MachineModel& machine, const AxisPositions& positions);
 
+/// How far a motion is from straight: no second derivative by its fraction t, which runs from 0 to 1, is
+/// longer.
+struct Bend {
+    double tip = 0.0;  ///< mm
+    double axis = 0.0; ///< of the unit vector
+};
+
 /// forward() along a straight line in axis coordinates: what all its points share is computed once.
 class StraightForward {
 public:
@@ -21,6 +28,9 @@ public:
 
     /// The pose at fraction `t` of the way, 0 to 1; forward(machine, from + t (to - from)) but for rounding.
     [[nodiscard]] geometry::ToolPose at(double t) const;
+
+    /// From the triangle inequality, turn by turn: above the true ones, by little where one axis turns.
+    [[nodiscard]] Bend bend() const;
 
 private:
     /// After the linear axes before it, all relative to a point on the rotary axis.

@@ -103,14 +103,17 @@ toolpath::KinematicError Workpiece::error_model() const {
     return {patch, machine, flipped, tool, consistent ? sequencing : toolpath::SequencingSettings{}};
 }
 
-Evaluation evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress) {
-    return evaluate(workpiece, std::move(outcome), {}, samples, progress);
+Evaluation evaluate(const Workpiece& workpiece,
+                    GridOutcome outcome,
+                    toolpath::MoveSampling sampling,
+                    const Progress& progress) {
+    return evaluate(workpiece, std::move(outcome), {}, sampling, progress);
 }
 
 Evaluation evaluate(const Workpiece& workpiece,
                     GridOutcome outcome,
                     const toolpath::StrategySettings& strategy,
-                    int samples,
+                    toolpath::MoveSampling sampling,
                     const Progress& progress) {
     progress.check();
     constexpr double sequencing = 0.3; // share of the work
@@ -119,7 +122,7 @@ Evaluation evaluate(const Workpiece& workpiece,
                                                        workpiece.machine,
                                                        path.toolpath,
                                                        path.axes,
-                                                       samples,
+                                                       sampling,
                                                        progress.part(sequencing, 1.0));
     const grid::ErrorSummary closest = toolpath::summary(field, Distance::closest, MoveKind::track);
     const grid::ErrorSummary param = toolpath::summary(field, Distance::param, MoveKind::track);

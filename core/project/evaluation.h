@@ -62,17 +62,19 @@ struct Workpiece {
     [[nodiscard]] toolpath::KinematicError error_model() const;
 };
 
-/// The zigzag over the grid, looked at `samples` times inside each move, as in toolpath::error_field. Throws
+/// The zigzag over the grid, looked at inside each move as in toolpath::error_field. Throws
 /// Error where a pose cannot be reached or a normal is degenerate.
-[[nodiscard]] Evaluation
-evaluate(const Workpiece& workpiece, GridOutcome outcome, int samples, const Progress& progress);
+[[nodiscard]] Evaluation evaluate(const Workpiece& workpiece,
+                                  GridOutcome outcome,
+                                  toolpath::MoveSampling sampling,
+                                  const Progress& progress);
 
 /// The same of another strategy's path over the grid. Throws Error too where the surface cannot be covered
 /// like this.
 [[nodiscard]] Evaluation evaluate(const Workpiece& workpiece,
                                   GridOutcome outcome,
                                   const toolpath::StrategySettings& strategy,
-                                  int samples,
+                                  toolpath::MoveSampling sampling,
                                   const Progress& progress);
 
 } // namespace millwright::project

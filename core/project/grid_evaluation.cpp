@@ -12,7 +12,7 @@ Evaluation made(const GridMaking& by, const Progress& progress) {
     const auto improver = make_improver(by.method, by.input, error, by.effort);
     constexpr double measuring = 0.9; // share of the improvement
     GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
-    return evaluate(by.workpiece, std::move(outcome), samples_of(by.effort), progress.part(measuring, 1.0));
+    return evaluate(by.workpiece, std::move(outcome), sampling_of(by.effort), progress.part(measuring, 1.0));
 }
 
 } // namespace

@@ -17,11 +17,11 @@ namespace millwright::project {
 /// While a person drags, or for what is kept.
 enum class Effort { live, full };
 
-/// Samples inside a move: while dragging, and for figures that are reported.
-inline constexpr int live_samples = 8;
-inline constexpr int report_samples = 40;
-[[nodiscard]] constexpr int samples_of(Effort effort) {
-    return effort == Effort::live ? live_samples : report_samples;
+/// When a move is looked at: while dragging, and for figures that are reported.
+inline constexpr toolpath::MoveSampling live_sampling{8};
+inline constexpr toolpath::MoveSampling report_sampling = toolpath::until_known;
+[[nodiscard]] constexpr toolpath::MoveSampling sampling_of(Effort effort) {
+    return effort == Effort::live ? live_sampling : report_sampling;
 }
 
 /// The weight of the elliptic functional that was chosen on `patch`, where the error density of the uniform

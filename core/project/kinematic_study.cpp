@@ -62,7 +62,7 @@ class Bench {
 public:
     Bench(StudyCase of, Workpiece workpiece, GridInput input, const Progress& progress)
         : of_(std::move(of)), workpiece_(std::move(workpiece)), input_(std::move(input)),
-          uniform_(evaluate(workpiece_, uniform_outcome(input_), report_samples, progress)) {}
+          uniform_(evaluate(workpiece_, uniform_outcome(input_), report_sampling, progress)) {}
 
     [[nodiscard]] StudyRow uniform_row(StudyMethod method, const Progress& progress) const {
         return {of_, method, figures_of(uniform_, workpiece_, progress), {}};
@@ -90,7 +90,7 @@ private:
         Workpiece sequenced = workpiece_;
         sequenced.sequencing.goal = toolpath::SequencingGoal::error;
         const Evaluation found =
-            evaluate(sequenced, nearest.outcome, report_samples, progress.part(0.0, making));
+            evaluate(sequenced, nearest.outcome, report_sampling, progress.part(0.0, making));
         const bool worse = is_worse(found, nearest, workpiece_.machine);
         const bool better = is_worse(nearest, found, workpiece_.machine);
         const Progress told = progress.part(making, 1.0);

@@ -212,8 +212,8 @@ void add_unsequenced(Plan& plan, const Project& project, const Progress& progres
     }
     Workpiece plain = *plan.workpiece;
     plain.sequencing = {};
-    Evaluation before =
-        evaluate(plain, chosen->outcome, strategy_settings(project), report_samples, progress.part(0.0, 0.9));
+    Evaluation before = evaluate(
+        plain, chosen->outcome, strategy_settings(project), report_sampling, progress.part(0.0, 0.9));
     plan.unsequenced_time = estimated_time(before, plain.machine, project.program, progress.part(0.9, 1.0));
     plan.unsequenced = std::make_shared<const Evaluation>(std::move(before));
 }
@@ -261,7 +261,7 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
 
     progress.report(0.0, title_of_making(GridMethod::uniform));
     plan.uniform = std::make_shared<const Evaluation>(
-        evaluate(workpiece, uniform_outcome(project.grid), report_samples, progress.part(0.0, 0.1)));
+        evaluate(workpiece, uniform_outcome(project.grid), report_sampling, progress.part(0.0, 0.1)));
     const auto make = [&](GridMethod method, const Progress& part) {
         part.report(0.0, title_of_making(method));
         if (method == GridMethod::elliptic && scope == Scope::everything) {
@@ -293,7 +293,7 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
             std::make_shared<const Evaluation>(path_evaluation(project,
                                                                workpiece,
                                                                *plan.evaluation(program_grid(project)),
-                                                               report_samples,
+                                                               report_sampling,
                                                                progress.part(0.85, 0.9)));
     }
     add_program(plan, project, progress.part(0.9, 0.92));

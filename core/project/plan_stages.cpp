@@ -65,9 +65,9 @@ fs::file_time_type machine_written(const Project& project, const Folders& folder
 }
 
 /// Fewer samples where there are many moves, so that a drag stays a drag.
-int coarse_samples(const GridInput& input) {
-    constexpr int moves_with_all = 1600;
-    return std::clamp(live_samples * moves_with_all / (input.nu * input.nv), 1, live_samples);
+toolpath::MoveSampling coarse_sampling(const GridInput& input) {
+    constexpr int moves_with_all = 1600, most = live_sampling.times;
+    return {std::clamp(most * moves_with_all / (input.nu * input.nv), 1, most)};
 }
 
 /// Larger grids take longer than a person who drags waits for.
@@ -215,18 +215,18 @@ void PlanStages::carry_over(GridMethod method, const Progress& progress) {
     outcome.status = grid::ImproverStatus::running;
     outcome.warning.clear();
     outcome.note = "The grid from before the last change, until the new one is there.";
-    Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_samples(input()), progress);
+    Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_sampling(input()), progress);
     hold(method, {std::make_shared<const Evaluation>(std::move(found)), false});
 }
 
-void PlanStages::measure_uniform(int samples, const Progress& progress) {
+void PlanStages::measure_uniform(toolpath::MoveSampling sampling, const Progress& progress) {
     const Held& there = held(GridMethod::uniform);
-    const bool exact = samples >= report_samples;
+    const bool exact = sampling == report_sampling;
     if (there.exact || (there.evaluation && !exact)) {
         return;
     }
     progress.report(0.0, title_of_making(GridMethod::uniform));
-    Evaluation found = evaluate(workpiece(), uniform_outcome(input()), samples, progress);
+    Evaluation found = evaluate(workpiece(), uniform_outcome(input()), sampling, progress);
     hold(GridMethod::uniform, {std::make_shared<const Evaluation>(std::move(found)), exact});
 }
 
@@ -247,11 +247,11 @@ void PlanStages::add_weight(const Progress& progress) {
 }
 
 /// A strategy that makes its own points waits for the exact stage: it takes longer than a person who drags.
-void PlanStages::add_path(int samples, const Progress& progress) {
+void PlanStages::add_path(toolpath::MoveSampling sampling, const Progress& progress) {
     if (!has_own_path(project())) {
         return;
     }
-    const bool exact = samples >= report_samples;
+    const bool exact = sampling == report_sampling;
     const bool on_nodes = follows_nodes(project().toolpath.strategy);
     const auto& over = held(program_grid(project())).evaluation;
     const bool current = now_.path.evaluation && (!on_nodes || now_.path.over == over);
@@ -259,7 +259,7 @@ void PlanStages::add_path(int samples, const Progress& progress) {
         return;
     }
     progress.report(0.0, title_of_path);
-    Evaluation found = path_evaluation(project(), workpiece(), *over, samples, progress);
+    Evaluation found = path_evaluation(project(), workpiece(), *over, sampling, progress);
     hold({std::make_shared<const Evaluation>(std::move(found)), over, exact});
 }
 
@@ -277,10 +277,10 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
         carry_over(chosen, progress.part(0.0, 0.1));
     }
     if (!now_.plan.evaluation(chosen)) {
-        measure_uniform(coarse_samples(input()), progress.part(0.1, 0.2));
+        measure_uniform(coarse_sampling(input()), progress.part(0.1, 0.2));
     }
     publish(now_.plan, std::nullopt, false);
-    measure_uniform(coarse_samples(input()), progress.part(0.2, 0.3));
+    measure_uniform(coarse_sampling(input()), progress.part(0.2, 0.3));
     now_.plan.singular_points = toolpath::singular_points(workpiece().patch, workpiece().machine);
     for (const GridMethod method : compared_methods) {
         carry_over(method, progress.part(0.3, 0.4));
@@ -290,7 +290,7 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
         improve(chosen, Effort::live, progress.part(0.4, 0.9));
     }
     if (quick_enough(input())) {
-        add_path(coarse_samples(input()), progress.part(0.85, 0.9));
+        add_path(coarse_sampling(input()), progress.part(0.85, 0.9));
         add_program_of_chosen(progress.part(0.9, 1.0));
         try {
             add_weight(progress.part(1.0, 1.0));
@@ -323,7 +323,7 @@ void PlanStages::compare(const Progress& progress) {
 
 void PlanStages::exact(const Publish& publish, const Progress& progress) {
     const GridMethod chosen = program_grid(project());
-    measure_uniform(report_samples, progress.part(0.0, 0.1));
+    measure_uniform(report_sampling, progress.part(0.0, 0.1));
     const double made = chosen == GridMethod::chain ? 0.75 : 0.45; // of the whole
     const auto rest = [&](double from, double to) {
         return progress.part(made + (1.0 - made) * from, made + (1.0 - made) * to);
@@ -331,7 +331,7 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
     if (chosen != GridMethod::uniform) {
         improve(chosen, Effort::full, progress.part(0.1, made));
     }
-    add_path(report_samples, rest(0.0, 0.1));
+    add_path(report_sampling, rest(0.0, 0.1));
     add_program_of_chosen(rest(0.1, 0.2));
     publish(now_.plan, std::nullopt, false);
     if (now_.plan.program && !now_.plan.cut) {

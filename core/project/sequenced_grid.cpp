@@ -58,7 +58,7 @@ Evaluation run_over(const GridMaking& by,
     for (std::size_t n = 0; n < ways.size(); ++n) {
         workpiece.sequencing.goal = ways[n];
         Evaluation found =
-            evaluate(workpiece, outcome, samples_of(by.effort), progress.part(share(n), share(n + 1)));
+            evaluate(workpiece, outcome, sampling_of(by.effort), progress.part(share(n), share(n + 1)));
         const bool good = !is_worse(found, uniform, workpiece.machine);
         if (good || !best || score(found) < score(*best)) {
             best = std::move(found);
@@ -106,7 +106,7 @@ Evaluation improved_evaluation(const GridMaking& by, const Evaluation& uniform, 
     Workpiece nearest = by.workpiece;
     nearest.sequencing = {};
     const Evaluation start =
-        evaluate(nearest, uniform.outcome, samples_of(by.effort), progress.part(0.0, 0.05));
+        evaluate(nearest, uniform.outcome, sampling_of(by.effort), progress.part(0.0, 0.05));
     const Evaluation made =
         best_grid({by.method, by.input, nearest, by.effort}, start, progress.part(0.05, 0.85));
     if (keeps_grid(made, start)) {

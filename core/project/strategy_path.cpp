@@ -58,10 +58,10 @@ std::string strategy_text(const Project& project) {
 Evaluation path_evaluation(const Project& project,
                            const Workpiece& workpiece,
                            const Evaluation& base,
-                           int samples,
+                           toolpath::MoveSampling sampling,
                            const Progress& progress) {
     expects(has_own_path(project), "a zigzag over a grid is evaluated with its grid");
-    return evaluate(workpiece, base.outcome, strategy_settings(project), samples, progress);
+    return evaluate(workpiece, base.outcome, strategy_settings(project), sampling, progress);
 }
 
 } // namespace millwright::project

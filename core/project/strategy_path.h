@@ -33,7 +33,7 @@ inline constexpr std::string_view title_of_path = "Making the path";
 [[nodiscard]] Evaluation path_evaluation(const Project& project,
                                          const Workpiece& workpiece,
                                          const Evaluation& base,
-                                         int samples,
+                                         toolpath::MoveSampling sampling,
                                          const Progress& progress);
 
 } // namespace millwright::project

@@ -2,13 +2,16 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/toolpath/actual_trajectory.h"
+#include "core/geometry/curvature.h"
+#include "core/kinematics/forward.h"
 #include "core/toolpath/body_clearance.h"
+#include "core/toolpath/internal/move_looks.h"
 #include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 namespace millwright::toolpath {
 
@@ -49,37 +52,106 @@ Off off_surface(const Cut& cut, const geometry::ToolPose& pose, const Vec2& uv) 
     return {nearest.parameters, nearest.distance};
 }
 
-MoveDeviation deviation(const Cut& cut,
-                        std::size_t move,
-                        const kinematics::AxisPositions& a,
-                        const kinematics::AxisPositions& b,
-                        int samples) {
+/// One move, or one node of it.
+struct Way {
+    Vec2 from, to;                 ///< parameters
+    Vec2 heading_from, heading_to; ///< in which they change
+    bool flipped = false;
+
+    [[nodiscard]] Vec2 at(double t) const { return (1.0 - t) * from + t * to; }
+    [[nodiscard]] Vec2 heading_at(double t) const { return (1.0 - t) * heading_from + t * heading_to; }
+};
+
+Look look_at(const Cut& cut, const Way& way, const geometry::ToolPose& actual, double t) {
+    const Vec2 uv = way.at(t);
+    const Vec2 heading = way.heading_at(t);
+    const geometry::ToolPose intended = intended_pose(
+        cut.patch, cut.machine, cut.path, uv, heading, normal_at(cut, uv, way.flipped, actual.axis));
+    const Off off = off_surface(cut, actual, uv);
+    const Vec3 normal = normal_at(cut, off.parameters, way.flipped, actual.axis);
+    const Vec3 axis = intended_axis(cut.patch, cut.path, off.parameters, heading, normal);
+    return {t, off.distance, (intended.tip - actual.tip).norm(), angle_between(axis, actual.axis)};
+}
+
+Way way_of(const Cut& cut, std::size_t move) {
     const PathPoint& from = cut.path.points[move];
-    const PathPoint& to = cut.path.points[move + 1];
-    const Vec2 heading_from = heading_at(cut.path, move);
-    const Vec2 heading_to = heading_at(cut.path, move + 1);
-    const bool flipped = is_flipped(cut, from);
-    MoveDeviation worst;
-    worst.kind = to.reached_by;
-    worst.length = (to.pose.tip - from.pose.tip).norm();
-    for (int k = 1; k <= samples; ++k) {
-        const double t = static_cast<double>(k) / (samples + 1);
-        const geometry::ToolPose actual = actual_pose(cut.machine, a, b, t);
-        const Vec2 uv = (1.0 - t) * from.origin.uv + t * to.origin.uv;
-        const Vec2 heading = (1.0 - t) * heading_from + t * heading_to;
-        const geometry::ToolPose intended = intended_pose(
-            cut.patch, cut.machine, cut.path, uv, heading, normal_at(cut, uv, flipped, actual.axis));
-        worst.param = std::max(worst.param, (intended.tip - actual.tip).norm());
-        const Off off = off_surface(cut, actual, uv);
-        if (off.distance > worst.closest) {
-            worst.closest = off.distance;
-            worst.worst_at = t;
+    return {from.origin.uv,
+            cut.path.points[move + 1].origin.uv,
+            heading_at(cut.path, move),
+            heading_at(cut.path, move + 1),
+            is_flipped(cut, from)};
+}
+
+/// The largest curvature where the move begins, in its middle and where it ends, 1/mm.
+double curvature_under(const geometry::BezierPatch& patch, const Way& way) {
+    double largest = 0.0;
+    for (const double t : {0.0, 0.5, 1.0}) {
+        const Vec2 uv = way.at(t);
+        if (const auto k = geometry::principal_curvatures(patch.derivatives(uv.x(), uv.y()))) {
+            largest = std::max({largest, std::abs(k->k1), std::abs(k->k2)});
         }
-        const Vec3 normal = normal_at(cut, off.parameters, flipped, actual.axis);
-        const Vec3 axis = intended_axis(cut.patch, cut.path, off.parameters, heading, normal);
-        worst.axis = std::max(worst.axis, angle_between(axis, actual.axis));
+    }
+    return largest;
+}
+
+/// The distance of a point that runs along a curve from a surface bends by no more than the curve does and
+/// the surface under it, by the square of the speed. The axis is compared with a normal that turns about as
+/// fast.
+LookBend bend_of(const Cut& cut, const Way& way, const kinematics::StraightForward& motion, double length) {
+    constexpr double towards_the_centre = 2.0; // of curvature: 1 / (r - d) for 1 / r, and none was looked at
+    const kinematics::Bend bend = motion.bend();
+    const double speed = length + 0.5 * bend.tip;
+    return {bend.tip + towards_the_centre * curvature_under(cut.patch, way) * speed * speed, 2.0 * bend.axis};
+}
+
+MoveDeviation worst_of(const Cut& cut, std::size_t move, const std::vector<Look>& looks) {
+    MoveDeviation worst;
+    worst.kind = cut.path.points[move + 1].reached_by;
+    worst.length = (cut.path.points[move + 1].pose.tip - cut.path.points[move].pose.tip).norm();
+    for (const Look& look : looks) {
+        worst.param = std::max(worst.param, look.param);
+        worst.axis = std::max(worst.axis, look.axis);
+        if (look.closest > worst.closest) {
+            worst.closest = look.closest;
+            worst.worst_at = look.t;
+        }
     }
     return worst;
+}
+
+std::vector<Look> looks_at_times(const std::function<Look(double)>& look, int times) {
+    std::vector<Look> looks;
+    for (int k = 1; k <= times; ++k) {
+        looks.push_back(look(static_cast<double>(k) / (times + 1)));
+    }
+    return looks;
+}
+
+/// Calls `work(n)` for n = 0 ... count - 1 on all threads and tells how far that is.
+template <class Work> void for_each_told(std::ptrdiff_t count, const Progress& progress, const Work& work) {
+    constexpr std::ptrdiff_t chunk = 16, reports = 100;
+    const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, count / reports);
+    std::atomic<std::ptrdiff_t> done = 0;
+    parallel_for(count, chunk, [&](std::ptrdiff_t n) {
+        progress.check();
+        work(static_cast<std::size_t>(n));
+        if (const std::ptrdiff_t so_far = ++done; so_far % step == 0) {
+            progress.report(static_cast<double>(so_far) / static_cast<double>(count));
+        }
+    });
+    progress.report(1.0);
+}
+
+/// What is off at the nodes: with a cutter that does not fit, more than nothing.
+std::vector<Look> looks_at_nodes(const Cut& cut, const AxisPath& axes, const Progress& progress) {
+    std::vector<Look> looks(cut.path.points.size());
+    for_each_told(std::ssize(looks), progress, [&](std::size_t n) {
+        const PathPoint& point = cut.path.points[n];
+        const Vec2 heading = heading_at(cut.path, n);
+        const Way way{point.origin.uv, point.origin.uv, heading, heading, is_flipped(cut, point)};
+        looks[n] = look_at(cut, way, kinematics::forward(cut.machine, axes.positions[n]), 0.0);
+    });
+    return looks;
 }
 
 } // namespace
@@ -88,27 +160,42 @@ ErrorField error_field(const geometry::BezierPatch& patch,
                        const kinematics::MachineModel& machine,
                        const Toolpath& toolpath,
                        const AxisPath& axes,
-                       int samples,
+                       MoveSampling sampling,
                        const Progress& progress) {
     expects(toolpath.points.size() == axes.positions.size(), "axis positions belong to their path");
-    expects(samples >= 1, "a move is sampled at least once");
+    expects(sampling.times >= 0, "a move is looked at so many times, or until its error is known");
     const geometry::ClosestPointSearch search(patch);
     const Cut cut{patch, search, machine, toolpath};
+    const bool search_on = sampling == until_known;
+    constexpr double at_nodes = 0.3; // share of the work
+    std::vector<Look> nodes;
+    if (search_on) {
+        nodes = looks_at_nodes(cut, axes, progress.part(0.0, at_nodes));
+    }
     ErrorField field;
     const auto moves = std::max<std::ptrdiff_t>(0, std::ssize(toolpath.points) - 1);
     field.moves.resize(static_cast<std::size_t>(moves));
-    constexpr std::ptrdiff_t chunk = 16, reports = 100;
-    const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, moves / reports);
-    std::atomic<std::ptrdiff_t> done = 0;
-    parallel_for(moves, chunk, [&](std::ptrdiff_t move) {
-        progress.check();
-        const auto n = static_cast<std::size_t>(move);
-        field.moves[n] = deviation(cut, n, axes.positions[n], axes.positions[n + 1], samples);
-        if (const std::ptrdiff_t so_far = ++done; so_far % step == 0) {
-            progress.report(static_cast<double>(so_far) / static_cast<double>(moves));
+    for_each_told(moves, progress.part(search_on ? at_nodes : 0.0, 1.0), [&](std::size_t n) {
+        const Way way = way_of(cut, n);
+        const kinematics::StraightForward motion(machine, axes.positions[n], axes.positions[n + 1]);
+        const auto look = [&](double t) { return look_at(cut, way, motion.at(t), t); };
+        if (!search_on) {
+            field.moves[n] = worst_of(cut, n, looks_at_times(look, sampling.times));
+            return;
         }
+        const double length = (toolpath.points[n + 1].pose.tip - toolpath.points[n].pose.tip).norm();
+        constexpr int parts_of_a_point = 2, parts_of_a_cutter = 8; // an edge that cuts makes kinks
+        Look end = nodes[n + 1];
+        end.t = 1.0;
+        field.moves[n] =
+            worst_of(cut,
+                     n,
+                     looks_until_known(nodes[n],
+                                       end,
+                                       toolpath.tool.cutter ? parts_of_a_cutter : parts_of_a_point,
+                                       bend_of(cut, way, motion, length),
+                                       look));
     });
-    progress.report(1.0);
     return field;
 }
 

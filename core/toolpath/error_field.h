@@ -26,14 +26,23 @@ struct ErrorField {
     std::vector<MoveDeviation> moves; ///< one a move: points.size() - 1
 };
 
-/// Of `toolpath.tool`. Times inside each move at which the true pose is compared: t = k / (samples + 1), k =
-/// 1 ... samples; 1 is the mid-point of the thesis. Parallel over moves; the same bytes on any number of
-/// threads.
+/// When the true pose is compared inside each move.
+struct MoveSampling {
+    /// At t = k / (times + 1), k = 1 ... times; 1 is the mid-point of the thesis. 0: as often and where it
+    /// takes to know the largest `closest`, ends included, to a thousandth and to 1 um at worst, and the
+    /// largest `axis` to a thousandth of a degree. `param` is then the largest of the same times.
+    int times = 0;
+
+    friend bool operator==(const MoveSampling&, const MoveSampling&) = default;
+};
+inline constexpr MoveSampling until_known{};
+
+/// Of `toolpath.tool`. Parallel over moves; the same bytes on any number of threads.
 [[nodiscard]] ErrorField error_field(const geometry::BezierPatch& patch,
                                      const kinematics::MachineModel& machine,
                                      const Toolpath& toolpath,
                                      const AxisPath& axes,
-                                     int samples,
+                                     MoveSampling sampling,
                                      const Progress& progress);
 
 enum class Distance { closest, param };

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -28,7 +29,6 @@ using geometry::ToolPose;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-constexpr int finely = grid::fine.tip;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node with what the inverse kinematics says of it, next to the axes' zero.
@@ -175,11 +175,22 @@ std::vector<Vec3> track_line(
     return line;
 }
 
+/// Of the points of `from` to the line `to`, which goes along beside it. The points whose bounds are largest
+/// come first: the search ends where no bound is above what was found (Taha and Hanbury, An Efficient
+/// Algorithm for Calculating the Exact Hausdorff Distance, 2015).
 double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
     const ChordCurve curve(to, std::vector<Vec3>(to.size(), Vec3::UnitZ()));
+    std::vector<std::pair<double, std::size_t>> bounds(from.size());
+    for (std::size_t n = 0; n < from.size(); ++n) {
+        bounds[n] = {curve.squared_beside(from[n], n), n};
+    }
+    std::ranges::sort(bounds, std::greater());
     double squared = 0.0;
-    for (const Vec3& p : from) {
-        squared = std::max(squared, curve.nearest(p).squared);
+    for (const auto& [bound, n] : bounds) {
+        if (bound <= squared) {
+            break;
+        }
+        squared = std::max(squared, curve.nearest(from[n]).squared);
     }
     return std::sqrt(squared);
 }
@@ -236,7 +247,7 @@ grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
     try {
         Toolpath contacts = with_tool(patch_, machine_, tool_, zigzag(patch_, grid, direction, flipped_));
         const auto [path, axes] = sequenced(patch_, machine_, std::move(contacts), sequencing_, progress);
-        const ErrorField field = error_field(patch_, machine_, path, axes, finely, progress);
+        const ErrorField field = error_field(patch_, machine_, path, axes, until_known, progress);
         return summary(field, Distance::closest, MoveKind::track);
     } catch (const Error&) { // a pose that cannot be reached
         return grid::out_of_reach();

@@ -59,10 +59,10 @@ private:
     void exact(const Publish& publish, const Progress& progress);
     void compare(const Progress& progress);
     void carry_over(GridMethod method, const Progress& progress);
-    void measure_uniform(int samples, const Progress& progress);
+    void measure_uniform(toolpath::MoveSampling sampling, const Progress& progress);
     void improve(GridMethod method, Effort effort, const Progress& progress);
     void add_weight(const Progress& progress);
-    void add_path(int samples, const Progress& progress);
+    void add_path(toolpath::MoveSampling sampling, const Progress& progress);
     void add_program_of_chosen(const Progress& progress);
     void drop_program();
     void hold(GridMethod method, Held found);

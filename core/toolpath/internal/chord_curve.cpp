@@ -58,6 +58,25 @@ ChordCurve::Nearest ChordCurve::on_chord(std::size_t chord, const Vec3& p) const
     return {(point - p).squaredNorm(), point, (1.0 - s) * normals_[n] + s * normals_[n + 1]};
 }
 
+double ChordCurve::squared_beside(const Vec3& p, std::size_t chord) const {
+    const std::size_t last = points_.size() - 2;
+    std::size_t here = std::min(chord, last);
+    double least = on_chord(here, p).squared;
+    const auto walk = [&](auto may_go, auto next) {
+        while (may_go()) {
+            const double there = on_chord(next(), p).squared;
+            if (!(there < least)) {
+                break;
+            }
+            least = there;
+            here = next();
+        }
+    };
+    walk([&] { return here < last; }, [&] { return here + 1; });
+    walk([&] { return here > 0; }, [&] { return here - 1; });
+    return least;
+}
+
 Vec3 ChordCurve::at(double t) const {
     const double chords = static_cast<double>(points_.size() - 1);
     const auto n = std::min(static_cast<std::size_t>(t * chords), points_.size() - 2);

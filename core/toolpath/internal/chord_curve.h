@@ -24,6 +24,10 @@ public:
     /// On the first of the chords that are equally near.
     [[nodiscard]] Nearest nearest(const Vec3& p) const;
 
+    /// Not below nearest(p).squared, and mostly just that: from `chord` along the curve as long as it comes
+    /// nearer.
+    [[nodiscard]] double squared_beside(const Vec3& p, std::size_t chord) const;
+
     /// At fraction `t` of the curve's parameters, 0 to 1.
     [[nodiscard]] Vec3 at(double t) const;
     [[nodiscard]] double length() const;

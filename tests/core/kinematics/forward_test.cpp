@@ -90,6 +90,28 @@ TEST(StraightForward, IsTheForwardOfEveryPointOnTheWay) {
     }
 }
 
+/// By second differences, whose error is that of the fourth derivative.
+TEST(StraightForward, BendsNoMoreThanItSays) {
+    std::mt19937 random(10);
+    constexpr double h = 1e-3;
+    for (const MachineModel& machine : machines()) {
+        for (int trial = 0; trial < 20; ++trial) {
+            const AxisPositions from = random_positions(machine, random);
+            const StraightForward way(machine, from, from + 0.3 * (random_positions(machine, random) - from));
+            const Bend bend = way.bend();
+            Bend found;
+            for (const double t : {0.01, 0.2, 0.5, 0.8, 0.99}) {
+                const auto a = way.at(t - h), b = way.at(t), c = way.at(t + h);
+                found.tip = std::max(found.tip, (a.tip - 2.0 * b.tip + c.tip).norm() / (h * h));
+                found.axis = std::max(found.axis, (a.axis - 2.0 * b.axis + c.axis).norm() / (h * h));
+            }
+            EXPECT_LE(found.tip, bend.tip * (1.0 + 1e-4) + 1e-4) << machine.name();
+            EXPECT_LE(found.axis, bend.axis * (1.0 + 1e-4) + 1e-6) << machine.name();
+            EXPECT_LE(bend.tip, 50.0 * found.tip + 1e-3) << machine.name(); // it says something
+        }
+    }
+}
+
 TEST(Forward, OfTheLinearAxesAloneIsTheLinearMap) {
     std::mt19937 random(5);
     for (const MachineModel& machine : machines()) {

@@ -84,13 +84,13 @@ double largest_param_error_by_hand(const grid::Grid& grid, int samples) {
 }
 
 TEST(Evaluation, AgreesWithTheThesissEquations) {
-    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), {off_the_poles()}, 7, Progress());
+    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), {off_the_poles()}, {7}, Progress());
     EXPECT_GT(found.param.max, 1.0);
     EXPECT_NEAR(found.param.max, largest_param_error_by_hand(off_the_poles(), 7), 1e-9);
 }
 
 TEST(Evaluation, TheClosestPointIsNeverFartherThanTheParametricOne) {
-    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), uniform(9, 7), 8, Progress());
+    const Evaluation found = evaluate(dome_on("rotary-tilt-listing"), uniform(9, 7), {8}, Progress());
     ASSERT_EQ(found.field.moves.size(), 9u * 7u - 1u);
     for (const auto& move : found.field.moves) {
         EXPECT_LE(move.closest, move.param + 1e-9);
@@ -106,7 +106,7 @@ TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
     net.point(0, 1) = {-30, 20, 0};
     net.point(1, 1) = {30, 20, 0};
     const Workpiece sheet{geometry::BezierPatch(net), test::machine("ac-table")};
-    const Evaluation found = evaluate(sheet, uniform(7, 3), 4, Progress());
+    const Evaluation found = evaluate(sheet, uniform(7, 3), {4}, Progress());
     EXPECT_NEAR(found.track_gap.value(), 10.0, 1e-9);
     EXPECT_NEAR(found.path_length, 7 * 40.0 + 6 * 10.0, 1e-9);
     EXPECT_NEAR(found.closest.max, 0.0, 1e-9);
@@ -114,11 +114,11 @@ TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
 
 TEST(Evaluation, FaultyAnglesLeaveTheNormal) {
     Workpiece workpiece = dome_on("rotary-tilt-listing");
-    EXPECT_LT(evaluate(workpiece, uniform(20, 20), 3, Progress()).closest.axis_mean, from_degrees(2.0));
+    EXPECT_LT(evaluate(workpiece, uniform(20, 20), {3}, Progress()).closest.axis_mean, from_degrees(2.0));
     workpiece.angle_mode = kinematics::AngleMode::faulty_text;
-    EXPECT_GT(evaluate(workpiece, uniform(20, 20), 3, Progress()).closest.axis_mean, from_degrees(10.0));
+    EXPECT_GT(evaluate(workpiece, uniform(20, 20), {3}, Progress()).closest.axis_mean, from_degrees(10.0));
     workpiece.machine = test::machine("ac-table");
-    EXPECT_THROW((void)evaluate(workpiece, uniform(20, 20), 3, Progress()), Error);
+    EXPECT_THROW((void)evaluate(workpiece, uniform(20, 20), {3}, Progress()), Error);
 }
 
 TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
@@ -127,12 +127,12 @@ TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
     Workpiece workpiece = dome_on("rotary-tilt-listing");
     const auto with = [&](const toolpath::SequencingSettings& settings) {
         workpiece.sequencing = settings;
-        return evaluate(workpiece, uniform(12, 12), 8, Progress());
+        return evaluate(workpiece, uniform(12, 12), {8}, Progress());
     };
     const auto step = [&](const Evaluation& of) {
         return toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, MoveKind::track);
     };
-    const Evaluation nearest = evaluate(workpiece, uniform(12, 12), 8, Progress());
+    const Evaluation nearest = evaluate(workpiece, uniform(12, 12), {8}, Progress());
     EXPECT_EQ(with({}).closest.mean, nearest.closest.mean);
     const Evaluation travel = with({.goal = SequencingGoal::travel});
     EXPECT_LE(travel.axes.rotary_travel, nearest.axes.rotary_travel * (1.0 + 1e-9));
@@ -147,7 +147,7 @@ TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
 /// A cutter cuts what its body says: on a router a ball's tip runs beside the surface, and touches it.
 TEST(Evaluation, OfACutterIsOfItsBody) {
     Workpiece workpiece = dome_on("router-xyz");
-    const auto touching = [&] { return evaluate(workpiece, uniform(20, 20), 8, Progress()); };
+    const auto touching = [&] { return evaluate(workpiece, uniform(20, 20), {8}, Progress()); };
     const Evaluation point = touching();
     workpiece.tool.cutter = test::body(test::ball);
     const Evaluation ball = touching();
@@ -165,15 +165,15 @@ TEST(Evaluation, OfACutterIsOfItsBody) {
 TEST(Evaluation, APartOutOfReachIsAnError) {
     Workpiece workpiece = dome_on("ac-table");
     workpiece.machine = workpiece.machine.with_workpiece_offset({0, 0, 5000});
-    EXPECT_THROW((void)evaluate(workpiece, uniform(4, 4), 3, Progress()), Error);
+    EXPECT_THROW((void)evaluate(workpiece, uniform(4, 4), {3}, Progress()), Error);
 }
 
 TEST(Evaluation, StopsWhenCancelled) {
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(
-        (void)evaluate(dome_on("ac-table"), uniform(4, 4), 3, Progress([](const auto&) {}, stop.get_token())),
-        Cancelled);
+    EXPECT_THROW((void)evaluate(
+                     dome_on("ac-table"), uniform(4, 4), {3}, Progress([](const auto&) {}, stop.get_token())),
+                 Cancelled);
 }
 
 } // namespace

@@ -28,7 +28,7 @@ Made tracks_on_two_bells(int nu, int nv, SequencingGoal goal) {
                         test::machine("tilted-c-table"),
                         input.direction};
     workpiece.sequencing.goal = goal;
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_samples, {});
+    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
     return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
 }
 
@@ -67,7 +67,7 @@ TEST(GridEvaluation, WhatTheChainDidStaysToldWhereAnotherGridIsTaken) {
     const Workpiece workpiece{geometry::surface_preset("saddle").make().patch(geometry::PatchId{0}),
                               test::machine("bc-table-head"),
                               input.direction};
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_samples, {});
+    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
     const Evaluation found = improved_evaluation({GridMethod::chain, input, workpiece}, uniform, {});
     EXPECT_THAT(found.outcome.note, testing::HasSubstr("On the finished part no link of the chain"));
     ASSERT_FALSE(found.outcome.links.empty());
@@ -81,7 +81,7 @@ Made tracks_on_the_dome(double largest_step_deg) {
                         test::machine("bc-table-head"),
                         input.direction};
     workpiece.sequencing.largest_step = from_degrees(largest_step_deg);
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_samples, {});
+    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
     return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
 }
 

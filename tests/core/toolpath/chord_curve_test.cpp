@@ -47,6 +47,20 @@ TEST(ChordCurve, FindsTheNearestOfAllChords) {
     }
 }
 
+TEST(ChordCurve, IsBesideAPointNeverNearerThanItsNearestChord) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> anywhere(-6.0, 6.0);
+    const std::vector<Vec3> line = walk(random, 60);
+    const ChordCurve curve(line, line);
+    for (std::size_t n = 0; n < 200; ++n) {
+        const Vec3 p(anywhere(random), anywhere(random), anywhere(random));
+        EXPECT_GE(curve.squared_beside(p, n), curve.nearest(p).squared);
+    }
+    for (std::size_t n = 0; n < line.size(); ++n) {
+        EXPECT_EQ(curve.squared_beside(line[n], n), 0.0);
+    }
+}
+
 TEST(ChordCurve, OfAPointThatIsNoneFindsNothing) {
     const ChordCurve curve({Vec3::Zero(), Vec3::UnitX()}, {Vec3::UnitZ(), Vec3::UnitZ()});
     const double nan = std::nan("");

@@ -25,7 +25,7 @@ ErrorField field_of(const geometry::BezierPatch& patch,
                     const Tool& tool,
                     const Toolpath& contacts) {
     const Toolpath path = with_tool(patch, machine, tool, contacts);
-    return error_field(patch, machine, path, sequence(machine, path), 9, {});
+    return error_field(patch, machine, path, sequence(machine, path), {9}, {});
 }
 
 /// A router with a ball goes straight from tip to tip: on a cylinder of radius R it cuts a chord of the

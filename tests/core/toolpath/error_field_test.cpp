@@ -2,7 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +21,15 @@ struct Case {
     Toolpath path;
     AxisPath axes;
 
-    Case(const char* surface, const char* machine_name, int n)
+    Case(const char* surface, const char* machine_name, int n, const Tool& tool = {})
         : patch(test::patch(surface)), machine(test::machine(machine_name)),
-          path(zigzag(patch, Grid::uniform(n, n), TrackDirection::along_v, false)),
+          path(with_tool(
+              patch, machine, tool, zigzag(patch, Grid::uniform(n, n), TrackDirection::along_v, false))),
           axes(sequence(machine, path)) {}
 
-    [[nodiscard]] ErrorField field(int samples) const {
-        return error_field(patch, machine, path, axes, samples, {});
+    [[nodiscard]] ErrorField field(int times) const { return field(MoveSampling{times}); }
+    [[nodiscard]] ErrorField field(MoveSampling sampling) const {
+        return error_field(patch, machine, path, axes, sampling, {});
     }
 };
 
@@ -54,6 +58,35 @@ TEST(ErrorField, OfTheDomeIsLargerThanOfTheSineSheet) {
     const auto s = summary(sine.field(10), Distance::closest, MoveKind::track);
     EXPECT_GT(d.mean, s.mean);
     EXPECT_GT(d.max, s.max);
+}
+
+void expect_what_brute_force_finds(const Case& made) {
+    const auto known = made.field(until_known).moves;
+    const auto brute = made.field(4095).moves;
+    for (std::size_t n = 0; n < known.size(); ++n) {
+        EXPECT_NEAR(known[n].closest, brute[n].closest, 1e-3) << "move " << n;
+        EXPECT_NEAR(known[n].axis, brute[n].axis, from_degrees(2e-3)) << "move " << n;
+    }
+}
+
+TEST(ErrorField, IsKnownToAMicrometreAgainstBruteForce) {
+    expect_what_brute_force_finds({"dome", "rotary-tilt-listing", 8});
+    expect_what_brute_force_finds({"two-bell", "ac-table", 10}); // moves that turn by half a circle
+    expect_what_brute_force_finds({"saddle", "bc-table-head", 9});
+    expect_what_brute_force_finds({"sine", "tilted-c-table", 9});
+}
+
+/// The axis is compared with the normal of the point that the body is nearest to, which may jump.
+TEST(ErrorField, IsKnownOfABallToo) {
+    const Tool tool{.cutter = test::body(test::ball)};
+    for (const Case& made :
+         {Case("two-bell", "ac-table", 20, tool), Case("saddle", "bc-table-head", 12, tool)}) {
+        const auto known = made.field(until_known).moves;
+        const auto brute = made.field(1023).moves;
+        for (std::size_t n = 0; n < known.size(); ++n) {
+            EXPECT_NEAR(known[n].closest, brute[n].closest, 1e-3) << "move " << n;
+        }
+    }
 }
 
 TEST(ErrorField, IsTheSameBytesOnAnyNumberOfThreads) {
@@ -87,7 +120,7 @@ TEST(ErrorField, StopsWhenCancelled) {
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(
-        (void)error_field(dome.patch, dome.machine, dome.path, dome.axes, 4, {nullptr, stop.get_token()}),
+        (void)error_field(dome.patch, dome.machine, dome.path, dome.axes, {4}, {nullptr, stop.get_token()}),
         Cancelled);
 }
 

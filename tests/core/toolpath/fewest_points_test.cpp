@@ -22,7 +22,7 @@ Found covered(const char* preset, double tolerance) {
     const Tool point;
     Found found{FewestPoints(tolerance).contacts(
         {patch, machine, point, Grid::uniform(5, 5), TrackDirection::along_u}, {})};
-    const ErrorField field = error_field(patch, machine, found.path, sequence(machine, found.path), 60, {});
+    const ErrorField field = error_field(patch, machine, found.path, sequence(machine, found.path), {60}, {});
     found.farthest = summary(field, Distance::closest, MoveKind::track).max;
     return found;
 }

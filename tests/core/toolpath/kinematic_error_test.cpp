@@ -24,7 +24,7 @@ TEST(KinematicError, AgreesWithTheErrorFieldOfTheWholePath) {
     const auto machine = test::machine("ac-table");
     const Grid grid = Grid::uniform(16, 16);
     const Toolpath path = zigzag(patch, grid, TrackDirection::along_v, false);
-    const ErrorField field = error_field(patch, machine, path, sequence(machine, path), 10, {});
+    const ErrorField field = error_field(patch, machine, path, sequence(machine, path), {10}, {});
     const auto error = test::two_bell_error();
     for (std::size_t n = 0; n < field.moves.size(); ++n) {
         if (field.moves[n].kind != MoveKind::track) {

@@ -23,7 +23,7 @@ Toolpath path_on(const char* preset, int nodes, int tracks) {
 
 double
 worst_tip(const char* preset, const MachineModel& machine, const Toolpath& path, const AxisPath& axes) {
-    const ErrorField field = error_field(test::patch(preset), machine, path, axes, 20, {});
+    const ErrorField field = error_field(test::patch(preset), machine, path, axes, {20}, {});
     return summary(field, Distance::closest, MoveKind::track).max;
 }
 

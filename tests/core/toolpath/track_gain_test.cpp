@@ -50,7 +50,7 @@ ErrorField field_of(const Case& c, const Grid& grid) {
     const auto patch = test::patch(c.preset);
     const auto machine = test::machine(c.machine);
     const Toolpath path = zigzag(patch, grid, c.direction, false);
-    return error_field(patch, machine, path, sequence(machine, path), 40, {});
+    return error_field(patch, machine, path, sequence(machine, path), {40}, {});
 }
 
 /// Share of `before` by which `after` is less.

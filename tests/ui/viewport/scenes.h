@@ -44,7 +44,7 @@ inline grid::Grid bent_grid(int nodes) {
 inline std::shared_ptr<const project::Evaluation> evaluation(const project::Workpiece& workpiece,
                                                              grid::Grid grid) {
     return std::make_shared<const project::Evaluation>(
-        project::evaluate(workpiece, {.grid = std::move(grid), .note = {}}, 8, Progress()));
+        project::evaluate(workpiece, {.grid = std::move(grid), .note = {}}, {8}, Progress()));
 }
 
 /// Everything there is, on the uniform grid.
