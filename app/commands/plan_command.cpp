@@ -90,19 +90,27 @@ void print_links(const project::Plan& plan) {
     if (!plan.chain) {
         return;
     }
-    fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}\n",
+    const bool turns = !plan.workpiece->machine.rotary_axes().empty();
+    const auto axis = [turns](const grid::ErrorSummary& of) {
+        return turns ? fixed(to_degrees(of.axis_max), 2) : std::string("-");
+    };
+    fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "link of the chain, to the curve",
                "max mm",
                "mean mm",
+               "axis deg",
                "best max",
-               "best mean");
+               "best mean",
+               "best axis");
     for (const grid::ImproverLink& link : plan.chain->outcome.links) {
-        fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}{}\n",
+        fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}{}\n",
                    link.name,
                    fixed(link.reached.max, 4),
                    fixed(link.reached.mean, 4),
+                   axis(link.reached),
                    fixed(link.of_best.max, 4),
                    fixed(link.of_best.mean, 4),
+                   axis(link.of_best),
                    link.refused.empty() ? std::string() : "  not taken: " + link.refused);
     }
 }

@@ -69,8 +69,10 @@ Json links_of(const GridOutcome& outcome) {
         json.push_back({{"name", link.name},
                         {"max", rounded(link.reached.max)},
                         {"mean", rounded(link.reached.mean)},
+                        {"axis_max_deg", rounded(to_degrees(link.reached.axis_max))},
                         {"best_max", rounded(link.of_best.max)},
                         {"best_mean", rounded(link.of_best.mean)},
+                        {"best_axis_max_deg", rounded(to_degrees(link.of_best.axis_max))},
                         {"refused", link.refused}});
     }
     return json;

@@ -6,6 +6,7 @@
 #include "core/grid/expression_weight.h"
 #include "core/project/grids.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/link_text.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/surface_tool.h"
 #include "ui/widgets/notices.h"
@@ -55,18 +56,15 @@ std::string short_name(const std::string& link) {
 }
 
 /// What each link of the whole chain left the best grid with.
-void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links) {
-    ui.note("Best grid after each link: largest / mean to curve, mm");
+void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns) {
+    ui.note("Best grid after each link: largest / mean to curve, mm / largest axis deviation, deg");
     for (std::size_t n = 0; n < links.size(); ++n) {
         const grid::ImproverLink& link = links[n];
-        const std::string at_its_end =
-            fmt::format("{}: {:.4f} / {:.4f} mm at its end", link.name, link.reached.max, link.reached.mean);
         ui.value(fmt::format("link_{}", n),
                  short_name(link.name),
-                 fmt::format("{:.3f} / {:.3f}", link.of_best.max, link.of_best.mean),
+                 link_figures(link, turns),
                  {},
-                 link.refused.empty() ? at_its_end + "."
-                                      : fmt::format("{}, not taken: {}.", at_its_end, link.refused));
+                 link_tip(link, turns));
     }
 }
 
@@ -82,6 +80,11 @@ void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::Gri
                      [v = *on](Project& p) { p.grid.elliptic.any_memory = v; });
         }
     }
+}
+
+/// As far as the machine is known.
+bool turns_the_tool(const Workbench& now) {
+    return !now.plan || !now.plan->plan.workpiece || !now.plan->plan.workpiece->machine.rotary_axes().empty();
 }
 
 /// The program uses it, or it is watched.
@@ -217,7 +220,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
     ui.note(status_text(*now.watched));
     if (const auto& state = now.watched->state; state && state->links.size() > 1) {
-        draw_links(ui, state->links);
+        draw_links(ui, state->links, turns_the_tool(now));
     }
     if (const GridMethod watched = now.watched->method; watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);

@@ -84,6 +84,10 @@ void gain_text(Ui& ui, const Workbench& now) {
              "Mean error",
              both(length_text(before.closest.mean), length_text(after->closest.mean)),
              "mm");
+    ui.value("both_axis",
+             "Axis deviation",
+             both(angle_text(before.closest.axis_max), angle_text(after->closest.axis_max)),
+             "deg");
     const auto whole = [](double angle) { return fixed(to_degrees(angle), 0); };
     ui.value("both_travel",
              "Rotation",
