@@ -259,7 +259,7 @@ void PlanStages::add_path(int samples, const Progress& progress) {
         return;
     }
     progress.report(0.0, title_of_path);
-    Evaluation found = path_evaluation(project(), workpiece(), *over, samples, progress);
+    Evaluation found = path_evaluation(project(), workpiece(), *over, *now_.plan.uniform, samples, progress);
     hold({std::make_shared<const Evaluation>(std::move(found)), over, exact});
 }
 

@@ -117,6 +117,19 @@ TEST(PlanCommand, BetterGridsAreNotWorse) {
     }
 }
 
+TEST(PlanCommand, TellsOfASpiralThatRunsOverTheUniformGrid) {
+    const ScratchFolder scratch;
+    auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "two-bell")));
+    json["toolpath"]["strategy"] = "spiral";
+    write_content(scratch / "spiral.json", json.dump());
+    const Ended ended = run({"plan", scratch / "spiral.json", "--out", scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: The spiral crosses the tracks that the grid"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
+    EXPECT_EQ(report.at("grid").at("status"), "no-gain");
+    EXPECT_THAT(report.at("remarks").at(0).get<std::string>(), StartsWith("The spiral crosses"));
+}
+
 TEST(PlanCommand, LinksOfTheChainHaveTheToolAxisBesideTheTip) {
     const ScratchFolder scratch;
     auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));

@@ -1,5 +1,6 @@
 #include "ui/panels/tool_fields.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -97,6 +98,14 @@ void gain_text(Ui& ui, const Workbench& now) {
         ui.value("both_time",
                  "Time",
                  both(clock_time(*plan.unsequenced_time), clock_time(plan.trajectory->duration())));
+    }
+}
+
+/// Where the points that are added make the uniform grid the better one.
+void sequencing_warning(Ui& ui, const Workbench& now) {
+    const std::string remark = project::sequencing_remark(now.plan->project, now.plan->plan);
+    if (!remark.empty()) {
+        (void)widgets::banner(ui, "uniform_better", {widgets::Severity::warning, as_sentence(remark), {}});
     }
 }
 
@@ -204,6 +213,7 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  "deg",
                  "The largest turn of a rotary axis within one move of a track");
         gain_text(ui, now);
+        sequencing_warning(ui, now);
     }
 }
 
