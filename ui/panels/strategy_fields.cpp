@@ -47,6 +47,8 @@ void kept_tolerance(Ui& ui, const Workbench& now) {
     }
 }
 
+} // namespace
+
 std::string grid_note(const Workbench& now) {
     const Project& project = now.project;
     if (project::follows_nodes(project.toolpath.strategy)) {
@@ -66,8 +68,6 @@ std::string grid_note(const Workbench& now) {
         return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
     }
 }
-
-} // namespace
 
 void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto section = ui.section("strategy", "Strategy");
