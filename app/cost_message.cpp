@@ -5,12 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include <exception>
+#include <optional>
+#include <utility>
 
 namespace millwright::app {
 
 namespace {
 
 using nlohmann::json;
+using toolpath::PlaceFigures;
 using toolpath::SetUpPlace;
 
 /// Infinity, too, stays what it is.
@@ -41,7 +44,11 @@ std::string packed(std::span<const SetUpPlace> places) {
 }
 
 std::string packed(const CostMessage& message) {
-    return bytes_of({message.first, message.costs, message.why_not});
+    json figures = json::array();
+    for (const PlaceFigures& place : message.figures) {
+        figures.push_back({place.cost, place.axis_max ? json(*place.axis_max) : json()});
+    }
+    return bytes_of({message.first, std::move(figures), message.why_not});
 }
 
 std::vector<SetUpPlace> unpacked_places(std::string_view bytes) {
@@ -56,7 +63,14 @@ std::vector<SetUpPlace> unpacked_places(std::string_view bytes) {
 
 CostMessage unpacked_costs(std::string_view bytes) {
     return understood(bytes, [](const json& from) {
-        return CostMessage{from.at(0), from.at(1).get<std::vector<double>>(), from.at(2)};
+        CostMessage message{from.at(0), {}, from.at(2)};
+        for (const json& place : from.at(1)) {
+            const json& axis_max = place.at(1);
+            message.figures.push_back(
+                {place.at(0).get<double>(),
+                 axis_max.is_null() ? std::nullopt : std::optional(axis_max.get<double>())});
+        }
+        return message;
     });
 }
 

@@ -12,9 +12,9 @@
 namespace millwright::app {
 
 struct CostMessage {
-    std::size_t first = 0;     ///< index of the first place; the others are as many ranks apart
-    std::vector<double> costs; ///< mm
-    std::string why_not;       ///< nothing more comes: "was stopped", or "failed: ..."
+    std::size_t first = 0; ///< index of the first place; the others are as many ranks apart
+    std::vector<toolpath::PlaceFigures> figures;
+    std::string why_not; ///< nothing more comes: "was stopped", or "failed: ..."
 };
 
 /// Never empty. Figures to the last bit.

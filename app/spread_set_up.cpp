@@ -19,6 +19,7 @@ namespace millwright::app {
 
 namespace {
 
+using toolpath::PlaceFigures;
 using toolpath::SetUpCost;
 using toolpath::SetUpPlace;
 
@@ -37,7 +38,7 @@ void work(const Ranks& ranks,
             for (std::size_t n = from; n < places.size() && some.size() < at_a_time; n += step) {
                 some.push_back(places[n]);
             }
-            tell(packed(CostMessage{from, costs_at(cost, some, Progress({}, stop)), {}}));
+            tell(packed(CostMessage{from, figures_at(cost, some, Progress({}, stop)), {}}));
         }
     } catch (const Cancelled&) {
         tell(packed(CostMessage{0, {}, "was stopped"}));
@@ -65,10 +66,10 @@ public:
         if (!message.why_not.empty()) {
             why_not_[static_cast<std::size_t>(from)] = message.why_not;
         }
-        for (std::size_t n = 0; n < message.costs.size(); ++n) {
-            std::optional<double>& cost = costs_.at(message.first + n * ranks_);
+        for (std::size_t n = 0; n < message.figures.size(); ++n) {
+            std::optional<PlaceFigures>& cost = costs_.at(message.first + n * ranks_);
             come_ += cost ? 0 : 1;
-            cost = message.costs[n];
+            cost = message.figures[n];
         }
     }
     [[nodiscard]] bool over() const {
@@ -103,8 +104,8 @@ public:
         }
     }
     [[nodiscard]] const std::vector<std::string>& lost() const { return lost_; }
-    [[nodiscard]] std::vector<double> all() const {
-        std::vector<double> all;
+    [[nodiscard]] std::vector<PlaceFigures> all() const {
+        std::vector<PlaceFigures> all;
         std::ranges::transform(costs_, std::back_inserter(all), [](const auto& cost) { return *cost; });
         return all;
     }
@@ -122,7 +123,7 @@ private:
 
     std::span<const SetUpPlace> places_;
     std::size_t ranks_;
-    std::vector<std::optional<double>> costs_;
+    std::vector<std::optional<PlaceFigures>> costs_;
     std::vector<std::string> why_not_; ///< of each rank that has ended early
     std::vector<bool> told_;           ///< of each rank that it is lost
     std::vector<std::string> lost_;    ///< the sentences
@@ -142,7 +143,7 @@ SpreadCosts::~SpreadCosts() {
     }
 }
 
-std::vector<double> SpreadCosts::at(std::span<const SetUpPlace> places, const Progress& progress) {
+std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, const Progress& progress) {
     ranks_.tell_all(packed(places));
     Costs costs(places, ranks_.size());
     const GatheredWork all{

@@ -26,8 +26,8 @@ public:
     ~SpreadCosts(); ///< lets the others go
 
     /// As toolpath::SetUpCosts. Throws Error if costs did not come; Cancelled.
-    [[nodiscard]] std::vector<double> at(std::span<const toolpath::SetUpPlace> places,
-                                         const Progress& progress);
+    [[nodiscard]] std::vector<toolpath::PlaceFigures> at(std::span<const toolpath::SetUpPlace> places,
+                                                         const Progress& progress);
 
 private:
     const Ranks& ranks_;

@@ -1,6 +1,7 @@
 // What the whole chain brings and costs, beside what a prototype of it brought: largest and mean error of a
-// move inside the tracks against the surface curve, mm. A ratio is ours over the prototype's, at most 1 where
-// it is reached; CPU is the processor time of all threads.
+// move inside the tracks against the surface curve, mm; largest axis deviation, deg. A ratio is ours over the
+// prototype's, at most 1 where it is reached; CPU is the processor time of all threads.
+#include "core/base/units.h"
 #include "core/geometry/presets.h"
 #include "core/grid/chain_optimiser.h"
 #include "core/kinematics/machine_file.h"
@@ -36,6 +37,8 @@ void tell(benchmark::State& state, const grid::ImproverState& found, const Figur
     state.counters["uniform_mean"] = found.start.mean;
     state.counters["chain_max"] = found.of_best.max;
     state.counters["chain_mean"] = found.of_best.mean;
+    state.counters["uniform_axis"] = to_degrees(found.start.axis_max);
+    state.counters["chain_axis"] = to_degrees(found.of_best.axis_max);
     state.counters["prototype_max"] = prototype.max;
     state.counters["prototype_mean"] = prototype.mean;
     state.counters["ratio_max"] = found.of_best.max / prototype.max;

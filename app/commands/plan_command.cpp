@@ -90,19 +90,27 @@ void print_links(const project::Plan& plan) {
     if (!plan.chain) {
         return;
     }
-    fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}\n",
+    const bool turns = !plan.workpiece->machine.rotary_axes().empty();
+    const auto axis = [turns](const grid::ErrorSummary& of) {
+        return turns ? fixed(to_degrees(of.axis_max), 2) : std::string("-");
+    };
+    fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "link of the chain, to the curve",
                "max mm",
                "mean mm",
+               "axis deg",
                "best max",
-               "best mean");
+               "best mean",
+               "best axis");
     for (const grid::ImproverLink& link : plan.chain->outcome.links) {
-        fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9}{}\n",
+        fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}{}\n",
                    link.name,
                    fixed(link.reached.max, 4),
                    fixed(link.reached.mean, 4),
+                   axis(link.reached),
                    fixed(link.of_best.max, 4),
                    fixed(link.of_best.mean, 4),
+                   axis(link.of_best),
                    link.refused.empty() ? std::string() : "  not taken: " + link.refused);
     }
 }
@@ -196,11 +204,12 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
 void print_cut(const project::Project& project, const project::Plan& plan) {
     const project::CutStudy& cut = *plan.cut;
     fmt::print(
-        "left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; deepest cut below it: "
-        "{} mm\n",
+        "left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; {} % not cut; deepest "
+        "cut below it: {} mm\n",
         fixed(cut.scallops.max, 4),
         fixed(cut.scallops.mean, 4),
         shortest(project.tool.scallop_mm),
+        fixed(100.0 * cut.scallops.not_cut, 2),
         fixed(cut.deepest, 4));
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
@@ -238,12 +247,8 @@ int plan(const Options& options) {
     print_warnings(plan);
     print_summary(plan, opened.project);
     print_sequencing(plan, opened.project);
-    for (const std::string& remark :
-         {project::why_not_kept(opened.project, *plan.program_path(opened.project)),
-          project::crossing_remark(opened.project)}) {
-        if (!remark.empty()) {
-            fmt::print(stderr, "warning: {}\n", remark);
-        }
+    for (const std::string& remark : project::path_remarks(opened.project, plan)) {
+        fmt::print(stderr, "warning: {}\n", remark);
     }
     if (plan.cut) {
         print_cut(opened.project, plan);

@@ -57,13 +57,14 @@ render::Picture picture_of(const SetUpStudy& study, SetUpGoal goal) {
 }
 
 void print(std::string_view name, const toolpath::SetUp& at) {
-    fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12}\n",
+    fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12} {:>9}\n",
                name,
                fixed(at.place[0], 3),
                fixed(at.place[1], 3),
                fixed(at.place[2], 3),
                fixed(to_degrees(at.place[3]), 2),
-               std::isfinite(at.cost) ? fixed(at.cost, 5) : std::string("out of reach"));
+               std::isfinite(at.cost) ? fixed(at.cost, 5) : std::string("out of reach"),
+               at.axis_max ? fixed(to_degrees(*at.axis_max), 2) : "-");
 }
 
 /// At rank 0 of one or several.
@@ -107,13 +108,14 @@ int set_up(const Options& options) {
                   {{"set-up.csv", project::set_up_csv(study.map)},
                    {"set-up.png", render::to_png(picture_of(study, settings.goal))}},
                   opened.file);
-    fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12}\n",
+    fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12} {:>9}\n",
                "part",
                "a mm",
                "b mm",
                "c mm",
                "turn deg",
-               settings.goal == SetUpGoal::error ? "mean mm" : "travel mm");
+               settings.goal == SetUpGoal::error ? "mean mm" : "travel mm",
+               "axis deg");
     print("start", study.search.start);
     print("best", study.search.best);
     const bool gains = study.search.best.cost < study.search.start.cost;

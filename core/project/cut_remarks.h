@@ -6,6 +6,7 @@
 #include "core/project/project.h"
 
 #include <string>
+#include <vector>
 
 namespace millwright::project {
 
@@ -17,7 +18,15 @@ namespace millwright::project {
 /// program's; empty if it does, or if the program has others.
 [[nodiscard]] std::string why_not_kept(const Project& project, const Evaluation& path);
 
-/// What a strategy that crosses the grid's tracks makes of a grid that was made for them; else empty.
-[[nodiscard]] std::string crossing_remark(const Project& project);
+/// That a spiral, which crosses the tracks for which the grid was made, runs over the uniform one, since that
+/// is better for it; empty if it runs over the grid that was asked for, or the program has others.
+[[nodiscard]] std::string crossing_remark(const Project& project, const Plan& plan);
+
+/// In which figures the zigzag has more error than over the uniform grid, where the sequencing chooses its
+/// way or adds points, of which the grid does not know; empty if in none.
+[[nodiscard]] std::string sequencing_remark(const Project& project, const Plan& plan);
+
+/// All of these that there are of the program of `plan` but why_higher(), as sentences.
+[[nodiscard]] std::vector<std::string> path_remarks(const Project& project, const Plan& plan);
 
 } // namespace millwright::project

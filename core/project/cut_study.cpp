@@ -201,7 +201,10 @@ sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double h
     settings.nu = points(grid.nu());
     settings.nv = points(grid.nv());
     settings.step = sweep_step(cutter);
-    settings.highest = std::max(1.0, 2.0 * highest_ridge);
+    // Higher than the cutter is wide stands what it never came near; to look as far as the formula says of
+    // tracks that are far apart would compare every pose with every point.
+    const double widest = 2.0 * cutter.shape().radius;
+    settings.highest = std::max(1.0, std::min(2.0 * highest_ridge, widest));
     return settings;
 }
 

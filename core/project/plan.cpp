@@ -30,7 +30,9 @@ namespace {
 /// What produced the program, written on its top.
 std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& plan, const Evaluation& chosen) {
     const grid::Grid& grid = chosen.outcome.grid;
-    const std::string_view method = row_of(grid_methods(), program_grid(project)).label;
+    const bool uniform = keeps_grid(chosen, *plan.uniform); // whatever was tried
+    const std::string_view method =
+        row_of(grid_methods(), uniform ? GridMethod::uniform : program_grid(project)).label;
     const bool has_nodes = follows_nodes(project.toolpath.strategy);
     std::vector<gcode::HeaderLine> lines{
         {"made by", fmt::format("Millwright {}", version())},
@@ -293,6 +295,7 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
             std::make_shared<const Evaluation>(path_evaluation(project,
                                                                workpiece,
                                                                *plan.evaluation(program_grid(project)),
+                                                               *plan.uniform,
                                                                report_sampling,
                                                                progress.part(0.85, 0.9)));
     }

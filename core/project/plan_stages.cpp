@@ -70,6 +70,14 @@ toolpath::MoveSampling coarse_sampling(const GridInput& input) {
     return {std::clamp(most * moves_with_all / (input.nu * input.nv), 1, most)};
 }
 
+/// What the exact stage replaces bears the status of a running work, by which people are told.
+std::shared_ptr<const Evaluation> shared(Evaluation found, bool exact) {
+    if (!exact) {
+        found.outcome.status = grid::ImproverStatus::running;
+    }
+    return std::make_shared<const Evaluation>(std::move(found));
+}
+
 /// Larger grids take longer than a person who drags waits for.
 bool quick_enough(const GridInput& input) {
     constexpr int most_nodes = 2500;
@@ -212,11 +220,10 @@ void PlanStages::carry_over(GridMethod method, const Progress& progress) {
         return;
     }
     GridOutcome outcome = old->outcome;
-    outcome.status = grid::ImproverStatus::running;
     outcome.warning.clear();
     outcome.note = "The grid from before the last change, until the new one is there.";
     Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_sampling(input()), progress);
-    hold(method, {std::make_shared<const Evaluation>(std::move(found)), false});
+    hold(method, {shared(std::move(found), false), false});
 }
 
 void PlanStages::measure_uniform(toolpath::MoveSampling sampling, const Progress& progress) {
@@ -227,7 +234,7 @@ void PlanStages::measure_uniform(toolpath::MoveSampling sampling, const Progress
     }
     progress.report(0.0, title_of_making(GridMethod::uniform));
     Evaluation found = evaluate(workpiece(), uniform_outcome(input()), sampling, progress);
-    hold(GridMethod::uniform, {std::make_shared<const Evaluation>(std::move(found)), exact});
+    hold(GridMethod::uniform, {shared(std::move(found), exact), exact});
 }
 
 void PlanStages::improve(GridMethod method, Effort effort, const Progress& progress) {
@@ -237,7 +244,8 @@ void PlanStages::improve(GridMethod method, Effort effort, const Progress& progr
     progress.report(0.0, title_of_making(method));
     Evaluation found =
         improved_evaluation({method, input(), workpiece(), effort}, *now_.plan.uniform, progress);
-    hold(method, {std::make_shared<const Evaluation>(std::move(found)), effort == Effort::full});
+    const bool exact = effort == Effort::full;
+    hold(method, {shared(std::move(found), exact), exact});
 }
 
 void PlanStages::add_weight(const Progress& progress) {
@@ -259,8 +267,8 @@ void PlanStages::add_path(toolpath::MoveSampling sampling, const Progress& progr
         return;
     }
     progress.report(0.0, title_of_path);
-    Evaluation found = path_evaluation(project(), workpiece(), *over, sampling, progress);
-    hold({std::make_shared<const Evaluation>(std::move(found)), over, exact});
+    Evaluation found = path_evaluation(project(), workpiece(), *over, *now_.plan.uniform, sampling, progress);
+    hold({shared(std::move(found), exact), over, exact});
 }
 
 void PlanStages::add_program_of_chosen(const Progress& progress) {

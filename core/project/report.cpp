@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
@@ -69,8 +70,10 @@ Json links_of(const GridOutcome& outcome) {
         json.push_back({{"name", link.name},
                         {"max", rounded(link.reached.max)},
                         {"mean", rounded(link.reached.mean)},
+                        {"axis_max_deg", rounded(to_degrees(link.reached.axis_max))},
                         {"best_max", rounded(link.of_best.max)},
                         {"best_mean", rounded(link.of_best.mean)},
+                        {"best_axis_max_deg", rounded(to_degrees(link.of_best.axis_max))},
                         {"refused", link.refused}});
     }
     return json;
@@ -253,6 +256,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["estimated_time_s"] = rounded(plan.trajectory->duration());
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(chosen.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(chosen.closest.axis_mean));
+    json["remarks"] = path_remarks(project, plan);
     json["program"] = program(plan);
     if (plan.cut) {
         json["cut"] = cut(*plan.cut);

@@ -82,15 +82,18 @@ double for_people(SetUpParameter parameter, double value) {
 }
 
 std::string set_up_csv(const toolpath::SetUpMap& map) {
-    std::string text =
-        fmt::format("{}_{},{}_{},cost_mm\n", name(map.across), unit(map.across), name(map.up), unit(map.up));
+    std::string text = fmt::format(
+        "{}_{},{}_{},cost_mm,axis_max_deg\n", name(map.across), unit(map.across), name(map.up), unit(map.up));
     for (std::size_t row = 0; row < map.y.size(); ++row) {
         for (std::size_t column = 0; column < map.x.size(); ++column) {
-            const double cost = map.costs[row * map.x.size() + column];
-            text += fmt::format("{:.4f},{:.4f},{}\n",
+            const std::size_t place = row * map.x.size() + column;
+            const double cost = map.costs[place];
+            const std::optional<double>& axis_max = map.axis_max[place];
+            text += fmt::format("{:.4f},{:.4f},{},{}\n",
                                 for_people(map.across, map.x[column]),
                                 for_people(map.up, map.y[row]),
-                                std::isfinite(cost) ? fmt::format("{:.6f}", cost) : std::string());
+                                std::isfinite(cost) ? fmt::format("{:.6f}", cost) : std::string(),
+                                axis_max ? fmt::format("{:.4f}", to_degrees(*axis_max)) : std::string());
         }
     }
     return text;

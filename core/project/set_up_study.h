@@ -52,7 +52,8 @@ struct SetUpStudy {
 /// mm or degrees.
 [[nodiscard]] double for_people(toolpath::SetUpParameter parameter, double value);
 
-/// The map, comma-separated, one line a place; nothing where it is out of reach.
+/// The map, comma-separated, one line a place; nothing where it is out of reach, or of the tool axis where
+/// nothing was measured.
 [[nodiscard]] std::string set_up_csv(const toolpath::SetUpMap& map);
 
 } // namespace millwright::project

@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/project/grids.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
@@ -55,13 +57,49 @@ std::string strategy_text(const Project& project) {
     return std::string(label);
 }
 
+namespace {
+
+/// "5.441 / 0.212 mm at most / on average, axis 48.5 deg, rounds up to 36.65 mm apart".
+std::string figures_text(const Evaluation& path, bool turns) {
+    return fmt::format("{} / {} mm at most / on average{}, rounds up to {} mm apart",
+                       fixed(path.closest.max, 3),
+                       fixed(path.closest.mean, 3),
+                       turns ? fmt::format(", axis {} deg", fixed(to_degrees(path.closest.axis_max), 1)) : "",
+                       fixed(path.track_gap.value_or(0.0), 2));
+}
+
+std::string kept_note(const Project& project, const Evaluation& over, const Evaluation& even, bool turns) {
+    return fmt::format("The spiral crosses the tracks that the grid \"{}\" was made for, and would be worse "
+                       "over it ({}) than over the uniform grid ({}), which is kept.",
+                       row_of(grid_methods(), project.grid.method).label,
+                       figures_text(over, turns),
+                       figures_text(even, turns));
+}
+
+} // namespace
+
 Evaluation path_evaluation(const Project& project,
                            const Workpiece& workpiece,
                            const Evaluation& base,
+                           const Evaluation& uniform,
                            toolpath::MoveSampling sampling,
                            const Progress& progress) {
     expects(has_own_path(project), "a zigzag over a grid is evaluated with its grid");
-    return evaluate(workpiece, base.outcome, strategy_settings(project), sampling, progress);
+    const toolpath::StrategySettings settings = strategy_settings(project);
+    if (!follows_nodes(project.toolpath.strategy) || keeps_grid(base, uniform)) {
+        return evaluate(workpiece, base.outcome, settings, sampling, progress);
+    }
+    Evaluation over = evaluate(workpiece, base.outcome, settings, sampling, progress.part(0.0, 0.5));
+    Evaluation even = evaluate(workpiece, uniform.outcome, settings, sampling, progress.part(0.5, 1.0));
+    constexpr double much = 1.1; // what the cutter leaves between two rounds grows with the square
+    const bool apart = over.track_gap.value_or(0.0) > much * even.track_gap.value_or(0.0);
+    if (!apart && !is_worse(over, even, workpiece.machine)) {
+        return over;
+    }
+    const bool turns = !workpiece.machine.rotary_axes().empty();
+    even.outcome.status = grid::ImproverStatus::no_gain;
+    even.outcome.note = kept_note(project, over, even, turns);
+    return even;
 }
 
 } // namespace millwright::project

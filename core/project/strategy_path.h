@@ -28,11 +28,14 @@ namespace millwright::project {
 /// What is being done when it is made, for people.
 inline constexpr std::string_view title_of_path = "Making the path";
 
-/// The path of the project's strategy over the grid of `base`, with its error. Throws Error where the
-/// surface cannot be covered like this or a pose cannot be reached; Cancelled.
+/// The path of the project's strategy over the grid of `base`, with its error; over that of `uniform`, with a
+/// note that says so, where it would be worse than there: a grid is made for the zigzag, and a spiral runs
+/// across its tracks. Worse is what is_worse() says, or rounds farther apart by more than a tenth. Throws
+/// Error where the surface cannot be covered like this or a pose cannot be reached; Cancelled.
 [[nodiscard]] Evaluation path_evaluation(const Project& project,
                                          const Workpiece& workpiece,
                                          const Evaluation& base,
+                                         const Evaluation& uniform,
                                          toolpath::MoveSampling sampling,
                                          const Progress& progress);
 

@@ -23,8 +23,6 @@ namespace millwright::toolpath {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void check(const SetUpSearchSettings& settings) {
     const auto least = settings.least.array();
     const auto most = settings.most.array();
@@ -74,13 +72,14 @@ double linear_travel(const kinematics::MachineModel& machine, const AxisPath& ax
     return sum;
 }
 
-std::vector<double> measured(const SetUpCost& cost,
-                             std::span<const SetUpPlace> places,
-                             const SetUpCosts& measure,
-                             const Progress& progress) {
-    std::vector<double> costs = measure ? measure(places, progress) : costs_at(cost, places, progress);
-    expects(costs.size() == places.size(), "each place has a cost");
-    return costs;
+std::vector<PlaceFigures> measured(const SetUpCost& cost,
+                                   std::span<const SetUpPlace> places,
+                                   const SetUpCosts& measure,
+                                   const Progress& progress) {
+    std::vector<PlaceFigures> figures =
+        measure ? measure(places, progress) : figures_at(cost, places, progress);
+    expects(figures.size() == places.size(), "each place has a cost");
+    return figures;
 }
 
 /// Downhill from `best`, which it makes better; returns the number of evaluations.
@@ -102,13 +101,13 @@ int descend(const SetUpCost& cost,
         }
         SetUpPlace place = best.place;
         std::copy(at.begin(), at.end(), place.begin());
-        const double found = cost.at(place, Progress());
+        const PlaceFigures found = cost.figures_at(place, Progress());
         ++evaluations;
         progress.report(static_cast<double>(evaluations) / settings.descent);
-        if (found < best.cost) {
-            best = {place, found};
+        if (found.cost < best.cost) {
+            best = {place, found.cost, found.axis_max};
         }
-        return std::min(found, out_of_reach);
+        return std::min(found.cost, out_of_reach);
     };
     const auto numbers = [&](const SetUpPlace& place) {
         return std::vector<double>(place.data(), place.data() + dimensions);
@@ -156,7 +155,7 @@ SetUpPlace SetUpCost::start() const {
     return place;
 }
 
-double SetUpCost::at(const SetUpPlace& place, const Progress& progress) const {
+PlaceFigures SetUpCost::figures_at(const SetUpPlace& place, const Progress& progress) const {
     progress.check();
     const kinematics::MachineModel machine = machine_.with_workpiece_offset(offset_of(place));
     const bool is_turned = !exactly_equal(place[3], 0.0);
@@ -166,25 +165,27 @@ double SetUpCost::at(const SetUpPlace& place, const Progress& progress) const {
         const AxisPath axes =
             sequence(machine, on_machine(machine, zigzag(patch, grid_, direction_, flipped_)));
         if (goal_ == SetUpGoal::travel) {
-            return linear_travel(machine, axes);
+            return {linear_travel(machine, axes)};
         }
     } catch (const Error&) { // a pose that cannot be reached
-        return infinity;
+        return {};
     }
     const KinematicError error(patch, machine, flipped_);
-    return grid::summary(measure(error, grid_, direction_, grid::coarse, progress)).mean;
+    const grid::ErrorSummary found = grid::summary(measure(error, grid_, direction_, grid::coarse, progress));
+    const bool turns = std::isfinite(found.mean) && !machine.rotary_axes().empty();
+    return {found.mean, turns ? std::optional(found.axis_max) : std::nullopt};
 }
 
-std::vector<double>
-costs_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress) {
-    std::vector<double> costs(places.size());
+std::vector<PlaceFigures>
+figures_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress) {
+    std::vector<PlaceFigures> figures(places.size());
     std::atomic<std::size_t> done = 0;
     parallel_for(std::ssize(places), 1, [&](std::ptrdiff_t n) {
         const auto at = static_cast<std::size_t>(n);
-        costs[at] = cost.at(places[at], progress.part(0.0, 0.0));
+        figures[at] = cost.figures_at(places[at], progress.part(0.0, 0.0));
         progress.report(static_cast<double>(++done) / static_cast<double>(places.size()));
     });
-    return costs;
+    return figures;
 }
 
 SetUpSearch search_set_up(const SetUpCost& cost,
@@ -193,17 +194,18 @@ SetUpSearch search_set_up(const SetUpCost& cost,
                           const SetUpCosts& measure) {
     check(settings);
     SetUpSearch found;
-    found.start = {cost.start(), cost.at(cost.start(), progress)};
+    const PlaceFigures start = cost.figures_at(cost.start(), progress);
+    found.start = {cost.start(), start.cost, start.axis_max};
     found.best = found.start;
     found.evaluations = 1;
     const std::vector<SetUpPlace> places = lattice(settings);
     const double scan = static_cast<double>(places.size());
     const double share = scan / (scan + settings.descent);
     progress.report(0.0, "Searching the set-up");
-    const std::vector<double> costs = measured(cost, places, measure, progress.part(0.0, share));
+    const std::vector<PlaceFigures> figures = measured(cost, places, measure, progress.part(0.0, share));
     for (std::size_t n = 0; n < places.size(); ++n) {
-        if (costs[n] < found.best.cost) {
-            found.best = {places[n], costs[n]};
+        if (figures[n].cost < found.best.cost) {
+            found.best = {places[n], figures[n].cost, figures[n].axis_max};
         }
     }
     found.evaluations += static_cast<int>(places.size());
@@ -231,7 +233,7 @@ SetUpMap set_up_map(const SetUpCost& cost,
     expects(places >= 2 && places <= 500, "a map has 2 to 500 places each way");
     const auto column = static_cast<Eigen::Index>(across);
     const auto row = static_cast<Eigen::Index>(up);
-    SetUpMap map{across, up, {}, {}, {}};
+    SetUpMap map{across, up, {}, {}, {}, {}};
     for (int n = 0; n < places; ++n) {
         const double t = static_cast<double>(n) / (places - 1);
         map.x.push_back(mix(settings.least[column], settings.most[column], t));
@@ -247,7 +249,10 @@ SetUpMap set_up_map(const SetUpCost& cost,
         }
     }
     progress.report(0.0, "Mapping the set-up");
-    map.costs = measured(cost, over, measure, progress);
+    for (const PlaceFigures& figures : measured(cost, over, measure, progress)) {
+        map.costs.push_back(figures.cost);
+        map.axis_max.push_back(figures.axis_max);
+    }
     return map;
 }
 

@@ -8,6 +8,8 @@
 #include "core/kinematics/machine_model.h"
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,16 @@ using SetUpPlace = Eigen::Vector4d;
 /// `net` turned about z through its origin, rad.
 [[nodiscard]] geometry::ControlNet turned(geometry::ControlNet net, double turn);
 
+/// What is measured of a place.
+struct PlaceFigures {
+    double cost = std::numeric_limits<double>::infinity(); ///< mm; infinity where out of reach
+    /// Largest angle of the tool axis to the normal, rad; nothing out of reach, for SetUpGoal::travel, which
+    /// measures no error, and on machines that cannot turn the tool.
+    std::optional<double> axis_max = {};
+
+    friend bool operator==(const PlaceFigures&, const PlaceFigures&) = default;
+};
+
 /// What a path over a grid costs as a function of where the workpiece is on the table.
 class SetUpCost {
 public:
@@ -40,8 +52,12 @@ public:
               grid::TrackDirection direction,
               SetUpGoal goal);
 
-    /// mm; infinity where a pose cannot be reached inside the axes' limits. Throws Cancelled.
-    [[nodiscard]] double at(const SetUpPlace& place, const Progress& progress) const;
+    /// Out of reach where a pose cannot be reached inside the axes' limits. Throws Cancelled.
+    [[nodiscard]] PlaceFigures figures_at(const SetUpPlace& place, const Progress& progress) const;
+    /// The cost alone.
+    [[nodiscard]] double at(const SetUpPlace& place, const Progress& progress) const {
+        return figures_at(place, progress).cost;
+    }
     /// As the machine has it, not turned.
     [[nodiscard]] SetUpPlace start() const;
 
@@ -54,13 +70,13 @@ private:
     SetUpGoal goal_;
 };
 
-/// The costs of many places, in their order; whoever measures them. Throws Cancelled, and Error for those
+/// The figures of many places, in their order; whoever measures them. Throws Cancelled, and Error for those
 /// that did not come.
-using SetUpCosts = std::function<std::vector<double>(std::span<const SetUpPlace>, const Progress&)>;
+using SetUpCosts = std::function<std::vector<PlaceFigures>(std::span<const SetUpPlace>, const Progress&)>;
 
 /// By the threads of this process; the same bytes on any number of them. Throws Cancelled.
-[[nodiscard]] std::vector<double>
-costs_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress);
+[[nodiscard]] std::vector<PlaceFigures>
+figures_at(const SetUpCost& cost, std::span<const SetUpPlace> places, const Progress& progress);
 
 /// Values outside their range throw Defect.
 struct SetUpSearchSettings {
@@ -73,7 +89,8 @@ struct SetUpSearchSettings {
 
 struct SetUp {
     SetUpPlace place = SetUpPlace::Zero();
-    double cost = 0.0; ///< mm
+    double cost = 0.0;                   ///< mm
+    std::optional<double> axis_max = {}; ///< as in PlaceFigures
 };
 
 struct SetUpSearch {
@@ -83,7 +100,7 @@ struct SetUpSearch {
 };
 
 /// The best of a lattice of places, then downhill from there (Nelder and Mead 1965 inside the box, by NLopt).
-/// `measure`: who measures the lattice; empty for costs_at(). Deterministic. Throws Cancelled, and what
+/// `measure`: who measures the lattice; empty for figures_at(). Deterministic. Throws Cancelled, and what
 /// `measure` throws.
 [[nodiscard]] SetUpSearch search_set_up(const SetUpCost& cost,
                                         const SetUpSearchSettings& settings,
@@ -92,16 +109,17 @@ struct SetUpSearch {
 
 /// The cost over two of the parameters, the others as in a place.
 struct SetUpMap {
-    SetUpParameter across = SetUpParameter::a; ///< which of them the columns are
-    SetUpParameter up = SetUpParameter::b;     ///< which the rows are
-    std::vector<double> x;                     ///< of the columns, mm or rad
-    std::vector<double> y;                     ///< of the rows, mm or rad
-    std::vector<double> costs;                 ///< row by row, infinity where out of reach
+    SetUpParameter across = SetUpParameter::a;   ///< which of them the columns are
+    SetUpParameter up = SetUpParameter::b;       ///< which the rows are
+    std::vector<double> x;                       ///< of the columns, mm or rad
+    std::vector<double> y;                       ///< of the rows, mm or rad
+    std::vector<double> costs;                   ///< row by row, infinity where out of reach
+    std::vector<std::optional<double>> axis_max; ///< the same of PlaceFigures
 };
 
 /// `places` each way, 2 to 500, evenly from `settings.least` to `settings.most`. `measure`: who measures
-/// them; empty for costs_at(). Throws Cancelled, and what `measure` throws; Defect if `across` is `up`, or is
-/// a turn that has no room.
+/// them; empty for figures_at(). Throws Cancelled, and what `measure` throws; Defect if `across` is `up`, or
+/// is a turn that has no room.
 [[nodiscard]] SetUpMap set_up_map(const SetUpCost& cost,
                                   const SetUpPlace& through,
                                   SetUpParameter across,

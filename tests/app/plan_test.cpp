@@ -117,6 +117,34 @@ TEST(PlanCommand, BetterGridsAreNotWorse) {
     }
 }
 
+TEST(PlanCommand, TellsOfASpiralThatRunsOverTheUniformGrid) {
+    const ScratchFolder scratch;
+    auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "two-bell")));
+    json["toolpath"]["strategy"] = "spiral";
+    write_content(scratch / "spiral.json", json.dump());
+    const Ended ended = run({"plan", scratch / "spiral.json", "--out", scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: The spiral crosses the tracks that the grid"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
+    EXPECT_EQ(report.at("grid").at("status"), "no-gain");
+    EXPECT_THAT(report.at("remarks").at(0).get<std::string>(), StartsWith("The spiral crosses"));
+}
+
+TEST(PlanCommand, LinksOfTheChainHaveTheToolAxisBesideTheTip) {
+    const ScratchFolder scratch;
+    auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
+    json["grid"]["method"] = "chain";
+    write_content(scratch / "chain.json", json.dump());
+    const Ended ended = run({"plan", scratch / "chain.json", "--out", scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("max mm   mean mm  axis deg  best max best mean best axis\n"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
+    for (const auto& link : report.at("error").at("chain").at("links")) {
+        EXPECT_GT(link.at("axis_max_deg"), 0.0);
+        EXPECT_GT(link.at("best_axis_max_deg"), 0.0);
+    }
+}
+
 TEST(PlanCommand, TwoRunsGiveTheSameBytes) {
     const ScratchFolder scratch;
     const fs::path project = small_project(scratch.path(), "two-bell");

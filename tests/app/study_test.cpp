@@ -14,6 +14,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 // T24.
@@ -146,6 +147,24 @@ TEST(StudyCommand, APartIsNotMovedForAGainOfTheSizeOfRounding) {
     EXPECT_FALSE(nlohmann::json::parse(content_of(accepted)).at("machine").contains("workpiece_offset"));
 }
 
+TEST(StudyCommand, SaysThatAPartLargerThanTheMachineIsOutOfReach) {
+    const ScratchFolder scratch;
+    auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
+    for (auto& row : json.at("surface").at("patches").at(0).at("points")) {
+        for (auto& point : row) {
+            for (auto& number : point) {
+                number = 20.0 * number.get<double>();
+            }
+        }
+    }
+    const std::string project = scratch / "large.json";
+    write_content(project, json.dump());
+    const Ended ended = set_up_study(scratch, project, scratch / "there.json");
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nout of reach: from no place that was searched"));
+    EXPECT_THAT(ended.out, Not(HasSubstr("no gain")));
+}
+
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");
@@ -154,7 +173,8 @@ TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nstart "));
     EXPECT_THAT(ended.out, HasSubstr("\nbest "));
-    EXPECT_THAT(content_of(scratch / "out/set-up.csv"), StartsWith("a_mm,c_mm,cost_mm\n"));
+    EXPECT_THAT(ended.out, HasSubstr(" mean mm  axis deg\n"));
+    EXPECT_THAT(content_of(scratch / "out/set-up.csv"), StartsWith("a_mm,c_mm,cost_mm,axis_max_deg\n"));
     EXPECT_THAT(content_of(scratch / "out/set-up.png"), StartsWith("\x89PNG"));
     const auto json = nlohmann::json::parse(content_of(accepted));
     EXPECT_TRUE(json.at("machine").contains("workpiece_offset"));

@@ -9,11 +9,11 @@ namespace {
 
 using widgets::Permission;
 
+/// Also of a part that is out of reach where it stands: another place may help.
 Permission can_search(const Workbench& now) {
-    if (!now.plan || !now.plan->plan.workpiece || !now.failure().empty()) {
-        return Permission::refused("The part has no path yet. " + now.failure());
-    }
-    return {};
+    return now.plan && now.plan->plan.workpiece
+               ? Permission{}
+               : Permission::refused("There is no part on a machine yet. " + now.failure());
 }
 
 Permission can_accept(const Workbench& now) {

@@ -6,7 +6,7 @@ project::GridMethod shown_grid(const Workbench& now) {
     return now.evaluation(now.session.shown) ? now.session.shown : project::GridMethod::uniform;
 }
 
-bool is_old_grid(const project::Evaluation& evaluation) {
+bool is_so_far(const project::Evaluation& evaluation) {
     return evaluation.outcome.status == grid::ImproverStatus::running;
 }
 

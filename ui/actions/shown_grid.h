@@ -10,8 +10,8 @@ namespace millwright::actions {
 /// unless that of a strategy is shown.
 [[nodiscard]] project::GridMethod shown_grid(const Workbench& now);
 
-/// Whether this grid was made before the last change and measured on what is there now: it stands in until
-/// the new one is there, and stays where the work was cancelled.
-[[nodiscard]] bool is_old_grid(const project::Evaluation& evaluation);
+/// Whether this stands in until the exact one is there, and stays where the work was cancelled: the grid from
+/// before the last change on what is there now, or one that was measured coarsely.
+[[nodiscard]] bool is_so_far(const project::Evaluation& evaluation);
 
 } // namespace millwright::actions

@@ -63,8 +63,8 @@ std::string cell_of(const Evaluation* evaluation, int column) {
 
 ErrorRow
 row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
-    const bool old = evaluation != nullptr && actions::is_old_grid(*evaluation);
-    ErrorRow row{std::move(id), {std::move(name) + (old ? " (old grid)" : "")}};
+    const bool so_far = evaluation != nullptr && actions::is_so_far(*evaluation);
+    ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (so far)" : "")}};
     for (int column = 1; column < static_cast<int>(columns.size()) - 1; ++column) {
         row.cells.push_back(cell_of(evaluation, column));
     }

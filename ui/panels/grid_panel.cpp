@@ -4,10 +4,15 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/expression_weight.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/grids.h"
+#include "core/project/strategy_path.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/link_text.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/strategy_fields.h"
 #include "ui/panels/surface_tool.h"
+#include "ui/panels/watched_text.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -55,18 +60,15 @@ std::string short_name(const std::string& link) {
 }
 
 /// What each link of the whole chain left the best grid with.
-void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links) {
-    ui.note("Best grid after each link: largest / mean to curve, mm");
+void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns) {
+    ui.note("Best grid after each link: largest / mean to curve, mm / largest axis deviation, deg");
     for (std::size_t n = 0; n < links.size(); ++n) {
         const grid::ImproverLink& link = links[n];
-        const std::string at_its_end =
-            fmt::format("{}: {:.4f} / {:.4f} mm at its end", link.name, link.reached.max, link.reached.mean);
         ui.value(fmt::format("link_{}", n),
                  short_name(link.name),
-                 fmt::format("{:.3f} / {:.3f}", link.of_best.max, link.of_best.mean),
+                 link_figures(link, turns),
                  {},
-                 link.refused.empty() ? at_its_end + "."
-                                      : fmt::format("{}, not taken: {}.", at_its_end, link.refused));
+                 link_tip(link, turns));
     }
 }
 
@@ -82,6 +84,11 @@ void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::Gri
                      [v = *on](Project& p) { p.grid.elliptic.any_memory = v; });
         }
     }
+}
+
+/// As far as the machine is known.
+bool turns_the_tool(const Workbench& now) {
+    return !now.plan || !now.plan->plan.workpiece || !now.plan->plan.workpiece->machine.rotary_axes().empty();
 }
 
 /// The program uses it, or it is watched.
@@ -114,8 +121,13 @@ widgets::Rank rank_of(const Workbench& now, GridMethod method) {
 
 /// Below the buttons, none of which moves when a plan is finished while a hand goes to it.
 void draw_note(Ui& ui, const Workbench& now) {
+    if (!project::follows_nodes(now.project.toolpath.strategy)) {
+        return;
+    }
     const auto made = now.evaluation(now.project.grid.method);
-    if (made && !made->outcome.note.empty()) {
+    if (now.plan && !project::crossing_remark(now.plan->project, now.plan->plan).empty()) {
+        ui.note("The program's grid (Uniform): " + grid_note(now));
+    } else if (made && !made->outcome.note.empty()) {
         ui.note("The program's grid (" + label_of(now.project.grid.method) + "): " + made->outcome.note);
     }
     if (made && !made->outcome.warning.empty()) {
@@ -156,6 +168,10 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
     const auto [options, index] = options_of(project::grid_methods(), now.project.grid.method);
     if (const auto chosen = ui.choice("method", "Program uses", index, options)) {
         ask.run("grid.use_" + std::string(project::grid_methods()[static_cast<std::size_t>(*chosen)].id));
+    }
+    if (!project::follows_nodes(now.project.toolpath.strategy)) {
+        ui.note(
+            fmt::format("The program's path: {}. {}", project::strategy_text(now.project), grid_note(now)));
     }
 }
 
@@ -207,19 +223,28 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         }
         ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
         ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
-        ui.value("best", "To curve, kept", length_text(state->of_best.mean), "mm");
-        ui.value("gain", "Change", change_text(state->start.mean, state->of_best.mean));
-        if (state->now.mean < state->of_best.mean) {
-            ui.note("The grid of now has less error in the mean but is not kept: its largest error, the tool "
-                    "axis "
-                    "or the gap between tracks is worse than at the start.");
+        const WatchedLabels labels = watched_labels(state->status);
+        ui.value("best", labels.best, length_text(state->of_best.mean), "mm");
+        ui.value("gain", labels.change, change_text(state->start.mean, state->of_best.mean));
+        if (turns_the_tool(now)) {
+            ui.value(
+                "axis",
+                labels.axis,
+                angle_text(state->start.axis_max) + " > " + angle_text(state->of_best.axis_max),
+                "deg",
+                "Largest angle between tool axis and normal on the way: of the start > of the best grid");
+        }
+        if (const std::string note = watched_note(*state); !note.empty()) {
+            ui.note(note);
         }
     }
     ui.note(status_text(*now.watched));
     if (const auto& state = now.watched->state; state && state->links.size() > 1) {
-        draw_links(ui, state->links);
+        draw_links(ui, state->links, turns_the_tool(now));
     }
-    if (const GridMethod watched = now.watched->method; watched != now.project.grid.method) {
+    const GridMethod watched = now.watched->method;
+    const bool is_of_use = project::follows_nodes(now.project.toolpath.strategy);
+    if (is_of_use && watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);
         action_button(ui,
                       now,

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -154,6 +155,10 @@ std::string cost_text(double cost) {
     return std::isfinite(cost) ? length_text(cost) : std::string("out of reach");
 }
 
+std::string axis_text(const std::optional<double>& axis_max) {
+    return axis_max ? angle_text(*axis_max) : std::string("-");
+}
+
 /// That the best place lies at the edge of what was searched, as long as that can be told.
 std::string edge_text(const Workbench& now, const project::SetUpResult& found) {
     if (!now.plan || !now.plan->plan.workpiece || !project::same_but_for_place(found.project, now.project)) {
@@ -192,6 +197,20 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
                       ? "  (" + change_text(search.start.cost, search.best.cost) + ")"
                       : std::string()),
              "mm");
+    if (by_error) {
+        ui.value("axis",
+                 "Axis deviation",
+                 axis_text(search.start.axis_max) + " > " + axis_text(search.best.axis_max),
+                 "deg",
+                 "Largest angle between tool axis and normal on the way, where it stood > at the best place");
+    }
+    if (!std::isfinite(search.best.cost)) {
+        (void)widgets::banner(ui,
+                              "out_of_reach",
+                              {widgets::Severity::warning,
+                               "From no place that was searched the machine reaches the whole part.",
+                               {}});
+    }
     const std::string edge = edge_text(now, found);
     if (!edge.empty()) {
         (void)widgets::banner(ui, "edge", {widgets::Severity::info, edge, {}});

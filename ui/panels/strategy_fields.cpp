@@ -47,12 +47,17 @@ void kept_tolerance(Ui& ui, const Workbench& now) {
     }
 }
 
-std::string grid_note(const Project& project) {
+} // namespace
+
+std::string grid_note(const Workbench& now) {
+    const Project& project = now.project;
     if (project::follows_nodes(project.toolpath.strategy)) {
-        const std::string crossing = project::crossing_remark(project);
-        return fmt::format("Over the nodes of the grid: {}.{}",
-                           project::row_of(project::grid_methods(), project.grid.method).label,
-                           crossing.empty() ? "" : " " + as_sentence(crossing));
+        const std::string crossing =
+            now.plan ? project::crossing_remark(now.plan->project, now.plan->plan) : std::string();
+        return crossing.empty()
+                   ? fmt::format("Over the nodes of the grid: {}.",
+                                 project::row_of(project::grid_methods(), project.grid.method).label)
+                   : crossing;
     }
     switch (project.toolpath.strategy) {
     case StrategyInput::constant_scallop:
@@ -63,8 +68,6 @@ std::string grid_note(const Project& project) {
         return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
     }
 }
-
-} // namespace
 
 void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto section = ui.section("strategy", "Strategy");
@@ -88,7 +91,7 @@ void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                 return p.toolpath;
             });
     }
-    ui.note(grid_note(now.project));
+    ui.note(grid_note(now));
     kept_tolerance(ui, now);
     if (const auto path = now.program_path()) {
         ui.value("points",

@@ -1,5 +1,6 @@
 #include "ui/panels/tool_fields.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -84,6 +85,10 @@ void gain_text(Ui& ui, const Workbench& now) {
              "Mean error",
              both(length_text(before.closest.mean), length_text(after->closest.mean)),
              "mm");
+    ui.value("both_axis",
+             "Axis deviation",
+             both(angle_text(before.closest.axis_max), angle_text(after->closest.axis_max)),
+             "deg");
     const auto whole = [](double angle) { return fixed(to_degrees(angle), 0); };
     ui.value("both_travel",
              "Rotation",
@@ -93,6 +98,14 @@ void gain_text(Ui& ui, const Workbench& now) {
         ui.value("both_time",
                  "Time",
                  both(clock_time(*plan.unsequenced_time), clock_time(plan.trajectory->duration())));
+    }
+}
+
+/// Where the points that are added make the uniform grid the better one.
+void sequencing_warning(Ui& ui, const Workbench& now) {
+    const std::string remark = project::sequencing_remark(now.plan->project, now.plan->plan);
+    if (!remark.empty()) {
+        (void)widgets::banner(ui, "uniform_better", {widgets::Severity::warning, as_sentence(remark), {}});
     }
 }
 
@@ -200,6 +213,7 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  "deg",
                  "The largest turn of a rotary axis within one move of a track");
         gain_text(ui, now);
+        sequencing_warning(ui, now);
     }
 }
 

@@ -191,6 +191,16 @@ TEST(CutStudy, OfAPointIsNone) {
     EXPECT_THROW((void)study_cut(plan, project, {}), Error);
 }
 
+/// The formula says 100 mm of tracks 40 mm apart, where nothing was cut: no ridge is higher than the ball.
+TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
+    ToolInput narrow = ball;
+    narrow.diameter_mm = 4.0;
+    const CutStudy& found = *studied(plane(5, 2), narrow).cut;
+    EXPECT_NEAR(found.scallops.by_formula, 1600.0 / (8.0 * 2.0), 1e-9);
+    EXPECT_GT(found.scallops.not_cut, 0.8);
+    EXPECT_LE(found.scallops.max, narrow.diameter_mm);
+}
+
 /// Tracks with points that the sequencing put in: the gap is still that of the tracks.
 TEST(CutStudy, MeasuresTheGapBetweenTracksOfDifferentPoints) {
     Project project = plane(5, 11);

@@ -9,7 +9,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace millwright::project {
 namespace {
@@ -152,6 +154,31 @@ TEST_F(PipelineTest, ACancelledRequestCanBeMadeAgain) {
     pipeline.request(sample("two-bell", 5));
     pipeline.wait_idle();
     EXPECT_TRUE(pipeline.latest()->exact);
+}
+
+TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
+    std::mutex mutex;
+    std::vector<grid::ImproverStatus> uniform;
+    Pipeline* told = nullptr;
+    Pipeline pipeline(folders, [&] {
+        const std::scoped_lock lock(mutex);
+        const auto plan = told->latest();
+        if (plan && plan->plan.uniform) {
+            uniform.push_back(plan->plan.uniform->outcome.status);
+        }
+    });
+    told = &pipeline;
+    pipeline.request(sample("dome", 6));
+    pipeline.wait_idle();
+    const std::scoped_lock lock(mutex);
+    ASSERT_GE(uniform.size(), 2U);
+    EXPECT_EQ(uniform.front(), grid::ImproverStatus::running);
+    EXPECT_EQ(uniform.back(), grid::ImproverStatus::converged);
+    const auto plan = pipeline.latest();
+    ASSERT_TRUE(plan->exact);
+    for (const GridMethod method : compared_methods) {
+        EXPECT_NE(plan->plan.evaluation(method)->outcome.status, grid::ImproverStatus::running);
+    }
 }
 
 TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace millwright::project {
 namespace {
@@ -50,12 +51,13 @@ TEST(SetUpStudy, AProjectWithThePartThereCostsWhatWasFound) {
 
 TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {
     toolpath::SetUpMap map{
-        SetUpParameter::turn, SetUpParameter::c, {0.0, 1.5707963267948966}, {10.0, 20.0}, {}};
+        SetUpParameter::turn, SetUpParameter::c, {0.0, 1.5707963267948966}, {10.0, 20.0}, {}, {}};
     map.costs = {1.0, 2.0, 3.0, std::numeric_limits<double>::infinity()};
+    map.axis_max = {0.5235987755982988, 0.0, std::nullopt, std::nullopt};
     EXPECT_EQ(set_up_csv(map),
-              "turn_deg,c_mm,cost_mm\n"
-              "0.0000,10.0000,1.000000\n90.0000,10.0000,2.000000\n"
-              "0.0000,20.0000,3.000000\n90.0000,20.0000,\n");
+              "turn_deg,c_mm,cost_mm,axis_max_deg\n"
+              "0.0000,10.0000,1.000000,30.0000\n90.0000,10.0000,2.000000,0.0000\n"
+              "0.0000,20.0000,3.000000,\n90.0000,20.0000,,\n");
 }
 
 TEST(SetUpStudy, RefusesWhatMakesNoSenseAndCanBeCancelled) {

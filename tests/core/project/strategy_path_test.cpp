@@ -1,6 +1,8 @@
 #include "core/project/strategy_path.h"
 
 #include "core/base/error.h"
+#include "core/project/cut_remarks.h"
+#include "core/project/grids.h"
 #include "core/project/pipeline.h"
 #include "core/project/project_file.h"
 #include "core/project/report.h"
@@ -63,9 +65,8 @@ class StrategyOfAProject : public testing::TestWithParam<StrategyInput> {};
 TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBackground) {
     const Project project = sample(GetParam());
     const Plan plan = make_plan(project, folders, Progress());
-    const Evaluation& base = *plan.evaluation(program_grid(project));
     ASSERT_EQ(plan.program_path(project), plan.path);
-    EXPECT_EQ(contacts_of(*plan.path), contacts_by(strategy_settings(project), *plan.workpiece, base));
+    EXPECT_EQ(contacts_of(*plan.path), contacts_by(strategy_settings(project), *plan.workpiece, *plan.path));
     EXPECT_GT(plan.program_notes.cut_moves, 0);
     EXPECT_EQ(plan.path_time, plan.trajectory->duration());
     EXPECT_THAT(plan.listing->text, HasSubstr(strategy_text(project)));
@@ -161,8 +162,43 @@ TEST(StrategyPath, ASpiralFollowsTheGridThatIsMadeAnew) {
     project.grid.tracks.error_exponent = 6.0;
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_NE(contacts_of(*pipeline.latest()->plan.path), contacts_of(*before->plan.path));
-    EXPECT_EQ(pipeline.latest()->plan.path->outcome.grid, pipeline.latest()->plan.optimised->outcome.grid);
+    EXPECT_NE(pipeline.latest()->plan.path, before->plan.path);
+    EXPECT_NE(pipeline.latest()->plan.path->outcome.note, before->plan.path->outcome.note)
+        << "which has the figures over the grid that was refused";
+}
+
+/// Over the grid of the track optimiser its mean, its axis and the gap between its rounds were worse.
+TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
+    Project project = project_from_preset("two-bell");
+    project.grid.nu = project.grid.nv = 8;
+    project.grid.method = GridMethod::tracks;
+    project.toolpath.strategy = StrategyInput::spiral;
+    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    const Evaluation even =
+        evaluate(*plan.workpiece, plan.uniform->outcome, strategy_settings(project), report_sampling, {});
+    ASSERT_FALSE(keeps_grid(*plan.optimised, *plan.uniform)) << "else there is nothing to refuse";
+    EXPECT_FALSE(is_worse(*plan.path, even, plan.workpiece->machine));
+    EXPECT_LE(*plan.path->track_gap, 1.1 * *even.track_gap);
+    EXPECT_EQ(plan.path->outcome.status, grid::ImproverStatus::no_gain);
+    EXPECT_THAT(crossing_remark(project, plan), HasSubstr("than over the uniform grid"));
+    EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Uniform"));
+    project.grid.method = GridMethod::uniform;
+    const Plan plain = make_plan(project, folders, Progress(), Scope::program);
+    EXPECT_EQ(plain.path->closest.max, plan.path->closest.max);
+    EXPECT_EQ(crossing_remark(project, plain), "");
+}
+
+TEST(StrategyPath, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
+    Project project = project_from_preset("two-bell");
+    project.grid.nu = project.grid.nv = 8;
+    project.grid.method = GridMethod::tracks;
+    const Plan plain = make_plan(project, folders, Progress(), Scope::program);
+    EXPECT_EQ(sequencing_remark(project, plain), "");
+    project.sequencing.largest_step_deg = 20.0;
+    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    ASSERT_GT(plan.optimised->closest.axis_max, plan.uniform->closest.axis_max);
+    EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("axis "));
+    EXPECT_THAT(path_remarks(project, plan), testing::ElementsAre(HasSubstr("use the uniform grid.")));
 }
 
 TEST(StrategyPath, CancelStopsItAtOnce) {

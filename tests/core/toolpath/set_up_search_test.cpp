@@ -42,6 +42,20 @@ TEST(SetUpSearch, HalvesTheErrorOfADomeThatStoodFarFromTheAxis) {
         false);
     const auto moves = measure(there, Grid::uniform(20, 20), TrackDirection::along_v, grid::coarse);
     EXPECT_DOUBLE_EQ(grid::summary(moves).mean, found.best.cost);
+    ASSERT_TRUE(found.best.axis_max);
+    EXPECT_DOUBLE_EQ(grid::summary(moves).axis_max, *found.best.axis_max);
+    EXPECT_EQ(found.start.axis_max, cost.figures_at(found.start.place, {}).axis_max);
+}
+
+TEST(SetUpSearch, NoAxisDeviationWhereNoneIsMeasuredOrTheToolCannotTurn) {
+    const SetUpCost travel = cost_of("dome", "rotary-tilt-listing", 5, SetUpGoal::travel);
+    EXPECT_EQ(travel.figures_at(travel.start(), {}).axis_max, std::nullopt);
+    const SetUpCost upright = cost_of("dome", "router-xyz", 5);
+    const PlaceFigures there = upright.figures_at(upright.start(), {});
+    ASSERT_TRUE(std::isfinite(there.cost));
+    EXPECT_EQ(there.axis_max, std::nullopt);
+    const SetUpCost far = cost_of("dome", "rotary-tilt-listing", 5);
+    EXPECT_EQ(far.figures_at({1e5, 0.0, 0.0, 0.0}, {}), PlaceFigures{});
 }
 
 TEST(SetUpSearch, IsNeverWorseThanTheStart) {
@@ -82,7 +96,9 @@ TEST(SetUpSearch, AMapTellsWhatTheCostTells) {
     ASSERT_EQ(map.costs.size(), 9U);
     EXPECT_EQ(map.x, (std::vector{-10.0, 0.0, 10.0}));
     EXPECT_EQ(map.y, (std::vector{-20.0, 0.0, 20.0}));
-    EXPECT_EQ(map.costs[5], cost.at({0.0, 2.0, 10.0, 0.0}, {})) << "row y = 0, column x = 10";
+    const PlaceFigures there = cost.figures_at({0.0, 2.0, 10.0, 0.0}, {});
+    EXPECT_EQ(map.costs[5], there.cost) << "row y = 0, column x = 10";
+    EXPECT_EQ(map.axis_max[5], there.axis_max);
 }
 
 TEST(SetUpSearch, ATurnOnATurntableIsAShiftRoundItsAxis) {

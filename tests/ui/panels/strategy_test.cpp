@@ -102,6 +102,22 @@ TEST_F(Strategies, WhyConstantScallopLeavesMoreIsToldBesideWhatIsLeft) {
     EXPECT_FALSE(person_.sees("inspector/cut/left_higher")) << "a grid promises no height";
 }
 
+TEST_F(Strategies, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
+    person_.workshop().edit("Take the two bells",
+                            [](project::Project& p) {
+                                p = project::project_from_preset("two-bell");
+                                p.grid.nu = p.grid.nv = 8;
+                            },
+                            {});
+    person_.wait_idle();
+    EXPECT_FALSE(person_.sees("inspector/sequencing/uniform_better"));
+    person_.workshop().edit(
+        "Limit the turn", [](project::Project& p) { p.sequencing.largest_step_deg = 20.0; }, {});
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/sequencing/uniform_better"));
+    person_.keep("strategy-uniform-better");
+}
+
 TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
     person_.press_key(render::Key::f3);
     person_.frames();

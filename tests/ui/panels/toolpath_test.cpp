@@ -165,6 +165,25 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     EXPECT_NE(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
 }
 
+TEST_F(ToolpathWorkspace, ASearchInVainSaysThatNoPlaceIsInReach) {
+    person_.workshop().edit("Enlarge the part",
+                            [](project::Project& p) {
+                                for (geometry::ControlNet& net : p.surface.patches) {
+                                    for (Vec3& point : net.points) {
+                                        point *= 20.0;
+                                    }
+                                }
+                            },
+                            {});
+    fold({"error", "strategy", "tool", "setup", "set_up_search"});
+    person_.fill_in("inspector/set_up_search/places", "3");
+    person_.workshop().session().set_up.settings.nodes = 4;
+    person_.click("inspector/set_up_search/set_up_search");
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/set_up_search/out_of_reach"));
+    person_.keep("toolpath-set-up-out-of-reach");
+}
+
 TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
     fold({"error", "strategy", "tool", "setup", "set_up_search"});
     person_.workshop().session().set_up.settings.nodes = 5;

@@ -145,7 +145,7 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     }
 }
 
-TEST(Workbench, CallsAGridOldThatStandsInForTheNewOne) {
+TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     Person person;
     person.open(dome);
     auto now = person.workshop().look();
@@ -158,7 +158,7 @@ TEST(Workbench, CallsAGridOldThatStandsInForTheNewOne) {
     plan.plan.evaluation(GridMethod::elliptic) =
         std::make_shared<const project::Evaluation>(std::move(carried));
     now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
-    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (old grid)");
+    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (so far)");
 }
 
 TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {

@@ -1,0 +1,33 @@
+#include "ui/panels/watched_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace millwright::panels {
+namespace {
+
+using grid::ImproverStatus;
+using testing::HasSubstr;
+
+grid::ImproverState state(ImproverStatus status, double now, double best) {
+    grid::ImproverState state{.current = {}, .best = grid::Grid::uniform(2, 2)};
+    state.status = status;
+    state.now.mean = now;
+    state.of_best.mean = best;
+    return state;
+}
+
+TEST(WatchedText, CallsNothingKeptWhileItRuns) {
+    EXPECT_EQ(watched_labels(ImproverStatus::running).best, "Best so far");
+    EXPECT_EQ(watched_labels(ImproverStatus::running).change, "Change so far");
+    EXPECT_THAT(watched_note(state(ImproverStatus::running, 0.7, 0.67)), HasSubstr("not the last"));
+    EXPECT_EQ(watched_labels(ImproverStatus::converged).best, "To curve, kept");
+}
+
+TEST(WatchedText, SaysAtTheEndWhyAGridWithLessErrorIsNotKept) {
+    EXPECT_THAT(watched_note(state(ImproverStatus::no_gain, 0.6, 0.7)), HasSubstr("is not kept"));
+    EXPECT_EQ(watched_note(state(ImproverStatus::converged, 0.7, 0.7)), "");
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,98 @@
+#include "ui/panels/outline_rows.h"
+
+#include "core/base/text.h"
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
+#include "ui/actions/shown_grid.h"
+#include "ui/panels/numbers_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace millwright::panels {
+
+using actions::Workbench;
+using actions::Workspace;
+using project::GridMethod;
+
+namespace {
+
+std::string mean_text(const project::Evaluation& evaluation) {
+    return (actions::is_so_far(evaluation) ? "~ " : "") + length_text(evaluation.closest.mean) + " mm";
+}
+
+std::string error_of(const Workbench& now, GridMethod method) {
+    const auto evaluation = now.evaluation(method);
+    if (now.plan && now.plan->plan.failure(method)) {
+        return "failed";
+    }
+    if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
+        return "as uniform";
+    }
+    if (!evaluation) {
+        return "...";
+    }
+    return mean_text(*evaluation);
+}
+
+bool is_so_far(const project::Evaluation* evaluation) {
+    return evaluation != nullptr && actions::is_so_far(*evaluation);
+}
+
+/// Short enough for its column however many they are.
+std::string counted(std::ptrdiff_t count, std::string_view what) {
+    constexpr std::ptrdiff_t told_whole = 100'000;
+    return count < told_whole ? fmt::format("{} {}", count, what)
+                              : fmt::format("{} k {}", (count + 500) / 1000, what);
+}
+
+/// Grids that are always made, or that the program uses.
+bool is_listed(const Workbench& now, GridMethod method) {
+    return method == GridMethod::uniform || std::ranges::count(project::compared_methods, method) > 0 ||
+           now.evaluation(method) || project::program_grid(now.project) == method;
+}
+
+} // namespace
+
+std::vector<OutlineRow> outline_rows(const Workbench& now) {
+    const auto& net = now.project.surface.patches.front();
+    std::vector<OutlineRow> rows{
+        {"surface", "Surface", fmt::format("degree {},{}", net.rows - 1, net.columns - 1), Workspace::design},
+        {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
+    };
+    constexpr std::array<std::string_view, project::every_grid_method.size()> names{
+        "  Uniform", "  1-D", "  Elliptic", "  Harmonic", "  Tracks", "  Chain"};
+    for (const GridMethod method : project::every_grid_method) {
+        if (is_listed(now, method)) {
+            rows.push_back({std::string(project::row_of(project::grid_methods(), method).id),
+                            std::string(names[static_cast<std::size_t>(method)]),
+                            error_of(now, method),
+                            Workspace::toolpath,
+                            is_so_far(now.evaluation(method).get())});
+        }
+    }
+    const auto path = now.program_path();
+    if (project::has_own_path(now.project)) {
+        rows.push_back(
+            {"path", "  Path", path ? mean_text(*path) : "...", Workspace::toolpath, is_so_far(path.get())});
+    }
+    rows.push_back({"toolpath",
+                    "Toolpath",
+                    path ? counted(std::ssize(path->field.moves), "moves") : "...",
+                    Workspace::toolpath});
+    const auto program = now.program();
+    rows.push_back({"program",
+                    "Program",
+                    program ? counted(program->block_count(), "blocks") : "...",
+                    Workspace::program});
+    const auto trajectory = now.trajectory();
+    rows.push_back(
+        {"machine", "Machine", trajectory ? clock_time(trajectory->duration()) : "...", Workspace::machine});
+    return rows;
+}
+
+} // namespace millwright::panels
