@@ -11,10 +11,11 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr std::size_t outline_stride = 7; // of the mesh's points: the view need not be fitted to all of them
-constexpr int cells_of_trimmed = 200;     // of the mesh: its edge is covered by the drawn outline
-constexpr double lift = 0.004; // of the content's radius: outlines over the surface that they lie on
-constexpr int iso_lines = 10;  // intervals between lines of constant u and v
+constexpr std::size_t outline_stride =
+    7; // of the mesh's inner points: the view need not be fitted to all of them
+constexpr int cells_of_trimmed = 200; // of the mesh: its edge is covered by the drawn outline
+constexpr double lift = 0.004;        // of the content's radius: outlines over the surface that they lie on
+constexpr int iso_lines = 10;         // intervals between lines of constant u and v
 
 /// Cells of the mesh along a direction of that degree: a multiple of the intervals between lines, so that the
 /// lines lie on edges of the mesh.
@@ -25,6 +26,10 @@ int cells(int degree) {
 render::MeshVertex vertex(const geometry::Mesh& mesh, std::size_t k, bool flipped) {
     return {.position = render::to_float(mesh.positions[k]),
             .normal = (flipped ? -1.0F : 1.0F) * render::to_float(mesh.normals[k])};
+}
+
+bool on_border(const Vec2& uv) {
+    return (uv.array() <= 0.0 || uv.array() >= 1.0).any();
 }
 
 /// What belongs to the design, and what its trimmed patches have besides.
@@ -121,7 +126,7 @@ private:
         const auto base = static_cast<std::uint32_t>(vertices.size());
         for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(vertex(mesh, k, flipped_));
-            if (k % outline_stride == 0) {
+            if (k % outline_stride == 0 || on_border(mesh.parameters[k])) {
                 outline_.push_back(mesh.positions[k]);
             }
         }
