@@ -36,6 +36,8 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 namespace millwright::app {
 
@@ -67,6 +69,12 @@ int run(const Command& command) {
         fmt::print(stderr, "millwright: internal error: {}\n", failure.what());
     }
     return failed;
+}
+
+/// Of the command that the arguments came to: "millwright cordic asm".
+std::string command_words(const CLI::App& app) {
+    const std::vector<CLI::App*> next = app.get_subcommands();
+    return next.empty() ? app.get_name() : app.get_name() + " " + command_words(*next.front());
 }
 
 int main(int argc, char** argv) {
@@ -107,7 +115,8 @@ int main(int argc, char** argv) {
         if (parsed.get_exit_code() == 0) { // --help or --version
             return app.exit(parsed);
         }
-        fmt::print(stderr, "millwright: {}\nRun \"millwright --help\" for more.\n", parsed.what());
+        fmt::print(
+            stderr, "millwright: {}\nRun \"{} --help\" for more.\n", parsed.what(), command_words(app));
         return wrong_usage;
     }
     return run([&] {

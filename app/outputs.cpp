@@ -34,6 +34,23 @@ void expect_replaceable(const fs::path& place, const fs::path& source) {
 
 } // namespace
 
+OutputFolder::OutputFolder(const fs::path& folder) {
+    for (fs::path place = fs::absolute(folder).lexically_normal(); !fs::exists(place);
+         place = place.parent_path()) {
+        if (place.has_filename()) { // not for the slash at the end
+            made_.push_back(place);
+        }
+    }
+    make_folder(folder);
+}
+
+OutputFolder::~OutputFolder() {
+    for (const fs::path& place : made_) {
+        std::error_code not_empty;
+        fs::remove(place, not_empty);
+    }
+}
+
 void write_outputs(const fs::path& folder, const std::vector<OutputFile>& files, const fs::path& source) {
     make_folder(folder);
     try {

@@ -12,6 +12,20 @@ struct OutputFile {
     std::string bytes;
 };
 
+/// A folder for results that are still being made: it is made at once, so that one that cannot be is told
+/// before the work. What of it was made and got nothing is removed at the end, whatever that was.
+class OutputFolder {
+public:
+    /// Throws Error if it cannot be made or is no folder.
+    explicit OutputFolder(const std::filesystem::path& folder);
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+    ~OutputFolder();
+
+private:
+    std::vector<std::filesystem::path> made_; ///< the innermost first
+};
+
 /// Writes all beside their places first and renames them then. Throws Error, also where one of them would
 /// replace `source`, a file that they were made from; what was there before then stays.
 void write_outputs(const std::filesystem::path& folder,

@@ -4,7 +4,6 @@
 #include "app/outputs.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/cordic/accuracy.h"
 #include "core/cordic/experiments.h"
 
@@ -191,7 +190,7 @@ std::vector<cordic::NumberFormat> formats_of_bounds(const Options& options) {
 
 int accuracy(const Options& options) {
     const Interrupt interrupt;
-    make_folder(options.out);
+    const OutputFolder folder(options.out);
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const auto rows = measured_rows(options, progress);

@@ -6,7 +6,6 @@
 #include "app/posting.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -104,7 +103,7 @@ int cut(const Options& options) {
                     {},
                     "name a tool file with --tool");
     }
-    make_folder(options.out);
+    const OutputFolder folder(options.out);
     project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());

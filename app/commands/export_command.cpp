@@ -3,6 +3,7 @@
 #include "app/watched_work.h"
 #include "core/exchange/surface_file.h"
 #include "core/geometry/surface.h"
+#include "core/project/export_note.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -33,6 +34,9 @@ int export_design(const Options& options) {
         geometry::Surface(std::move(patches)), options.out, options.tolerance, work.progress());
     work.finish();
     fmt::print("{}\n", options.out);
+    if (const std::string note = project::left_out_text(opened.project.surface); !note.empty()) {
+        fmt::print("{}\n", note);
+    }
     return 0;
 }
 

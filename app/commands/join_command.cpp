@@ -53,13 +53,20 @@ ordered_json json_of(const project::JoinedSurface& joined) {
                          {"angle_before_deg", to_degrees(joined.before[n].angle)},
                          {"angle_deg", to_degrees(joined.after[n].angle)}});
     }
+    ordered_json open = ordered_json::array();
+    for (const auto& [seam, gap] : joined.open) {
+        open.push_back({{"patches", {seam.a.patch, seam.b.patch}},
+                        {"sides", {geometry::to_text(seam.a.side), geometry::to_text(seam.b.side)}},
+                        {"gap_mm", gap}});
+    }
     return {{"patches", joined.surface.patches.size()},
             {"largest_move_mm", joined.largest_move},
             {"rms_move_mm", joined.rms_move},
-            {"seams", std::move(seams)}};
+            {"seams", std::move(seams)},
+            {"open_seams", std::move(open)}};
 }
 
-void print(const project::JoinedSurface& joined) {
+void print(const project::JoinedSurface& joined, double gap_mm) {
     fmt::print("{:>18} {:>21} {:>23}\n", "seam", "gap mm", "angle deg");
     for (std::size_t n = 0; n < joined.seams.size(); ++n) {
         const geometry::Seam& seam = joined.seams[n];
@@ -73,6 +80,12 @@ void print(const project::JoinedSurface& joined) {
                    fixed(to_degrees(joined.before[n].angle), 3),
                    fixed(to_degrees(joined.after[n].angle), 3));
     }
+    for (const auto& [seam, gap] : joined.open) {
+        fmt::print("left open: {}, gap {} mm, where --gap is {}\n",
+                   project::seam_text(seam),
+                   fixed(gap, 4),
+                   fixed(gap_mm, 4));
+    }
     fmt::print("control points moved by at most {} mm, {} mm rms\n",
                fixed(joined.largest_move, 4),
                fixed(joined.rms_move, 4));
@@ -80,14 +93,15 @@ void print(const project::JoinedSurface& joined) {
 
 int join(const Options& options) {
     project::Project project = together(options.projects);
-    const project::JoinedSurface joined = project::joined_surface(
-        project.surface, options.continuity, options.gap_mm.value_or(project::usual_gap_mm(project.surface)));
+    const double gap_mm = options.gap_mm.value_or(project::usual_gap_mm(project.surface));
+    const project::JoinedSurface joined =
+        project::joined_surface(project.surface, options.continuity, gap_mm);
     project.surface = joined.surface;
     project::write_project(project, options.out);
     if (options.json) {
         fmt::print("{}\n", json_of(joined).dump(2));
     } else {
-        print(joined);
+        print(joined, gap_mm);
     }
     return 0;
 }

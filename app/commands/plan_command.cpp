@@ -3,7 +3,6 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/posting.h"
-#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -231,7 +230,7 @@ int plan(const Options& options) {
     const Interrupt interrupt;
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
-    make_folder(options.out);
+    const OutputFolder folder(options.out);
     const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());

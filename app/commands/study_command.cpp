@@ -9,7 +9,6 @@
 #include "app/study_pictures.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
@@ -146,7 +145,7 @@ void print_head() {
 /// Rank 0 of one or several. What came is written, whatever is missing.
 int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
-    make_folder(options.out);
+    const OutputFolder folder(options.out);
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     print_head();

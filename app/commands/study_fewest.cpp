@@ -3,7 +3,6 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
-#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
@@ -49,8 +48,9 @@ void print(const project::FewestPointsRow& row) {
 int fewest_points(const Options& options) {
     const Interrupt interrupt;
     const project::Folders folders{{}, project::assets_folder()};
+    std::optional<OutputFolder> folder;
     if (!options.out.empty()) {
-        make_folder(options.out);
+        folder.emplace(options.out);
     }
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());

@@ -7,7 +7,6 @@
 #include "app/ranks.h"
 #include "app/spread_set_up.h"
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/project_file.h"
@@ -77,7 +76,7 @@ SetUpStudy found_on(const Ranks& ranks,
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const toolpath::SetUpCost cost = project::set_up_cost(workpiece, settings);
     SpreadCosts spread(ranks, cost, [&](const std::string& line) { printer.say(line); });
-    make_folder(folder);
+    const OutputFolder until_written(folder);
     toolpath::SetUpCosts measure;
     if (ranks.size() > 1) {
         measure = [&](std::span<const toolpath::SetUpPlace> places, const Progress& part) {

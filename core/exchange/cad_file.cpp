@@ -14,12 +14,21 @@ Vec3 CadFace::position(const Vec2& at) const {
     return patches[static_cast<std::size_t>(row * columns + column)].position(at.x() - row, at.y() - column);
 }
 
-geometry::Trim CadFace::trim() const {
-    geometry::Trim trim;
+std::vector<geometry::Trim::Loop> CadFace::loops() const {
+    std::vector<geometry::Trim::Loop> all;
     if (trimmed()) {
-        trim.loops.push_back(outline);
-        trim.loops.insert(trim.loops.end(), holes.begin(), holes.end());
+        all.push_back(outline);
+        all.insert(all.end(), holes.begin(), holes.end());
     }
+    return all;
+}
+
+std::optional<geometry::Trim> CadFace::trim_of(int row, int column) const {
+    return trimmed() ? geometry::trim_in_square(loops(), Vec2(row, column)) : geometry::Trim{};
+}
+
+geometry::Trim CadFace::trim() const {
+    geometry::Trim trim{loops()};
     for (geometry::Trim::Loop& loop : trim.loops) {
         for (Vec2& corner : loop) {
             corner = {corner.x() / rows, corner.y() / columns};

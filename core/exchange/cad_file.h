@@ -7,6 +7,7 @@
 #include "core/geometry/trim.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct CadFace {
     Box3 box;                             ///< mm, of the face itself, not of its control points
 
     [[nodiscard]] bool trimmed() const { return !outline.empty(); }
+    /// Outline and holes; none where it is not trimmed.
+    [[nodiscard]] std::vector<geometry::Trim::Loop> loops() const;
+    /// What they leave of one patch, in its own parameters; nothing where it lies outside of them.
+    [[nodiscard]] std::optional<geometry::Trim> trim_of(int row, int column) const;
     /// At a place in [0, rows] x [0, columns].
     [[nodiscard]] Vec3 position(const Vec2& at) const;
     /// Outline and holes over [0,1]^2 of the whole face; nothing is cut off where it is not trimmed.

@@ -1,6 +1,9 @@
 #include "core/geometry/mesh.h"
 
 #include "core/base/error.h"
+#include "core/geometry/trimmed_square.h"
+
+#include <utility>
 
 namespace millwright::geometry {
 
@@ -16,6 +19,13 @@ Vec3 normal_or_nearby(const BezierPatch& patch, double u, double v, const Surfac
     return nearby.value_or(Vec3::UnitZ());
 }
 
+void add_point(Mesh& mesh, const BezierPatch& patch, double u, double v) {
+    const SurfaceDerivatives at = patch.derivatives(u, v);
+    mesh.positions.push_back(at.position);
+    mesh.normals.push_back(normal_or_nearby(patch, u, v, at));
+    mesh.parameters.emplace_back(u, v);
+}
+
 } // namespace
 
 Mesh tessellate(const BezierPatch& patch, int nu, int nv) {
@@ -23,12 +33,7 @@ Mesh tessellate(const BezierPatch& patch, int nu, int nv) {
     Mesh mesh;
     for (int i = 0; i <= nu; ++i) {
         for (int j = 0; j <= nv; ++j) {
-            const double u = static_cast<double>(i) / nu;
-            const double v = static_cast<double>(j) / nv;
-            const SurfaceDerivatives at = patch.derivatives(u, v);
-            mesh.positions.push_back(at.position);
-            mesh.normals.push_back(normal_or_nearby(patch, u, v, at));
-            mesh.parameters.emplace_back(u, v);
+            add_point(mesh, patch, static_cast<double>(i) / nu, static_cast<double>(j) / nv);
         }
     }
     for (int i = 0; i < nu; ++i) {
@@ -40,6 +45,16 @@ Mesh tessellate(const BezierPatch& patch, int nu, int nv) {
         }
     }
     return mesh;
+}
+
+TrimmedMesh tessellate(const BezierPatch& patch, const Trim& trim, int nu, int nv) {
+    TrimmedSquare square = trimmed_square(trim, nu, nv);
+    TrimmedMesh trimmed{.mesh = {}, .outside = std::move(square.outside)};
+    for (const Vec2& uv : square.places) {
+        add_point(trimmed.mesh, patch, uv.x(), uv.y());
+    }
+    trimmed.mesh.triangles = std::move(square.inside);
+    return trimmed;
 }
 
 } // namespace millwright::geometry

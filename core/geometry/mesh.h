@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/surface.h"
+#include "core/geometry/trim.h"
 
 #include <array>
 #include <vector>
@@ -17,5 +18,14 @@ struct Mesh {
 
 /// A mesh of (nu+1) x (nv+1) points at equal parameter steps, rows along u. Throws Defect if nu or nv < 1.
 [[nodiscard]] Mesh tessellate(const BezierPatch& patch, int nu, int nv);
+
+/// `mesh` has the triangles that the outlines leave, `outside` the others between the same points.
+struct TrimmedMesh {
+    Mesh mesh;
+    std::vector<std::array<int, 3>> outside;
+};
+
+/// The same with more points along the outlines, which edges of triangles follow (trimmed_square.h).
+[[nodiscard]] TrimmedMesh tessellate(const BezierPatch& patch, const Trim& trim, int nu, int nv);
 
 } // namespace millwright::geometry

@@ -31,6 +31,13 @@ struct Seam {
 /// seam at most, and no seam joins a patch to itself.
 [[nodiscard]] std::vector<Seam> seams_of(const std::vector<BezierPatch>& patches, double tolerance);
 
+/// The pairs of sides that face each other across a gap and are in none of `joined`, nearest first; a side is
+/// in one of them at most. The ends are no further apart than a quarter of what the two patches measure along
+/// the sides and across them, so that nothing but the gap has room between them, and the two patches do not
+/// go the same way from there (60 degrees or less), as the ends of a bent strip beside each other do.
+[[nodiscard]] std::vector<Seam> open_seams_of(const std::vector<BezierPatch>& patches,
+                                              const std::vector<Seam>& joined);
+
 /// How well two patches meet, at 65 places of the seam. mm, rad.
 struct SeamFigures {
     double gap = 0.0;   ///< largest distance of the two sides at the same parameter

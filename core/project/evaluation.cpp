@@ -3,6 +3,7 @@
 #include "core/project/planned_time.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/trimmed_path.h"
+#include "core/toolpath/turning_over.h"
 
 #include <algorithm>
 #include <array>
@@ -53,10 +54,9 @@ toolpath::SequencedPath path_of(const Workpiece& workpiece,
     const toolpath::Covering all{
         workpiece.patch, workpiece.machine, workpiece.tool, grid, workpiece.direction, workpiece.flipped};
     toolpath::Toolpath contacts =
-        toolpath::trimmed(workpiece.patch,
-                          workpiece.trim,
-                          toolpath::make_strategy(strategy)->contacts(all, progress.part(0.0, covering)),
-                          workpiece.flipped);
+        toolpath::make_strategy(strategy)->contacts(all, progress.part(0.0, covering));
+    toolpath::refuse_turning_over(workpiece.patch, workpiece.trim, contacts);
+    contacts = toolpath::trimmed(workpiece.patch, workpiece.trim, std::move(contacts), workpiece.flipped);
     toolpath::Toolpath path =
         toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));
     const bool consistent = workpiece.angle_mode == kinematics::AngleMode::consistent;

@@ -68,15 +68,6 @@ import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Pr
     return imported;
 }
 
-std::vector<geometry::Trim::Loop> loops_of(const CadFace& face) {
-    std::vector<geometry::Trim::Loop> loops;
-    if (face.trimmed()) {
-        loops.push_back(face.outline);
-        loops.insert(loops.end(), face.holes.begin(), face.holes.end());
-    }
-    return loops;
-}
-
 /// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
 /// more corners, because they need not stay straight.
 geometry::Trim::Loop
@@ -101,7 +92,7 @@ ImportedSurface fitted_face(const CadFace& face, const ImportChoice& choice, con
     take_fit(imported, exchange::fit_face(face, fit_settings(choice), progress));
     const geometry::ClosestPointSearch search(imported.fit->patch);
     geometry::Trim trim;
-    for (const geometry::Trim::Loop& loop : loops_of(face)) {
+    for (const geometry::Trim::Loop& loop : face.loops()) {
         progress.check();
         trim.loops.push_back(moved_onto(search, face, loop));
     }
@@ -115,12 +106,9 @@ ImportedSurface fitted_face(const CadFace& face, const ImportChoice& choice, con
 ImportedSurface face_as_it_is(const CadFace& face) {
     ImportedSurface imported;
     SurfaceInput& surface = imported.surface;
-    const std::vector<geometry::Trim::Loop> loops = loops_of(face);
     for (int row = 0; row < face.rows; ++row) {
         for (int column = 0; column < face.columns; ++column) {
-            const auto trim =
-                loops.empty() ? geometry::Trim{} : geometry::trim_in_square(loops, Vec2(row, column));
-            if (trim) {
+            if (const auto trim = face.trim_of(row, column)) {
                 surface.patches.push_back(
                     face.patches[static_cast<std::size_t>(row * face.columns + column)].net());
                 surface.trims.push_back(*trim);

@@ -21,6 +21,23 @@ std::vector<geometry::SeamFigures> figures_of(const std::vector<geometry::Bezier
     return figures;
 }
 
+std::vector<OpenSeam> open_seams(const std::vector<geometry::BezierPatch>& patches,
+                                 const std::vector<geometry::Seam>& joined) {
+    std::vector<OpenSeam> open;
+    for (const geometry::Seam& seam : geometry::open_seams_of(patches, joined)) {
+        open.push_back({.seam = seam, .gap = geometry::figures_of(patches, seam).gap});
+    }
+    return open;
+}
+
+[[noreturn]] void refuse(const std::vector<geometry::BezierPatch>& patches, double gap_mm) {
+    std::string message = fmt::format("no two patches have sides whose ends are within {:.4g} mm", gap_mm);
+    for (const OpenSeam& open : open_seams(patches, {})) {
+        message += fmt::format("; {} are up to {:.4g} mm apart", seam_text(open.seam), open.gap);
+    }
+    throw Error(message);
+}
+
 } // namespace
 
 double usual_gap_mm(const SurfaceInput& surface) {
@@ -33,17 +50,26 @@ double usual_gap_mm(const SurfaceInput& surface) {
     return share * smallest;
 }
 
+std::string seam_text(const geometry::Seam& seam) {
+    return fmt::format("{} {} - {} {}",
+                       seam.a.patch,
+                       geometry::to_text(seam.a.side),
+                       seam.b.patch,
+                       geometry::to_text(seam.b.side));
+}
+
 JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity continuity, double gap_mm) {
     const geometry::Surface design = surface_of(surface);
     const std::vector<geometry::BezierPatch>& patches = design.patches();
     JoinedSurface result;
     result.seams = geometry::seams_of(patches, gap_mm);
     if (result.seams.empty()) {
-        throw Error(fmt::format("no two patches have sides whose ends are within {:.4g} mm", gap_mm));
+        refuse(patches, gap_mm);
     }
     const geometry::Joined joined = geometry::joined(patches, result.seams, continuity);
     result.before = figures_of(patches, result.seams);
     result.after = figures_of(joined.patches, result.seams);
+    result.open = open_seams(joined.patches, result.seams);
     result.largest_move = joined.largest_move;
     result.rms_move = joined.rms_move;
     result.surface = surface;

@@ -4,14 +4,22 @@
 #include "core/geometry/patch_join.h"
 #include "core/project/project.h"
 
+#include <string>
 #include <vector>
 
 namespace millwright::project {
+
+/// Two sides that face each other across a gap too wide to be closed.
+struct OpenSeam {
+    geometry::Seam seam;
+    double gap = 0.0; ///< largest distance of the two sides at the same parameter, mm
+};
 
 struct JoinedSurface {
     SurfaceInput surface;
     std::vector<geometry::Seam> seams;
     std::vector<geometry::SeamFigures> before, after; ///< one a seam
+    std::vector<OpenSeam> open;                       ///< left as they were, nearest first
     double largest_move = 0.0;                        ///< of a control point, mm
     double rms_move = 0.0;
 };
@@ -20,8 +28,11 @@ struct JoinedSurface {
 /// diagonal of the smallest patch, mm.
 [[nodiscard]] double usual_gap_mm(const SurfaceInput& surface);
 
+/// "0 u = 1 - 1 v = 0": the patches with their sides.
+[[nodiscard]] std::string seam_text(const geometry::Seam& seam);
+
 /// Sides whose ends are at most `gap_mm` apart become one. Outlines of trimmed patches keep their parameters.
-/// Throws Error if there is no such pair of sides, and as geometry::joined does.
+/// Throws Error if there is no such pair of sides, naming what is left open, and as geometry::joined does.
 [[nodiscard]] JoinedSurface
 joined_surface(const SurfaceInput& surface, geometry::Continuity continuity, double gap_mm);
 

@@ -1,6 +1,6 @@
 #include "core/project/reference_mesh.h"
 
-#include "core/geometry/trim.h"
+#include "core/geometry/trimmed_square.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,6 @@ using exchange::TriangleMesh;
 
 constexpr int most_triangles = 300'000; // of all faces together: enough to be recognised
 constexpr int most_cells = 24;          // of a patch each way
-constexpr int most_trimmed_cells = 96;  // the same of a trimmed one, whose edge is a stair of them
 
 int cells_of_a_patch(const exchange::CadModel& model) {
     std::size_t patches = 0;
@@ -23,34 +22,21 @@ int cells_of_a_patch(const exchange::CadModel& model) {
         patches += face.patches.size();
     }
     const double each = 0.5 * most_triangles / static_cast<double>(std::max<std::size_t>(patches, 1));
-    return std::clamp(static_cast<int>(std::sqrt(each)), 1, most_trimmed_cells);
+    return std::clamp(static_cast<int>(std::sqrt(each)), 1, most_cells);
 }
 
-/// The triangles of one patch whose middle lies inside.
-void add_patch(
-    TriangleMesh& mesh, const CadFace& face, int row, int column, int cells, const geometry::Trim& trim) {
-    const geometry::BezierPatch& patch = face.patches[static_cast<std::size_t>(row * face.columns + column)];
+/// What lies inside.
+void add_patch(TriangleMesh& mesh,
+               const geometry::BezierPatch& patch,
+               const geometry::Trim& trim,
+               int cells) {
     const int base = static_cast<int>(mesh.points.size());
-    const auto share = [cells](double k) { return k / cells; };
-    for (int i = 0; i <= cells; ++i) {
-        for (int j = 0; j <= cells; ++j) {
-            mesh.points.push_back(patch.position(share(i), share(j)));
-        }
+    const geometry::TrimmedSquare square = geometry::trimmed_square(trim, cells, cells);
+    for (const Vec2& uv : square.places) {
+        mesh.points.push_back(patch.position(uv.x(), uv.y()));
     }
-    const auto inside = [&](double i, double j) {
-        return trim.contains({(row + share(i)) / face.rows, (column + share(j)) / face.columns});
-    };
-    for (int i = 0; i < cells; ++i) {
-        for (int j = 0; j < cells; ++j) {
-            const int a = base + i * (cells + 1) + j;
-            const int b = a + cells + 1;
-            if (inside(i + 2.0 / 3.0, j + 1.0 / 3.0)) {
-                mesh.triangles.push_back({a, b, b + 1});
-            }
-            if (inside(i + 1.0 / 3.0, j + 2.0 / 3.0)) {
-                mesh.triangles.push_back({a, b + 1, a + 1});
-            }
-        }
+    for (const auto& [a, b, c] : square.inside) {
+        mesh.triangles.push_back({base + a, base + b, base + c});
     }
 }
 
@@ -65,11 +51,12 @@ void add_faces_but(ReferenceMesh& reference,
         if (face.number == chosen) {
             continue;
         }
-        const geometry::Trim trim = face.trim();
         for (int row = 0; row < face.rows; ++row) {
             for (int column = 0; column < face.columns; ++column) {
-                add_patch(
-                    mesh, face, row, column, face.trimmed() ? cells : std::min(cells, most_cells), trim);
+                if (const auto trim = face.trim_of(row, column)) {
+                    const auto patch = static_cast<std::size_t>(row * face.columns + column);
+                    add_patch(mesh, face.patches[patch], *trim, cells);
+                }
             }
         }
         reference.faces.resize(mesh.triangles.size(), face.number);

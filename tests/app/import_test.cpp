@@ -25,6 +25,18 @@ protected:
     }
 };
 
+TEST_F(ImportCommand, AnExportTellsThatOutlinesStayBehind) {
+    if (run({"import", "assets/samples/cover.step", "--face", "3", "--out", path("cover.json")}).exit_code !=
+        0) {
+        GTEST_SKIP() << "built without Open CASCADE";
+    }
+    const Ended cover = run({"export", path("cover.json"), "--out", path("cover.stl")});
+    ASSERT_EQ(cover.exit_code, 0) << cover.err;
+    EXPECT_THAT(cover.out, HasSubstr("One patch is trimmed: the file has the whole patch"));
+    const Ended dome = run({"export", "assets/projects/dome.json", "--out", path("dome.stl")});
+    EXPECT_EQ(dome.out, path("dome.stl") + "\n");
+}
+
 TEST_F(ImportCommand, StepComesBackAsItWas) {
     const std::string file = exported("dome.step");
     const Ended ended = run({"import", file, "--out", path("back.json"), "--json"});

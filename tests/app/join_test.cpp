@@ -57,6 +57,26 @@ TEST_F(JoinCommand, ClosesTheGapAndTheEdge) {
     EXPECT_EQ(run({"plan", path("one.json"), "--out", path("plan")}).exit_code, 0);
 }
 
+TEST_F(JoinCommand, NamesTheSeamThatStaysOpen) {
+    const std::string a = strip("a", 0.0, 0.0, 0.0);
+    const std::string b = strip("b", 40.3, 0.0, 0.0);
+    const std::string c = strip("c", 85.3, 0.0, 0.0);
+    const Ended text = run({"join", a, b, c, "--out", path("one.json")});
+    ASSERT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("left open: 1 u = 1 - 2 u = 0, gap "));
+    const json told = json::parse(run({"join", a, b, c, "--out", path("one.json"), "--json"}).out);
+    ASSERT_EQ(told.at("open_seams").size(), 1U);
+    const json& open = told.at("open_seams")[0];
+    EXPECT_EQ(open.at("patches"), json({1, 2}));
+    EXPECT_EQ(open.at("sides"), json({"u = 1", "u = 0"}));
+    EXPECT_NEAR(open.at("gap_mm").get<double>(), 5.0, 0.5);
+    const Ended wider = run({"join", a, b, c, "--gap", "6", "--out", path("one.json"), "--json"});
+    EXPECT_TRUE(json::parse(wider.out).at("open_seams").empty());
+    const Ended none = run({"join", b, c, "--out", path("one.json")});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_THAT(none.err, HasSubstr("0 u = 1 - 1 u = 0 are up to 5 mm apart"));
+}
+
 TEST_F(JoinCommand, SaysWhatIsWrong) {
     const std::string a = strip("a", 0.0, 0.0, 0.0);
     const std::string far_away = strip("far", 400.0, 0.0, 0.0);

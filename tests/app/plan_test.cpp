@@ -35,6 +35,17 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     }
 }
 
+TEST(PlanCommand, LeavesNoEmptyFolderWhereItFails) {
+    const ScratchFolder scratch;
+    const fs::path project =
+        small_project(scratch.path(), "dome", "\"rotary-tilt-listing\"", "\"no-such-machine\"");
+    EXPECT_EQ(run({"plan", project, "--out", scratch / "new/out"}).exit_code, 1);
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+    fs::create_directory(scratch / "old");
+    EXPECT_EQ(run({"plan", project, "--out", scratch / "old"}).exit_code, 1);
+    EXPECT_TRUE(fs::exists(scratch / "old")) << "it was there before";
+}
+
 TEST(PlanCommand, ChoosesTheRotaryAxesForTheWholePath) {
     const ScratchFolder scratch;
     const fs::path project = small_project(scratch.path(), "two-bell");

@@ -55,6 +55,15 @@ TEST(Usage, WhatIsUnknownIsNamed) {
     expect_wrong_usage({"plan", dome, "--out", "x", "run", dome, "--driver", "virtual"}, "");
 }
 
+TEST(Usage, AFaultPointsToTheHelpOfItsOwnCommand) {
+    expect_wrong_usage({"import", "--list"}, "Run \"millwright import --help\" for more.");
+    expect_wrong_usage({"plan", dome}, "Run \"millwright plan --help\" for more.");
+    expect_wrong_usage({"cordic", "asm", "--wrong"}, "Run \"millwright cordic asm --help\" for more.");
+    expect_wrong_usage({"emulate", "grbl", "--tcp", "many"}, "Run \"millwright emulate grbl --help\"");
+    expect_wrong_usage({"--wrong"}, "Run \"millwright --help\" for more.");
+    expect_wrong_usage({dome, "more"}, "Run \"millwright --help\" for more.");
+}
+
 TEST(Usage, ASizeIsWidthTimesHeight) {
     for (const char* size :
          {"", "1280", "1280x", "x800", "1280x800x", "0x0", "-5x5", "99999x800", "1280 x 800", "axb"}) {

@@ -88,19 +88,31 @@ std::string seams_text(const project::JoinedSurface& joined) {
                        to_degrees(after.angle));
 }
 
+/// Empty if all are closed.
+std::string open_text(const project::JoinedSurface& joined, double gap_mm) {
+    std::string text;
+    for (const auto& [seam, gap] : joined.open) {
+        text += fmt::format(
+            "{} {} with a gap of {:.4f} mm", text.empty() ? "" : ",", project::seam_text(seam), gap);
+    }
+    return text.empty() ? text
+                        : fmt::format(" Left open, as more than {:.4f} mm are not closed:{}.", gap_mm, text);
+}
+
 void join(Hands& hands, geometry::Continuity continuity) {
     project::Project draft = hands.history.current();
-    const project::JoinedSurface joined =
-        project::joined_surface(draft.surface, continuity, project::usual_gap_mm(draft.surface));
+    const double gap_mm = project::usual_gap_mm(draft.surface);
+    const project::JoinedSurface joined = project::joined_surface(draft.surface, continuity, gap_mm);
     draft.surface = joined.surface;
     hands.history.commit(std::move(draft), "Join the patches");
     tell(hands.session,
-         widgets::Severity::good,
-         fmt::format("{} {} joined: {}. Control points moved by at most {:.4f} mm.",
+         joined.open.empty() ? widgets::Severity::good : widgets::Severity::warning,
+         fmt::format("{} {} joined: {}. Control points moved by at most {:.4f} mm.{}",
                      joined.seams.size(),
                      joined.seams.size() == 1 ? "seam" : "seams",
                      seams_text(joined),
-                     joined.largest_move));
+                     joined.largest_move,
+                     open_text(joined, gap_mm)));
 }
 
 } // namespace

@@ -13,9 +13,9 @@ WrittenSurface written(const SurfaceToWrite& what, const Progress& progress) {
     try {
         exchange::write_surface(*what.surface, what.file, tolerance_mm, progress);
     } catch (const Error& error) {
-        return {what.file, error.diagnostic()};
+        return {what.file, {}, error.diagnostic()};
     }
-    return {what.file, std::nullopt};
+    return {what.file, what.left_out, std::nullopt};
 }
 
 } // namespace

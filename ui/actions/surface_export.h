@@ -8,16 +8,19 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace millwright::actions {
 
 struct SurfaceToWrite {
     std::shared_ptr<const geometry::Surface> surface;
     std::filesystem::path file;
+    std::string left_out = {}; ///< what of the design the file does not have, for people
 };
 
 struct WrittenSurface {
     std::filesystem::path file;
+    std::string left_out;
     std::optional<Diagnostic> failure;
 };
 

@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/exchange/surface_file.h"
+#include "core/project/export_note.h"
 #include "core/project/plan.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/surface_export.h"
@@ -28,7 +29,10 @@ void Workshop::follow_import() {
         if (written->failure) {
             tell(session_, widgets::Severity::danger, to_text(*written->failure));
         } else {
-            tell(session_, widgets::Severity::good, "Surface written.", written->file.string());
+            tell(session_,
+                 written->left_out.empty() ? widgets::Severity::good : widgets::Severity::info,
+                 written->left_out.empty() ? "Surface written." : "Surface written. " + written->left_out,
+                 written->file.string());
         }
     }
     const auto now = import_->latest();
@@ -69,7 +73,8 @@ void Workshop::export_surface(const fs::path& file) {
     }
     export_->write(
         {std::make_shared<const geometry::Surface>(project::surface_of(history_.current().surface)),
-         fs::absolute(file).lexically_normal()});
+         fs::absolute(file).lexically_normal(),
+         project::left_out_text(history_.current().surface)});
     session_.question = FileQuestion::none;
 }
 

@@ -98,6 +98,7 @@ void FilePanel::begin(const Workbench& now) {
     asked_ = now.session.question;
     source_ = Source::folder;
     named_.clear();
+    answered_ = false;
     enter(starting_folder(now, asked_));
     name_ = !about(asked_).first.empty() ? std::string(about(asked_).first)
             : now.document.file.empty()  ? now.project.name + ".json"
@@ -273,6 +274,9 @@ bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
 }
 
 void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (std::exchange(answered_, false)) {
+        ui.focus_field(ui.path("name"));
+    }
     const bool elsewhere = ui.was_typing() && !widgets::typed_text(ui, "name");
     name_ = ui.text_field("name", "File name", name_, ending_text(about(asked_))).value_or(name_);
     const std::string name = widgets::typed_text(ui, "name").value_or(name_);
@@ -291,6 +295,8 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
     // Enter replaces nothing, and is none of this dialog's while a folder is typed.
     const bool entered = ui.enter_pressed() && !elsewhere && allowed.allowed && replaced.empty();
     if (clicked || entered) {
+        answered_ = true;
+        ui.change_in(0.0);
         if (const auto answer = about(asked_).answer) {
             ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
         } else {

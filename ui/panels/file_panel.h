@@ -45,6 +45,7 @@ private:
     std::filesystem::path chosen_;               ///< of the entries; empty: none
     std::string name_;                           ///< typed for saving
     std::filesystem::path named_;                ///< by the button as one that it replaces; empty: none
+    bool answered_ = false; ///< a name, in the last frame: still being asked, it was refused
     ProjectPreview preview_;
 };
 

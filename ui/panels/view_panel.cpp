@@ -8,6 +8,7 @@
 #include "ui/panels/beside.h"
 #include "ui/panels/layer_list.h"
 #include "ui/panels/surface_tool.h"
+#include "ui/viewport/picture.h"
 
 #include <algorithm>
 #include <string>
@@ -165,12 +166,8 @@ viewport::Scene scene_of(const Workbench& now) {
         return scene;
     }
     const project::Plan& plan = now.plan->plan;
-    scene.surface = plan.surface;
-    scene.trims = plan.trims;
-    scene.workpiece = plan.workpiece;
-    scene.singular_points = plan.singular_points;
+    viewport::show_plan(scene, plan);
     scene.shown = now.shown();
-    scene.weight = plan.weight;
     scene.cut = plan.cut_of(now.project, scene.shown.get());
     scene.machine_solids = now.machine_solids;
     if (now.set_up && project::same_but_for_place(now.set_up->project, now.project)) {

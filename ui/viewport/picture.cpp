@@ -100,20 +100,23 @@ private:
 
 } // namespace
 
+void show_plan(Scene& scene, const project::Plan& plan) {
+    scene.surface = plan.surface;
+    scene.trims = plan.trims;
+    scene.workpiece = plan.workpiece;
+    scene.singular_points = plan.singular_points;
+    scene.weight = plan.weight;
+}
+
 Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
     const auto& chosen = plan.program_path(project);
-    return {.layers = layers_of(kind),
-            .surface = plan.surface,
-            .workpiece = plan.workpiece,
-            .singular_points = plan.singular_points,
-            .shown = chosen ? chosen : plan.uniform,
-            .start = plan.uniform,
-            .watched = nullptr,
-            .weight = plan.weight,
-            .cut = plan.cut,
-            .now = std::nullopt,
-            .selected = {},
-            .error = {}};
+    Scene scene;
+    scene.layers = layers_of(kind);
+    show_plan(scene, plan);
+    scene.shown = chosen ? chosen : plan.uniform;
+    scene.start = plan.uniform;
+    scene.cut = plan.cut;
+    return scene;
 }
 
 render::Picture render_view(const project::Project& project,

@@ -12,6 +12,9 @@ namespace millwright::viewport {
 /// Of the workpiece's machine; null: it has none.
 using MachineSolids = std::shared_ptr<const std::vector<geometry::SolidBody>>;
 
+/// Puts what every view has of a plan into `scene`: the surface with its outlines, workpiece, poles, weight.
+void show_plan(Scene& scene, const project::Plan& plan);
+
 /// All of `plan` as one view shows it at first, on the grid that the project chose.
 [[nodiscard]] Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind);
 

@@ -124,8 +124,8 @@ public:
     void keep_keys_from_widgets();
     /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
     void focus_pane(std::string_view path);
-    /// Gives the keyboard to the field of that path when it is drawn next, soon; until then letters are meant
-    /// for it.
+    /// Gives the keyboard to the field of that path when it is drawn next, soon, with all of its text
+    /// selected; until then letters are meant for it.
     void focus_field(std::string_view path);
 
     // ---- panes and order (panes.cpp)

@@ -56,6 +56,62 @@ TEST(PatchJoin, FindsTheSidesThatBelongTogether) {
     EXPECT_TRUE(seams_of(patches, 1e-6).empty());
 }
 
+TEST(PatchJoin, ASideThatFacesAnotherAcrossAGapIsAnOpenSeam) {
+    // 10 wide and high each; the third one is 1.5 away from the second.
+    const std::vector row{wavy(4, 4, {0, 0}, 1.0, 0.0, 1),
+                          wavy(4, 4, {10, 0}, 1.0, 0.0, 1),
+                          turned(wavy(4, 4, {21.5, 0}, 1.0, 0.0, 1))};
+    const auto joined = seams_of(row, 0.5);
+    ASSERT_EQ(joined.size(), 1U);
+    const auto open = open_seams_of(row, joined);
+    ASSERT_EQ(open.size(), 1U);
+    EXPECT_EQ(open[0].a, (PatchSide{1, Side::u_end}));
+    EXPECT_EQ(open[0].b, (PatchSide{2, Side::v_start}));
+    EXPECT_TRUE(open[0].reversed);
+    EXPECT_GE(figures_of(row, open[0]).gap, 1.5);
+    EXPECT_TRUE(open_seams_of(row, seams_of(row, 3.0)).empty()) << "joined sides are not open";
+    EXPECT_EQ(open_seams_of(row, {}).size(), 2U);
+}
+
+TEST(PatchJoin, SidesWithMoreThanAGapBetweenThemAreNoOpenSeam) {
+    const std::vector far{wavy(4, 4, {0, 0}, 1.0, 0.0, 1), wavy(4, 4, {16, 0}, 1.0, 0.0, 1)};
+    EXPECT_TRUE(open_seams_of(far, {}).empty());
+    // The outer sides of three narrow strips are nearer to each other than they are long.
+    const std::vector strips{
+        wavy(4, 4, {0, 0}, 0.1, 0.0, 1), wavy(4, 4, {1, 0}, 0.1, 0.0, 1), wavy(4, 4, {2, 0}, 0.1, 0.0, 1)};
+    const auto joined = seams_of(strips, 0.01);
+    ASSERT_EQ(joined.size(), 2U);
+    EXPECT_TRUE(open_seams_of(strips, joined).empty());
+    // One over the other: both go the same way from the sides that are near.
+    ControlNet above = far.front().net();
+    for (Vec3& point : above.points) {
+        point.z() += 2.0;
+    }
+    EXPECT_TRUE(open_seams_of({far.front(), BezierPatch(above)}, {}).empty());
+}
+
+TEST(PatchJoin, TheLastSeamOfARingIsNamedWhereItStaysOpen) {
+    std::vector<BezierPatch> ring;
+    constexpr int count = 4;
+    for (int k = 0; k < count; ++k) { // 3 mm short of a whole turn on a radius of 20
+        ControlNet net = ControlNet::sized(4, 2);
+        for (int i = 0; i < 4; ++i) {
+            const double angle = (k + i / 3.0) / count * (2.0 * 3.141592653589793 - 3.0 / 20.0);
+            for (int j = 0; j < 2; ++j) {
+                net.point(i, j) = {20.0 * std::cos(angle), 20.0 * std::sin(angle), 15.0 * j};
+            }
+        }
+        ring.emplace_back(net);
+    }
+    const auto joined = seams_of(ring, 1.0);
+    ASSERT_EQ(joined.size(), 3U);
+    const auto open = open_seams_of(ring, joined);
+    ASSERT_EQ(open.size(), 1U);
+    EXPECT_EQ(open[0].a, (PatchSide{0, Side::u_start}));
+    EXPECT_EQ(open[0].b, (PatchSide{3, Side::u_end}));
+    EXPECT_NEAR(figures_of(ring, open[0]).gap, 3.0, 0.01);
+}
+
 TEST(PatchJoin, TangentsAcrossTheSeamAreOneByDifferences) {
     const std::vector patches{wavy(4, 4, {0, 0}, 1.0, 0.4, 3), wavy(5, 6, {10, 0}, 0.7, 0.4, 4)};
     const auto seams = seams_of(patches, 2.0);

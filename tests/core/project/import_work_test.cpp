@@ -95,6 +95,34 @@ TEST(ImportedFace, ItsOutlineIsWhatIsCutOfIt) {
     EXPECT_FALSE(trim.contains({0.35, 0.25}));
 }
 
+/// Its edges were stairs.
+TEST(ReferenceMesh, OfATrimmedFaceEndsAtItsOutline) {
+    exchange::CadFace face;
+    face.rows = 2; // two squares of 10 mm side by side
+    for (const double x : {0.0, 10.0}) {
+        geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) {
+                net.point(i, j) = {x + 10.0 * i, 10.0 * j, 0.0};
+            }
+        }
+        face.patches.emplace_back(net);
+    }
+    face.outline = {{0.13, 0.0}, {1.71, 0.21}, {1.37, 0.93}, {0.29, 0.77}};
+    face.holes = {{{0.8, 0.4}, {1.23, 0.41}, {1.04, 0.59}}};
+    ImportSource source;
+    source.model = exchange::CadModel{.faces = {face}, .left_out = {}, .unit = "mm"};
+    const exchange::TriangleMesh mesh = reference_mesh(source, {}, nullptr, Progress()).rest;
+    double area = 0.0;
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        area += 0.5 * mesh.doubled_area(n).z();
+    }
+    const double outer =
+        0.5 * (0.13 * 0.21 + (1.71 * 0.93 - 1.37 * 0.21) + (1.37 * 0.77 - 0.29 * 0.93) - 0.13 * 0.77);
+    const double hole = 0.5 * (0.43 * 0.19 - 0.24 * 0.01);
+    EXPECT_NEAR(area, 100.0 * (outer - hole), 1e-9);
+}
+
 TEST(ImportedFace, AFittedPatchGetsTheOutlineToo) {
     exchange::CadFace face;
     const geometry::Surface sine = surface_of(project_from_preset("sine").surface);

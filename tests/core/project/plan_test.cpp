@@ -203,6 +203,13 @@ TEST(Plan, BadInputIsNamed) {
         }
     }
     EXPECT_THAT(failure_of(project), HasSubstr("the surface touches itself or passes through itself"));
+    for (int i = 0; i < 4; ++i) { // a sheet whose last row is in reverse order
+        for (int j = 0; j < 4; ++j) {
+            const double y = i == 3 ? 30.0 * (3 - j) : 30.0 * j;
+            project.surface.patches[0].point(i, j) = {30.0 * i, y, 10.0 + 3.0 * i};
+        }
+    }
+    EXPECT_THAT(failure_of(project), HasSubstr("the surface turns over on itself"));
     project = sample("dome", 6);
     project.machine.workpiece_offset = Vec3(0, 0, 4000);
     EXPECT_THAT(failure_of(project), HasSubstr("cannot be reached"));

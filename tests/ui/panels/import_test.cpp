@@ -278,6 +278,26 @@ TEST_F(Import, TheSurfaceIsExported) {
     person_.fill_in("dialogs/files/name", (person_.folder() / "out.dwg").string());
     EXPECT_TRUE(was_told("ends in .step"));
     EXPECT_FALSE(fs::exists(person_.folder() / "out.dwg"));
+    person_.frames(3);
+    person_.keep("export-refused");
+    EXPECT_EQ(person_.refusal("dialogs/files/save"), "") << "the name stands there still";
+    person_.type((person_.folder() / "out.obj").string()); // in its place, without a click
+    person_.press_key(render::Key::enter);
+    person_.wait_idle();
+    EXPECT_TRUE(fs::exists(person_.folder() / "out.obj"));
+}
+
+TEST_F(Import, AnExportTellsThatOutlinesStayBehind) {
+    person_.workshop().edit("Trim",
+                            [](project::Project& draft) {
+                                draft.surface.trims = {{{{{0.2, 0.2}, {0.8, 0.2}, {0.5, 0.8}}}}};
+                            },
+                            {});
+    person_.wait_idle();
+    person_.workshop().export_surface(person_.folder() / "out.ply");
+    person_.wait_idle();
+    EXPECT_TRUE(was_told("Surface written. One patch is trimmed: the file has the whole patch"));
+    person_.keep("export-trimmed");
 }
 
 TEST_F(Import, AnExportCanBeCancelledAndLeavesTheFile) {

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace millwright::panels {
 namespace {
 
@@ -58,6 +60,29 @@ TEST(JoinPatches, FromTheMenuAndBackByUndo) {
     person.press_key(render::Key::z, true);
     person.wait_idle();
     EXPECT_EQ(person.project().surface, before);
+}
+
+TEST(JoinPatches, TellsOfTheSeamThatStaysOpen) {
+    Person person({1280, 800});
+    person.open("assets/projects/dome.json");
+    person.workshop().edit("Three domes",
+                           [](project::Project& draft) {
+                               put_two_domes(draft);
+                               geometry::ControlNet third = draft.surface.patches.back();
+                               const double width = third.points.back().x() - third.points.front().x();
+                               for (Vec3& point : third.points) {
+                                   point.x() += 1.1 * std::abs(width);
+                               }
+                               draft.surface.patches.push_back(third);
+                           },
+                           {});
+    person.wait_idle();
+    person.click("menu/edit");
+    person.click("menu/edit/edit_join_tangent");
+    person.wait_idle();
+    person.keep("join-open");
+    EXPECT_THAT(person.workshop().session().log.back(),
+                AllOf(HasSubstr("1 seam joined"), HasSubstr("Left open"), HasSubstr("with a gap of ")));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "ui/render/convert.h"
 
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -396,6 +397,29 @@ TEST_F(LayersTest, AllOfTheOutlineIsInTheFittedView) {
             EXPECT_TRUE(seen->pixel.x > 0.0 && seen->pixel.x < 640.0 && seen->pixel.y > 0.0 &&
                         seen->pixel.y < 480.0);
             EXPECT_TRUE(seen->depth > 0.0 && seen->depth < 1.0);
+        }
+    }
+}
+
+/// Of a patch of degree 2 the corner nearest to the camera was cut off.
+TEST_F(LayersTest, TheViewIsFittedToEveryCornerOfASurface) {
+    geometry::ControlNet net = geometry::ControlNet::sized(3, 2);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            net.point(i, j) = {40.0 * i - 40.0, 60.0 * j - 30.0, i == 1 ? 20.0 : 0.0};
+        }
+    }
+    Scene scene;
+    scene.layers = {.floor = false, .origin = false};
+    scene.surface = std::make_shared<const geometry::Surface>(std::vector{geometry::BezierPatch(net)});
+    (void)look_at(scene);
+    for (const int i : {0, 2}) {
+        for (const int j : {0, 1}) {
+            const glm::dvec3 corner = render::to_glm(net.point(i, j));
+            EXPECT_TRUE(std::ranges::any_of(
+                view().outline(),
+                [&](const glm::dvec3& point) { return glm::distance(point, corner) < 1e-9; }))
+                << i << j;
         }
     }
 }

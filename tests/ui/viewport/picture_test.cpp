@@ -1,6 +1,7 @@
 #include "ui/viewport/picture.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/kinematics/machine_solids.h"
 #include "tests/ui/viewport/plans.h"
 #include "tests/ui/viewport/studio.h"
@@ -65,6 +66,31 @@ TEST(RenderView, TheMachineHasTheBodiesOfItsFile) {
         render_view(dome.project, dome.plan, ViewKind::machine, usual, Theme::dark, solids);
     EXPECT_GT(render::difference(boxes, bodies, 8).fraction, 0.02);
     test::keep(bodies, "picture-machine-bodies");
+}
+
+/// A round hole in the middle, as many corners as an imported circle has.
+std::vector<geometry::Trim> hole() {
+    geometry::Trim trim{{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, {}}};
+    for (int k = 0; k < 48; ++k) {
+        const double angle = 2.0 * pi * k / 48;
+        trim.loops.back().emplace_back(0.5 + 0.2 * std::cos(angle), 0.5 + 0.2 * std::sin(angle));
+    }
+    return {trim};
+}
+
+TEST(RenderView, LeavesOutWhatATrimmedPatchDoesNotHave) {
+    auto dome = test::planned(test::dome);
+    const glm::vec3 outline = render::view_colors(Theme::dark).accent;
+    for (int k = 0; k < view_kind_count; ++k) {
+        const auto kind = static_cast<ViewKind>(k);
+        dome.plan.trims = nullptr;
+        const Picture whole = render_view(dome.project, dome.plan, kind, small, Theme::dark);
+        dome.plan.trims = std::make_shared<const std::vector<geometry::Trim>>(hole());
+        const Picture cut = render_view(dome.project, dome.plan, kind, small, Theme::dark);
+        EXPECT_GT(render::difference(whole, cut, 8).fraction, 0.0005) << id(kind);
+        EXPECT_TRUE(shows(cut, outline)) << id(kind);
+        test::keep(cut, "picture-hole-" + std::string(id(kind)));
+    }
 }
 
 TEST(RenderView, ShowsTheColoursOfErrorsWithTheirLegend) {

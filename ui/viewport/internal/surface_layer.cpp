@@ -6,15 +6,19 @@
 #include "ui/viewport/internal/layers.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 namespace millwright::viewport {
 
 namespace {
 
-constexpr std::size_t outline_stride = 7; // of the mesh's points: the view need not be fitted to all of them
-constexpr int cells_of_trimmed = 200;     // of the mesh: its edge is covered by the drawn outline
-constexpr double lift = 0.004; // of the content's radius: outlines over the surface that they lie on
-constexpr int iso_lines = 10;  // intervals between lines of constant u and v
+constexpr std::size_t outline_stride =
+    7;                             // of the mesh's inner points: the view need not be fitted to all of them
+constexpr int outline_steps = 200; // of an outline along a whole side of the patch
+constexpr double lift = 0.004;     // of the content's radius: outlines over the surface that they lie on
+constexpr int iso_lines = 10;      // intervals between lines of constant u and v
 
 /// Cells of the mesh along a direction of that degree: a multiple of the intervals between lines, so that the
 /// lines lie on edges of the mesh.
@@ -25,6 +29,10 @@ int cells(int degree) {
 render::MeshVertex vertex(const geometry::Mesh& mesh, std::size_t k, bool flipped) {
     return {.position = render::to_float(mesh.positions[k]),
             .normal = (flipped ? -1.0F : 1.0F) * render::to_float(mesh.normals[k])};
+}
+
+bool on_border(const Vec2& uv) {
+    return (uv.array() <= 0.0 || uv.array() >= 1.0).any();
 }
 
 /// What belongs to the design, and what its trimmed patches have besides.
@@ -113,25 +121,26 @@ private:
                      const geometry::Trim& trim,
                      std::vector<render::MeshVertex>& vertices,
                      Triangles& triangles) {
-        const auto cells_for = [&](int degree) {
-            return trim.everything() ? cells(degree) : std::max(cells(degree), cells_of_trimmed);
-        };
-        const geometry::Mesh mesh =
-            geometry::tessellate(patch, cells_for(patch.degree_u()), cells_for(patch.degree_v()));
+        const auto [mesh, outside] =
+            geometry::tessellate(patch, trim, cells(patch.degree_u()), cells(patch.degree_v()));
         const auto base = static_cast<std::uint32_t>(vertices.size());
         for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(vertex(mesh, k, flipped_));
-            if (k % outline_stride == 0) {
+            if (k % outline_stride == 0 || on_border(mesh.parameters[k])) {
                 outline_.push_back(mesh.positions[k]);
             }
         }
-        for (const auto& [a, b, c] : mesh.triangles) {
-            const auto place = [&](int k) { return mesh.parameters[static_cast<std::size_t>(k)]; };
-            const Vec2 middle = (place(a) + place(b) + place(c)) / 3.0;
-            auto& those = trim.contains(middle) ? triangles.inside : triangles.outside;
-            those.push_back(base + static_cast<std::uint32_t>(a));
-            those.push_back(base + static_cast<std::uint32_t>(flipped_ ? c : b));
-            those.push_back(base + static_cast<std::uint32_t>(flipped_ ? b : c));
+        append_triangles(mesh.triangles, base, triangles.inside);
+        append_triangles(outside, base, triangles.outside);
+    }
+
+    void append_triangles(const std::vector<std::array<int, 3>>& triangles,
+                          std::uint32_t base,
+                          std::vector<std::uint32_t>& corners) const {
+        for (const auto& [a, b, c] : triangles) {
+            corners.push_back(base + static_cast<std::uint32_t>(a));
+            corners.push_back(base + static_cast<std::uint32_t>(flipped_ ? c : b));
+            corners.push_back(base + static_cast<std::uint32_t>(flipped_ ? b : c));
         }
     }
 
@@ -142,7 +151,7 @@ private:
             for (std::size_t n = 0; n < loop.size(); ++n) {
                 const Vec2& a = loop[n];
                 const Vec2& b = loop[n + 1 == loop.size() ? 0 : n + 1];
-                const int steps = 1 + static_cast<int>(cells_of_trimmed * (b - a).norm());
+                const int steps = 1 + static_cast<int>(outline_steps * (b - a).norm());
                 append(lines, on_surface(patch, a, b, steps));
             }
         }

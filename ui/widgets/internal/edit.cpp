@@ -173,7 +173,7 @@ std::optional<std::string> follow(Ui& ui, const EditBox& box, const Typed& typed
 
 std::string text_now(Ui& ui, const EditBox& box) {
     const Ui::State& state = ui.state();
-    if (state.edit.path == box.path) {
+    if (state.edit.path == box.path && !state.edit.called) {
         return state.edit.text;
     }
     const auto draft = state.drafts.find(box.path);

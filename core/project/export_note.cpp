@@ -1,0 +1,23 @@
+#include "core/project/export_note.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::project {
+
+std::string left_out_text(const SurfaceInput& surface) {
+    const auto trimmed =
+        std::ranges::count_if(surface.trims, [](const geometry::Trim& trim) { return !trim.everything(); });
+    if (trimmed == 0) {
+        return {};
+    }
+    return trimmed == 1
+               ? std::string(
+                     "One patch is trimmed: the file has the whole patch, without its outline and holes.")
+               : fmt::format(
+                     "{} patches are trimmed: the file has whole patches, without their outlines and holes.",
+                     trimmed);
+}
+
+} // namespace millwright::project

@@ -1,0 +1,75 @@
+#include "core/toolpath/turning_over.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+namespace millwright::toolpath {
+
+namespace {
+
+constexpr int halvings = 26; // to 1.5e-8 of a move: what turns within that flips
+
+[[noreturn]] void refuse(const Vec2& a, const Vec2& b, const Vec2& at) {
+    throw Error(fmt::format("the surface turns over on itself: between u {:.3f}, v {:.3f} and u {:.3f}, v "
+                            "{:.3f} its normal flips to the other side, at u {:.4f}, v {:.4f}",
+                            a.x(),
+                            a.y(),
+                            b.x(),
+                            b.y(),
+                            at.x(),
+                            at.y()),
+                {},
+                "a tool cuts from one side: look for rows of control points in the wrong order there, or "
+                "split the surface");
+}
+
+} // namespace
+
+std::optional<Vec2> flip_between(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b) {
+    const auto normal = [&](const Vec2& uv) { return patch.unit_normal(uv.x(), uv.y()); };
+    const auto opposed = [](const Vec3& n, const Vec3& m) { return n.dot(m) < 0.0; };
+    auto before = normal(a), after = normal(b);
+    if (!before || !after || !opposed(*before, *after)) {
+        return std::nullopt;
+    }
+    Vec2 low = a, high = b;
+    for (int k = 0; k < halvings; ++k) {
+        const Vec2 middle = 0.5 * (low + high);
+        const auto between = normal(middle);
+        if (!between) {
+            return middle;
+        }
+        if (opposed(*before, *between)) {
+            high = middle;
+            after = between;
+        } else if (opposed(*between, *after)) {
+            low = middle;
+            before = between;
+        } else {
+            return std::nullopt;
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+void refuse_turning_over(const geometry::BezierPatch& patch,
+                         const geometry::Trim& trim,
+                         const Toolpath& contacts) {
+    const auto& points = contacts.points;
+    for (std::size_t n = 1; n < points.size(); ++n) {
+        if (points[n - 1].normal.dot(points[n].normal) >= 0.0) {
+            continue;
+        }
+        const Vec2& a = points[n - 1].origin.uv;
+        const Vec2& b = points[n].origin.uv;
+        for (const auto& [from, to] : geometry::parts_inside(trim, a, b)) {
+            const Vec2 begin = a + from * (b - a), end = a + to * (b - a);
+            if (const auto at = flip_between(patch, begin, end)) {
+                refuse(begin, end, *at);
+            }
+        }
+    }
+}
+
+} // namespace millwright::toolpath

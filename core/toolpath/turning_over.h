@@ -1,0 +1,25 @@
+// Where a surface turns over along a path: its normal flips to the other side, so that a tool that cuts from
+// one side would have to come from below.
+#pragma once
+
+#include "core/geometry/bezier_patch.h"
+#include "core/geometry/trim.h"
+#include "core/toolpath/toolpath.h"
+
+#include <optional>
+
+namespace millwright::toolpath {
+
+/// A place of the straight way from `a` to `b` in the parameters at which the normal goes from one direction
+/// to one more than a right angle away without those between; nothing where it turns by and by, however fast
+/// the surface bends. Found by halving the way: what flips and flips back is missed.
+[[nodiscard]] std::optional<Vec2>
+flip_between(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b);
+
+/// Throws Error, naming the place, where the normal flips between two points of `contacts` that follow each
+/// other, as far as the way between them lies inside `trim`.
+void refuse_turning_over(const geometry::BezierPatch& patch,
+                         const geometry::Trim& trim,
+                         const Toolpath& contacts);
+
+} // namespace millwright::toolpath

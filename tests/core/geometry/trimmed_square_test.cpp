@@ -1,0 +1,136 @@
+#include "core/geometry/trimmed_square.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+namespace millwright::geometry {
+namespace {
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+Trim::Loop circle(const Vec2& middle, double radius, int corners = 48) {
+    Trim::Loop loop;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / corners;
+        loop.emplace_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    return loop;
+}
+
+Trim::Loop rectangle(double u0, double v0, double u1, double v1) {
+    return {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+}
+
+double area(const Trim::Loop& loop) {
+    double doubled = 0.0;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+        const Vec2& a = loop[n];
+        const Vec2& b = loop[n + 1 == loop.size() ? 0 : n + 1];
+        doubled += a.x() * b.y() - a.y() * b.x();
+    }
+    return 0.5 * std::abs(doubled);
+}
+
+double area(const TrimmedSquare& square, const Triangles& triangles) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : triangles) {
+        const Vec2& p = square.places[static_cast<std::size_t>(a)];
+        const Vec2 q = square.places[static_cast<std::size_t>(b)] - p;
+        const Vec2 r = square.places[static_cast<std::size_t>(c)] - p;
+        const double own = 0.5 * (q.x() * r.y() - q.y() * r.x());
+        EXPECT_GE(own, -1e-12) << "counterclockwise";
+        sum += own;
+    }
+    return sum;
+}
+
+/// Triangles meet edge to edge, and only on the border of the square is nothing behind an edge.
+void expect_no_cracks(const TrimmedSquare& square) {
+    std::set<std::pair<double, double>> places;
+    for (const Vec2& place : square.places) {
+        EXPECT_TRUE(places.insert({place.x(), place.y()}).second) << "one place, one number";
+    }
+    std::map<std::pair<int, int>, int> edges;
+    for (const Triangles* triangles : {&square.inside, &square.outside}) {
+        for (const auto& [a, b, c] : *triangles) {
+            for (const auto& edge : {std::pair{a, b}, {b, c}, {c, a}}) {
+                ++edges[edge];
+            }
+        }
+    }
+    for (const auto& [edge, count] : edges) {
+        EXPECT_EQ(count, 1);
+        const Vec2& a = square.places[static_cast<std::size_t>(edge.first)];
+        const Vec2& b = square.places[static_cast<std::size_t>(edge.second)];
+        const Vec2 middle = 0.5 * (a + b);
+        const bool on_border = std::min(middle.minCoeff(), 1.0 - middle.maxCoeff()) < 1e-12;
+        EXPECT_TRUE(on_border || edges.contains({edge.second, edge.first}))
+            << a.transpose() << " - " << b.transpose();
+    }
+}
+
+TEST(TrimmedSquare, LeavesTheAreaOfThePolygonsWithoutCracks) {
+    const Trim::Loop outer{{0.0, 0.0}, {1.0, 0.03}, {0.9, 0.95}, {0.42, 1.0}, {0.0, 0.7}};
+    const Trim::Loop round = circle({0.6, 0.4}, 0.213), tiny = circle({0.3, 0.5}, 0.004, 7);
+    const std::vector<std::pair<Trim, double>> cases{
+        {{{round}}, area(round)},
+        {{{outer, round}}, area(outer) - area(round)},
+        {{{outer, tiny}}, area(outer) - area(tiny)},
+        {{{rectangle(0.25, 0.5, 0.75, 1.0)}}, 0.25},
+        {{{rectangle(0.0, 0.0, 1.0, 1.0)}}, 1.0},
+        {{{rectangle(0.1, 0.1, 0.9, 0.9), rectangle(0.2, 0.2, 0.8, 0.8), circle({0.5, 0.5}, 0.1)}},
+         0.64 - 0.36 + area(circle({0.5, 0.5}, 0.1))}};
+    for (const auto& [trim, wanted] : cases) {
+        for (const auto& [nu, nv] : {std::pair{8, 8}, {1, 1}, {13, 5}, {40, 64}}) {
+            const TrimmedSquare square = trimmed_square(trim, nu, nv);
+            EXPECT_NEAR(area(square, square.inside), wanted, 1e-9) << nu << " x " << nv;
+            EXPECT_NEAR(area(square, square.outside), 1.0 - wanted, 1e-9) << nu << " x " << nv;
+            expect_no_cracks(square);
+        }
+    }
+}
+
+TEST(TrimmedSquare, EveryTriangleIsWhollyOnOneSide) {
+    const Trim trim{{rectangle(0.0, 0.0, 1.0, 1.0), circle({0.55, 0.45}, 0.31)}};
+    const TrimmedSquare square = trimmed_square(trim, 10, 10);
+    const auto expect_all = [&](const Triangles& triangles, bool inside) {
+        for (const auto& [a, b, c] : triangles) {
+            const auto place = [&](int n) { return square.places[static_cast<std::size_t>(n)]; };
+            const Vec2 middle = (place(a) + place(b) + place(c)) / 3.0;
+            for (const int n : {a, b, c}) {
+                const Vec2 beside = place(n) + 1e-6 * (middle - place(n));
+                EXPECT_EQ(trim.contains(beside), inside) << beside.transpose();
+            }
+        }
+    };
+    expect_all(square.inside, true);
+    expect_all(square.outside, false);
+}
+
+TEST(TrimmedSquare, WithoutLoopsIsAllInside) {
+    const TrimmedSquare square = trimmed_square({}, 3, 2);
+    EXPECT_EQ(square.places.size(), 12U);
+    EXPECT_EQ(square.inside.size(), 12U);
+    EXPECT_TRUE(square.outside.empty());
+}
+
+TEST(TrimmedSquare, TakesLoopsThatCrossThemselves) {
+    const Trim bow_tie{{{{0.1, 0.1}, {0.9, 0.9}, {0.9, 0.1}, {0.1, 0.9}}}};
+    const TrimmedSquare square = trimmed_square(bow_tie, 31, 31);
+    EXPECT_NEAR(area(square, square.inside), 0.32, 0.01);
+}
+
+TEST(TrimmedSquare, RefusesAMeshWithoutCells) {
+    EXPECT_THROW((void)trimmed_square({}, 0, 3), Defect);
+}
+
+} // namespace
+} // namespace millwright::geometry
