@@ -1,6 +1,7 @@
 #include "core/toolpath/body_clearance.h"
 
 #include "core/base/error.h"
+#include "core/toolpath/internal/corner_depth.h"
 
 #include <algorithm>
 
@@ -109,7 +110,12 @@ BodyClearance clearance_near(const geometry::BezierPatch& patch,
             break;
         }
     }
-    return {uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d};
+    const BodyClearance seen{uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d};
+    if (!(body.shape().flat > 0.0)) {
+        return seen;
+    }
+    const BodyClearance corner = corner_depth(patch, body, pose, uv);
+    return corner.distance < std::min(seen.distance, 0.0) ? corner : seen;
 }
 
 } // namespace millwright::toolpath

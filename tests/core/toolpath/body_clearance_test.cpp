@@ -48,6 +48,52 @@ TEST(BodyClearance, OverAPlaneIsTheHeightOfTheLowestPointOfTheBody) {
     }
 }
 
+TEST(BodyClearance, BelowAPlaneIsTheDepthOfTheLowestPointOfTheRim) {
+    std::mt19937 random(12);
+    const geometry::BezierPatch patch = plane();
+    for (const CutterShape& shape : {test::flat_end, test::bull_nose}) {
+        for (const double angle : {0.02, 0.1, 0.4}) {
+            const ToolPose pose{Vec3(3.0, -2.0, 0.5 * std::sin(angle)),
+                                leaning(random, Vec3::UnitZ(), angle)};
+            double lowest = 0.0;
+            for (const Vec3& p : test::surface_points(shape, pose.axis, 300, 1440)) {
+                lowest = std::min(lowest, (pose.tip + p).z());
+            }
+            const BodyClearance found = clearance_near(patch, test::body(shape), pose, {0.53, 0.47});
+            EXPECT_LT(lowest, -0.02);
+            EXPECT_NEAR(found.distance, lowest, 1e-4) << angle;
+        }
+    }
+}
+
+/// A flat that stands square in a valley of the radius R touches with its middle, and bites with its rim.
+TEST(BodyClearance, OfAFlatInAValleyIsTheBiteOfItsRim) {
+    constexpr double R = 30.0, r = 5.0;
+    const double s = std::sqrt(0.5); // the quarter of a circle as a rational quadratic
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 3);
+    for (int i = 0; i < 2; ++i) {
+        const double x = 80.0 * i - 40.0;
+        net.point(i, 0) = {x, -R * s, -R * s};
+        net.point(i, 1) = {x, 0.0, -R / s};
+        net.point(i, 2) = {x, R * s, -R * s};
+        net.weight(i, 1) = s;
+    }
+    const geometry::BezierPatch valley(net);
+    const Profile flat = test::body(test::flat_end);
+    const ToolPose square{Vec3(0.0, 0.0, -R), Vec3::UnitZ()};
+    EXPECT_NEAR(clearance_near(valley, flat, square, {0.5, 0.5}).distance, R - std::hypot(R, r), 1e-6);
+    const ToolPose clear{Vec3(0.0, 0.0, -R + 1.0), Vec3::UnitZ()};
+    EXPECT_GT(clearance_near(valley, flat, clear, {0.5, 0.5}).distance, 0.0);
+}
+
+/// Where the rim hangs over the edge of the patch there is nothing that it could bite.
+TEST(BodyClearance, OfARimBeyondTheEdgeIsNoBite) {
+    const Profile flat = test::body(test::flat_end);
+    const double lean = 0.1;
+    const ToolPose at_edge{Vec3(40.0 + 5.0, 0.0, 0.3), Vec3(std::sin(lean), 0.0, std::cos(lean))};
+    EXPECT_GT(clearance_near(plane(), flat, at_edge, {1.0, 0.5}).distance, 0.0);
+}
+
 TEST(BodyClearance, OfABallIsThatOfItsCentre) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> parameter(0.1, 0.9);

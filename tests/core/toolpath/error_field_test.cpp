@@ -89,6 +89,18 @@ TEST(ErrorField, IsKnownOfABallToo) {
     }
 }
 
+/// What bites with its rim does so all at once: between any two looks there may be more, but not less.
+TEST(ErrorField, MissesNothingOfACutterWithAFlatBottom) {
+    for (const CutterShape& shape : {test::flat_end, test::bull_nose}) {
+        const Case made("two-bell", "ac-table", 20, {.cutter = test::body(shape)});
+        const auto known = made.field(until_known).moves;
+        const auto brute = made.field(255).moves;
+        for (std::size_t n = 0; n < known.size(); ++n) {
+            EXPECT_LE(brute[n].closest, known[n].closest + 1e-3) << "move " << n;
+        }
+    }
+}
+
 TEST(ErrorField, IsTheSameBytesOnAnyNumberOfThreads) {
     const Case dome("dome", "rotary-tilt-listing", 10);
     set_thread_count(1);
