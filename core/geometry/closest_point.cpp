@@ -156,7 +156,9 @@ ClosestPoint ClosestPointSearch::closest(const Vec3& point, const Vec2& guess) c
     const ClosestPoint from_guess = closest_point_near(samples_->patch, point, guess);
     const Vec2 sample = samples_->nearest(point);
     constexpr double beside = 1.5 / Samples::side;
-    if ((sample - from_guess.parameters).cwiseAbs().maxCoeff() <= beside) {
+    const Vec3 at_sample = samples_->patch.position(sample.x(), sample.y());
+    if ((sample - from_guess.parameters).cwiseAbs().maxCoeff() <= beside &&
+        from_guess.distance <= (at_sample - point).norm()) {
         return from_guess;
     }
     const ClosestPoint from_samples = closest_point_near(samples_->patch, point, sample);

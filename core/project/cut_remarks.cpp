@@ -36,15 +36,15 @@ std::string way_out(int points, double off, double height) {
         fixed(off * square((points - 1) / most), 4));
 }
 
-/// "mean 0.095 against 0.087 mm, axis 9.3 against 4.0 deg" of what is larger in `a`; "" if nothing is.
+/// "mean 0.095 against 0.087 mm, axis 9.3 against 4.0 deg" of what is larger in `a`, as far as it is written;
+/// "" if nothing is.
 std::string larger_figures(const grid::ErrorSummary& a, const grid::ErrorSummary& b, bool turns) {
-    constexpr double rounding = 1e-9;
     std::vector<std::string> found;
     const auto compare =
         [&](std::string_view name, double of_a, double of_b, std::string_view unit, int decimals) {
-            if (of_a > of_b * (1.0 + rounding)) {
-                found.push_back(fmt::format(
-                    "{} {} against {} {}", name, fixed(of_a, decimals), fixed(of_b, decimals), unit));
+            const std::string a_text = fixed(of_a, decimals), b_text = fixed(of_b, decimals);
+            if (of_a > of_b && a_text != b_text) {
+                found.push_back(fmt::format("{} {} against {} {}", name, a_text, b_text, unit));
             }
         };
     compare("largest", a.max, b.max, "mm", 3);

@@ -4,9 +4,13 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/grids.h"
+#include "core/project/internal/failure.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
+
+#include <optional>
+#include <utility>
 
 namespace millwright::project {
 
@@ -76,6 +80,20 @@ std::string kept_note(const Project& project, const Evaluation& over, const Eval
                        figures_text(even, turns));
 }
 
+std::string not_made_note(const Project& project, const Diagnostic& reason) {
+    return fmt::format("The spiral cannot be made over the grid \"{}\" ({}); the uniform grid is kept.",
+                       row_of(grid_methods(), project.grid.method).label,
+                       reason.message);
+}
+
+/// Whether a spiral's path is better than that over the uniform grid, and does not leave more between its
+/// rounds.
+bool serves_better(const Evaluation& over, const Evaluation& even, const kinematics::MachineModel& machine) {
+    constexpr double much = 1.1; // what the cutter leaves between two rounds grows with the square
+    const bool apart = over.track_gap.value_or(0.0) > much * even.track_gap.value_or(0.0);
+    return !apart && !is_worse(over, even, machine);
+}
+
 } // namespace
 
 Evaluation path_evaluation(const Project& project,
@@ -89,17 +107,21 @@ Evaluation path_evaluation(const Project& project,
     if (!follows_nodes(project.toolpath.strategy) || keeps_grid(base, uniform)) {
         return evaluate(workpiece, base.outcome, settings, sampling, progress);
     }
-    Evaluation over = evaluate(workpiece, base.outcome, settings, sampling, progress.part(0.0, 0.5));
-    Evaluation even = evaluate(workpiece, uniform.outcome, settings, sampling, progress.part(0.5, 1.0));
-    constexpr double much = 1.1; // what the cutter leaves between two rounds grows with the square
-    const bool apart = over.track_gap.value_or(0.0) > much * even.track_gap.value_or(0.0);
-    if (!apart && !is_worse(over, even, workpiece.machine)) {
-        return over;
+    std::optional<Evaluation> over, even;
+    const auto over_failed = failure_of(
+        [&] { over = evaluate(workpiece, base.outcome, settings, sampling, progress.part(0.0, 0.5)); });
+    const auto even_failed = failure_of(
+        [&] { even = evaluate(workpiece, uniform.outcome, settings, sampling, progress.part(0.5, 1.0)); });
+    if (over_failed && even_failed) {
+        throw Error(*over_failed);
     }
-    const bool turns = !workpiece.machine.rotary_axes().empty();
-    even.outcome.status = grid::ImproverStatus::no_gain;
-    even.outcome.note = kept_note(project, over, even, turns);
-    return even;
+    if (even_failed || (over && serves_better(*over, *even, workpiece.machine))) {
+        return *std::move(over);
+    }
+    even->outcome.status = grid::ImproverStatus::no_gain;
+    even->outcome.note = over ? kept_note(project, *over, *even, !workpiece.machine.rotary_axes().empty())
+                              : not_made_note(project, *over_failed);
+    return *std::move(even);
 }
 
 } // namespace millwright::project

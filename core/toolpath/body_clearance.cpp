@@ -1,7 +1,7 @@
 #include "core/toolpath/body_clearance.h"
 
 #include "core/base/error.h"
-#include "core/toolpath/internal/corner_depth.h"
+#include "core/toolpath/internal/corner_bite.h"
 
 #include <algorithm>
 
@@ -110,12 +110,13 @@ BodyClearance clearance_near(const geometry::BezierPatch& patch,
             break;
         }
     }
-    const BodyClearance seen{uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d};
+    const BodyClearance seen{uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d, uv};
     if (!(body.shape().flat > 0.0)) {
         return seen;
     }
-    const BodyClearance corner = corner_depth(patch, body, pose, uv);
-    return corner.distance < std::min(seen.distance, 0.0) ? corner : seen;
+    const CornerBite corner = corner_bite(patch, body, pose, uv);
+    return corner.height < std::min(seen.distance, 0.0) ? BodyClearance{corner.parameters, corner.height, uv}
+                                                        : seen;
 }
 
 } // namespace millwright::toolpath

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace millwright::toolpath {
 
@@ -46,7 +47,7 @@ struct Off {
 Off off_surface(const Cut& cut, const geometry::ToolPose& pose, const Vec2& uv) {
     if (cut.path.tool.cutter) {
         const BodyClearance found = clearance_near(cut.patch, *cut.path.tool.cutter, pose, uv);
-        return {found.parameters, std::abs(found.distance)};
+        return {found.nearest, std::abs(found.distance)};
     }
     const geometry::ClosestPoint nearest = cut.search.closest(pose.tip, uv);
     return {nearest.parameters, nearest.distance};
@@ -82,26 +83,50 @@ Way way_of(const Cut& cut, std::size_t move) {
             is_flipped(cut, from)};
 }
 
-/// The largest curvature where the move begins, in its middle and where it ends, 1/mm.
-double curvature_under(const geometry::BezierPatch& patch, const Way& way) {
-    double largest = 0.0;
+/// How the surface bends under a move, the largest of where it begins, of its middle and of where it ends.
+struct Ground {
+    double curve = 0.0; ///< second derivative by t of the surface curve that is followed, mm
+    double along = 0.0; ///< the part of it that is normal to the surface
+    double most = 0.0;  ///< in any direction, 1/mm
+    double turn = 0.0;  ///< of its normal, from place to place, rad
+};
+
+Ground ground_under(const geometry::BezierPatch& patch, const Way& way) {
+    const Vec2 step = way.to - way.from;
+    Ground ground;
+    std::optional<Vec3> before;
     for (const double t : {0.0, 0.5, 1.0}) {
         const Vec2 uv = way.at(t);
-        if (const auto k = geometry::principal_curvatures(patch.derivatives(uv.x(), uv.y()))) {
-            largest = std::max({largest, std::abs(k->k1), std::abs(k->k2)});
+        const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
+        const auto normal = patch.unit_normal(at);
+        const auto k = geometry::principal_curvatures(at);
+        if (normal && k) {
+            const Vec3 bend = step.x() * step.x() * at.duu + 2.0 * step.x() * step.y() * at.duv +
+                              step.y() * step.y() * at.dvv;
+            ground.curve = std::max(ground.curve, bend.norm());
+            ground.along = std::max(ground.along, std::abs(bend.dot(*normal)));
+            ground.most = std::max({ground.most, std::abs(k->k1), std::abs(k->k2)});
+            ground.turn += before ? angle_between(*before, *normal) : 0.0;
+            before = normal;
         }
     }
-    return largest;
+    return ground;
 }
 
-/// The distance of a point that runs along a curve from a surface bends by no more than the curve does and
-/// the surface under it, by the square of the speed. The axis is compared with a normal that turns about as
-/// fast.
+/// The distance of a point on a curve from a surface bends by no more than the curve does and the surface
+/// under it: along the way, and in any direction as far as the curve leaves the way. A body turns about the
+/// point. The axis is compared with a normal that turns as fast as the machine does, or as the ground is
+/// bent.
 LookBend bend_of(const Cut& cut, const Way& way, const kinematics::StraightForward& motion, double length) {
-    constexpr double towards_the_centre = 2.0; // of curvature: 1 / (r - d) for 1 / r, and none was looked at
+    constexpr double between = 2.0; // places that were not looked at, and 1 / (r - d) for a curvature 1 / r
     const kinematics::Bend bend = motion.bend();
-    const double speed = length + 0.5 * bend.tip;
-    return {bend.tip + towards_the_centre * curvature_under(cut.patch, way) * speed * speed, 2.0 * bend.axis};
+    const Ground ground = ground_under(cut.patch, way);
+    const double aside = 0.5 * bend.tip; // of the speed, which is `length` on the way
+    const double under = ground.along + ground.most * aside * (2.0 * length + aside);
+    const double lever = cut.path.tool.cutter ? cut.path.tool.cutter->shape().radius : 0.0;
+    const double turn = ground.turn + ground.most * aside;
+    const double body = bend.tip + lever * bend.axis;
+    return {body + between * under, body + between * ground.curve, between * (bend.axis + turn * turn)};
 }
 
 MoveDeviation worst_of(const Cut& cut, std::size_t move, const std::vector<Look>& looks) {
@@ -179,8 +204,10 @@ ErrorField error_field(const geometry::BezierPatch& patch,
         const Way way = way_of(cut, n);
         const kinematics::StraightForward motion(machine, axes.positions[n], axes.positions[n + 1]);
         const auto look = [&](double t) { return look_at(cut, way, motion.at(t), t); };
-        if (!search_on) {
-            field.moves[n] = worst_of(cut, n, looks_at_times(look, sampling.times));
+        if (!search_on || toolpath.points[n + 1].reached_by == MoveKind::over) {
+            constexpr int where_nothing_is_cut = 1;
+            const int times = search_on ? where_nothing_is_cut : sampling.times;
+            field.moves[n] = worst_of(cut, n, looks_at_times(look, times));
             return;
         }
         const double length = (toolpath.points[n + 1].pose.tip - toolpath.points[n].pose.tip).norm();

@@ -29,8 +29,10 @@ struct ErrorField {
 /// When the true pose is compared inside each move.
 struct MoveSampling {
     /// At t = k / (times + 1), k = 1 ... times; 1 is the mid-point of the thesis. 0: as often and where it
-    /// takes to know the largest `closest`, ends included, to a thousandth and to 1 um at worst, and the
-    /// largest `axis` to a thousandth of a degree. `param` is then the largest of the same times.
+    /// takes to know the largest `closest`, ends included, to a thousandth and to 1 um at worst, the largest
+    /// `axis` to a thousandth of a degree and the largest `param` to a hundredth (1 to 10 um); with a cutter
+    /// as far as its local search finds the same place from look to look. A move over what is not cut is
+    /// looked at once.
     int times = 0;
 
     friend bool operator==(const MoveSampling&, const MoveSampling&) = default;

@@ -161,9 +161,10 @@ PlaceFigures SetUpCost::figures_at(const SetUpPlace& place, const Progress& prog
     const bool is_turned = !exactly_equal(place[3], 0.0);
     const geometry::BezierPatch patch =
         is_turned ? geometry::BezierPatch(turned(patch_.net(), place[3])) : patch_;
+    Toolpath contacts =
+        zigzag(patch, grid_, direction_, flipped_); // what is wrong with it is so at every place
     try {
-        const AxisPath axes =
-            sequence(machine, on_machine(machine, zigzag(patch, grid_, direction_, flipped_)));
+        const AxisPath axes = sequence(machine, on_machine(machine, std::move(contacts)));
         if (goal_ == SetUpGoal::travel) {
             return {linear_travel(machine, axes)};
         }

@@ -24,8 +24,8 @@ public:
     /// On the first of the chords that are equally near.
     [[nodiscard]] Nearest nearest(const Vec3& p) const;
 
-    /// Not below nearest(p).squared, and mostly just that: from `chord` along the curve as long as it comes
-    /// nearer.
+    /// Not below nearest(p).squared but for rounding, and mostly just that: from `chord` along the curve as
+    /// long as it comes nearer.
     [[nodiscard]] double squared_beside(const Vec3& p, std::size_t chord) const;
 
     /// At fraction `t` of the curve's parameters, 0 to 1.

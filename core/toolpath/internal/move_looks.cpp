@@ -3,6 +3,7 @@
 #include "core/base/units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -44,18 +45,25 @@ double largest(const std::vector<Look>& looks, Deviation of) {
     return found;
 }
 
+/// A deviation as far as it is known.
+struct Known {
+    Deviation of;
+    double bend;
+    double most; ///< the largest seen, and what may be above it
+};
+
 /// The looks with one in the middle of each stretch that may hide something; no more of them if none does.
 std::vector<Look>
 finer(std::vector<Look> looks, const LookBend& bend, const std::function<Look(double)>& look_at) {
-    const double most = largest(looks, &Look::closest);
-    const double known = most + closest_tolerance(most);
-    const double known_axis = largest(looks, &Look::axis) + axis_tolerance();
+    const double closest = largest(looks, &Look::closest), param = largest(looks, &Look::param);
+    const std::array known{Known{&Look::closest, bend.closest, closest + closest_tolerance(closest)},
+                           Known{&Look::param, bend.param, param + param_tolerance(param)},
+                           Known{&Look::axis, bend.axis, largest(looks, &Look::axis) + axis_tolerance()}};
     std::vector<Look> found;
     for (std::size_t n = 0; n + 1 < looks.size(); ++n) {
+        const auto hides = [&](const Known& k) { return may_hide(looks, n, k.of, k.bend, k.most); };
         found.push_back(looks[n]);
-        if (looks[n + 1].t - looks[n].t > shortest_stretch &&
-            (may_hide(looks, n, &Look::closest, bend.closest, known) ||
-             may_hide(looks, n, &Look::axis, bend.axis, known_axis))) {
+        if (looks[n + 1].t - looks[n].t > shortest_stretch && std::ranges::any_of(known, hides)) {
             found.push_back(look_at(0.5 * (looks[n].t + looks[n + 1].t)));
         }
     }
@@ -67,6 +75,11 @@ finer(std::vector<Look> looks, const LookBend& bend, const std::function<Look(do
 
 double closest_tolerance(double largest) {
     constexpr double share = 1e-3, least = 1e-4, most = 1e-3;
+    return std::clamp(share * largest, least, most);
+}
+
+double param_tolerance(double largest) {
+    constexpr double share = 1e-2, least = 1e-3, most = 1e-2;
     return std::clamp(share * largest, least, most);
 }
 

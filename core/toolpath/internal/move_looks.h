@@ -18,12 +18,15 @@ struct Look {
 /// How much a deviation can rise inside a stretch of the length h in t above its ends: h^2 / 8 times these.
 struct LookBend {
     double closest = 0.0; ///< mm
+    double param = 0.0;   ///< mm
     double axis = 0.0;    ///< rad
 };
 
 /// How exactly the largest `closest` of a move is to be known: a thousandth of it, and from 0.1 to 1 um.
 [[nodiscard]] double closest_tolerance(double largest);
-/// The same of `axis`, a thousandth of a degree.
+/// The same of `param`: a hundredth, and from 1 to 10 um.
+[[nodiscard]] double param_tolerance(double largest);
+/// The same of `axis`: a thousandth of a degree.
 [[nodiscard]] double axis_tolerance();
 
 /// In order of time, from `begin` to `end` (t = 0 and 1), at first at `parts` equal stretches. A stretch is

@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace millwright::toolpath {
 namespace {
 
@@ -66,6 +70,7 @@ void expect_what_brute_force_finds(const Case& made) {
     for (std::size_t n = 0; n < known.size(); ++n) {
         EXPECT_NEAR(known[n].closest, brute[n].closest, 1e-3) << "move " << n;
         EXPECT_NEAR(known[n].axis, brute[n].axis, from_degrees(2e-3)) << "move " << n;
+        EXPECT_NEAR(known[n].param, brute[n].param, 1e-2) << "move " << n;
     }
 }
 
@@ -74,6 +79,33 @@ TEST(ErrorField, IsKnownToAMicrometreAgainstBruteForce) {
     expect_what_brute_force_finds({"two-bell", "ac-table", 10}); // moves that turn by half a circle
     expect_what_brute_force_finds({"saddle", "bc-table-head", 9});
     expect_what_brute_force_finds({"sine", "tilted-c-table", 9});
+}
+
+geometry::BezierPatch plane_of_uneven_speed() {
+    geometry::ControlNet net = geometry::ControlNet::sized(4, 2);
+    const std::array x{0.0, 10.0, 90.0, 100.0};
+    for (int i = 0; i < 4; ++i) {
+        net.point(i, 0) = {x.at(static_cast<std::size_t>(i)), 0.0, 0.0};
+        net.point(i, 1) = {x.at(static_cast<std::size_t>(i)), 50.0, 0.0};
+    }
+    return geometry::BezierPatch(net);
+}
+
+/// The tip is on the plane all the time, and at the right place where it begins, in the middle and at the
+/// end.
+TEST(ErrorField, FindsTheParametricErrorWhereNoOtherIs) {
+    const geometry::BezierPatch patch = plane_of_uneven_speed();
+    const auto machine = test::machine("ac-table");
+    const Toolpath path = zigzag(patch, Grid::uniform(2, 2), TrackDirection::along_u, false);
+    const auto moves = error_field(patch, machine, path, sequence(machine, path), until_known, {}).moves;
+    double largest = 0.0;
+    for (int k = 0; k <= 10'000; ++k) {
+        const double t = 1e-4 * k;
+        largest = std::max(largest, std::abs(patch.position(t, 0.0).x() - 100.0 * t));
+    }
+    EXPECT_NEAR(moves[0].closest, 0.0, 1e-9);
+    EXPECT_GT(largest, 6.0);
+    EXPECT_NEAR(moves[0].param, largest, 1e-2);
 }
 
 /// The axis is compared with the normal of the point that the body is nearest to, which may jump.

@@ -3,9 +3,12 @@
 #include "core/base/units.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/support/grid_arrays.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace millwright::toolpath {
 namespace {
@@ -77,6 +80,65 @@ TEST(TrackGap, OfStraightTracksOnAPlaneIsTheirDistance) {
     const KinematicError error(geometry::BezierPatch(net), test::machine("ac-table"), false);
     EXPECT_NEAR(error.track_gap(Grid::uniform(11, 4), TrackDirection::along_v), 10.0, 1e-12);
     EXPECT_NEAR(error.track_gap(Grid::uniform(11, 4), TrackDirection::along_u), 20.0, 1e-12);
+}
+
+Grid bent_grid(int n) {
+    grid::NodeArray nodes = grid::displaced_square_grid(n, 0.3);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            nodes.at(i, j) /= n - 1;
+        }
+    }
+    return Grid(nodes);
+}
+
+/// Every point of a track against every chord of the next one, and back.
+double gap_by_brute_force(const geometry::BezierPatch& patch, const Grid& grid, TrackDirection direction) {
+    constexpr int steps = 4; // between two nodes, as track_gap() looks
+    const auto line = [&](int track) {
+        std::vector<Vec3> points;
+        const int nodes = grid.nodes_per_track(direction);
+        for (int k = 0; k + 1 < nodes; ++k) {
+            const Vec2 a = grid.track_node(direction, track, k), b = grid.track_node(direction, track, k + 1);
+            for (int s = 0; s < steps + (k + 2 == nodes ? 1 : 0); ++s) {
+                const Vec2 uv = a + (b - a) * s / steps;
+                points.push_back(patch.position(uv.x(), uv.y()));
+            }
+        }
+        return points;
+    };
+    const auto to_chord = [](const Vec3& p, const Vec3& a, const Vec3& b) {
+        const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        return (a + t * (b - a) - p).norm();
+    };
+    double gap = 0.0;
+    const auto widen = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+        for (const Vec3& p : from) {
+            double least = 1e300;
+            for (std::size_t n = 1; n < to.size(); ++n) {
+                least = std::min(least, to_chord(p, to[n - 1], to[n]));
+            }
+            gap = std::max(gap, least);
+        }
+    };
+    for (int t = 0; t + 1 < grid.track_count(direction); ++t) {
+        widen(line(t), line(t + 1));
+        widen(line(t + 1), line(t));
+    }
+    return gap;
+}
+
+TEST(TrackGap, OfCurvedTracksIsThatOfBruteForce) {
+    for (const char* surface : {"dome", "two-bell", "sine"}) {
+        const KinematicError error(test::patch(surface), test::machine("ac-table"), false);
+        const Grid grid = bent_grid(14);
+        for (const TrackDirection direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            EXPECT_NEAR(error.track_gap(grid, direction),
+                        gap_by_brute_force(test::patch(surface), grid, direction),
+                        1e-9)
+                << surface;
+        }
+    }
 }
 
 TEST(KinematicError, HasTheUniformFiguresOfTheDome) {

@@ -1,4 +1,4 @@
-#include "core/toolpath/internal/corner_depth.h"
+#include "core/toolpath/internal/corner_bite.h"
 
 #include "core/base/units.h"
 #include "core/geometry/closest_point.h"
@@ -30,7 +30,7 @@ public:
     }
 
     /// At the angle from the side that leans below the surface, rad.
-    [[nodiscard]] BodyClearance at(double angle) const {
+    [[nodiscard]] CornerBite at(double angle) const {
         const Vec3 point = middle_ + shape_.flat * (std::cos(angle) * towards_ + std::sin(angle) * across_);
         const geometry::ClosestPoint foot = geometry::closest_point_near(patch_, point, start_);
         const Vec3 up = up_at(foot.parameters).value_or(axis_);
@@ -55,24 +55,24 @@ private:
 
 } // namespace
 
-BodyClearance corner_depth(const geometry::BezierPatch& patch,
-                           const Profile& body,
-                           const geometry::ToolPose& pose,
-                           const Vec2& start) {
+CornerBite corner_bite(const geometry::BezierPatch& patch,
+                       const Profile& body,
+                       const geometry::ToolPose& pose,
+                       const Vec2& start) {
     const Corner corner(patch, body, pose, start);
     constexpr int sides = 12;
     constexpr double step = 2.0 * pi / sides;
     int deepest = 0;
-    double least = corner.at(0.0).distance;
+    double least = corner.at(0.0).height;
     for (int k = 1; k < sides; ++k) {
-        if (const double there = corner.at(k * step).distance; there < least) {
+        if (const double there = corner.at(k * step).height; there < least) {
             least = there;
             deepest = k;
         }
     }
     constexpr int bits = 20; // of the angle; of the depth twice as many
     std::uintmax_t steps = 60;
-    const auto depth = [&](double angle) { return corner.at(angle).distance; };
+    const auto depth = [&](double angle) { return corner.at(angle).height; };
     const double angle =
         boost::math::tools::brent_find_minima(depth, (deepest - 1) * step, (deepest + 1) * step, bits, steps)
             .first;
