@@ -14,7 +14,8 @@ namespace {
 using exchange::CadFace;
 using exchange::TriangleMesh;
 
-constexpr int most_cells = 24; // of a patch each way
+constexpr int most_triangles = 300'000; // of all faces together: enough to be recognised
+constexpr int most_cells = 24;          // of a patch each way
 
 /// How many triangles the patches that are still to come may have.
 class Allowance {
@@ -40,7 +41,7 @@ public:
 
 private:
     std::ptrdiff_t patches_ = 0;
-    std::ptrdiff_t triangles_ = most_reference_triangles;
+    std::ptrdiff_t triangles_ = most_triangles;
     int cells_ = 1;
 };
 
@@ -62,7 +63,8 @@ std::size_t corners_of(const geometry::Trim& trim) {
     return corners;
 }
 
-/// With as much of the outline as `most` triangles inside can follow, in that many cells each way or fewer.
+/// With as much of the outline as `most` triangles inside can follow, in that many cells each way or fewer;
+/// at last two triangles, the outline unheeded.
 geometry::TrimmedSquare square_of(geometry::Trim trim, int cells, std::ptrdiff_t most) {
     while (true) {
         const std::size_t corners = corners_of(trim);

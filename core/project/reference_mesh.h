@@ -18,12 +18,8 @@ struct ReferenceMesh {
     std::vector<int> faces; ///< number of the face that each triangle of `rest` is of; empty for a mesh
 };
 
-/// Of all faces of a body together: enough to be recognised.
-inline constexpr int most_reference_triangles = 300'000;
-
-/// Of the faces of a body that are not chosen only what lies inside their outlines, which lose corners where
-/// there would be too many triangles; at last such a patch is two triangles, the outline unheeded. `imported`
-/// is what was made by `choice`, or null before there was one. Throws Cancelled.
+/// Of the faces of a body that is not chosen only what lies inside their outlines. `imported` is what was
+/// made by `choice`, or null before there was one. Throws Cancelled.
 [[nodiscard]] ReferenceMesh reference_mesh(const ImportSource& source,
                                            const ImportChoice& choice,
                                            const ImportedSurface* imported,
