@@ -13,7 +13,8 @@ struct OutputFile {
 };
 
 /// A folder for results that are still being made: it is made at once, so that one that cannot be is told
-/// before the work. What of it was made and got nothing is removed at the end, whatever that was.
+/// before the work. Of it and its parents, those folders that were made and are empty at the end are removed,
+/// also where only a part could be made; files and links never are.
 class OutputFolder {
 public:
     /// Throws Error if it cannot be made or is no folder.
@@ -23,6 +24,8 @@ public:
     ~OutputFolder();
 
 private:
+    void remove_empty() const;
+
     std::vector<std::filesystem::path> made_; ///< the innermost first
 };
 

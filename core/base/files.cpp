@@ -129,7 +129,8 @@ void FileWriter::fail() const {
 void make_folder(const fs::path& folder) {
     std::error_code failure;
     fs::create_directories(folder, failure);
-    if (!fs::is_directory(folder)) {
+    std::error_code unknown; // as of a name too long, or below what may not be entered
+    if (!fs::is_directory(folder, unknown)) {
         const std::string why = failure ? failure.message() : reason(ENOTDIR);
         throw Error("cannot make the folder: " + why, folder);
     }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <numeric>
+#include <utility>
 
 namespace millwright::geometry {
 
@@ -36,48 +37,99 @@ struct PossibleSeam {
     double distance = 0.0; ///< of the ends, mm
 };
 
-/// Every pair of sides of two patches, both ways round.
-std::vector<PossibleSeam> pairs_of_sides(const std::vector<BezierPatch>& patches, int a, int b) {
-    std::vector<PossibleSeam> pairs;
-    for (const Side of_a : sides) {
-        for (const Side of_b : sides) {
-            for (const bool reversed : {false, true}) {
-                const Seam seam{{a, of_a}, {b, of_b}, reversed};
-                const auto apart = [&](double t) {
-                    return (point_on(patches, seam.a, t) - point_on(patches, seam.b, reversed ? 1.0 - t : t))
-                        .norm();
-                };
-                pairs.push_back({seam, std::max(apart(0.0), apart(1.0))});
+/// Where the sides of a patch end, and the box around that.
+struct Ends {
+    std::array<std::array<Vec3, 2>, sides.size()> of_side;
+    Box3 box;
+};
+
+std::vector<Ends> ends_of(const std::vector<BezierPatch>& patches) {
+    std::vector<Ends> ends(patches.size());
+    for (std::size_t n = 0; n < patches.size(); ++n) {
+        for (const Side side : sides) {
+            for (const std::size_t end : {0U, 1U}) {
+                const Vec2 uv = place_on(side, static_cast<double>(end));
+                const Vec3 at = patches[n].position(uv.x(), uv.y());
+                ends[n].of_side[static_cast<std::size_t>(side)][end] = at;
+                ends[n].box.extend(at);
             }
         }
     }
+    return ends;
+}
+
+/// Pairs of patches, the lower number first and in that order, whose sides can end within what both reach.
+std::vector<std::pair<int, int>> near_pairs(const std::vector<Ends>& ends, const std::vector<double>& reach) {
+    const auto at = [](const auto& of_patches, int n) -> const auto& {
+        return of_patches[static_cast<std::size_t>(n)];
+    };
+    Box3 all;
+    for (const Ends& of_patch : ends) {
+        all.extend(of_patch.box);
+    }
+    int axis = 0;
+    all.sizes().maxCoeff(&axis);
+    const auto start = [&](int n) { return at(ends, n).box.min()[axis]; };
+    std::vector<int> along(ends.size());
+    std::iota(along.begin(), along.end(), 0);
+    std::ranges::stable_sort(along, {}, start);
+    std::vector<std::pair<int, int>> pairs;
+    for (auto a = along.begin(); a != along.end(); ++a) {
+        const double end = at(ends, *a).box.max()[axis] + at(reach, *a);
+        for (auto b = a + 1; b != along.end() && start(*b) <= end; ++b) {
+            if (at(ends, *a).box.exteriorDistance(at(ends, *b).box) <=
+                std::min(at(reach, *a), at(reach, *b))) {
+                pairs.push_back(std::minmax(*a, *b));
+            }
+        }
+    }
+    std::ranges::sort(pairs);
     return pairs;
 }
 
-/// Those for which `close` is true.
+/// Of every pair of sides of patches that are near enough, both ways round, those for which `close` is true.
 template <typename Close>
-std::vector<PossibleSeam> possible_seams(const std::vector<BezierPatch>& patches, Close close) {
+std::vector<PossibleSeam>
+possible_seams(const std::vector<BezierPatch>& patches, const std::vector<double>& reach, Close close) {
+    const std::vector<Ends> ends = ends_of(patches);
+    const auto ends_at = [&](const PatchSide& side) {
+        return ends[static_cast<std::size_t>(side.patch)].of_side[static_cast<std::size_t>(side.side)];
+    };
     std::vector<PossibleSeam> found;
-    const auto count = static_cast<int>(patches.size());
-    for (int a = 0; a < count; ++a) {
-        for (int b = a + 1; b < count; ++b) {
-            std::ranges::copy_if(pairs_of_sides(patches, a, b), std::back_inserter(found), close);
+    for (const auto& [a, b] : near_pairs(ends, reach)) {
+        for (const Side of_a : sides) {
+            for (const Side of_b : sides) {
+                for (const bool reversed : {false, true}) {
+                    const Seam seam{{a, of_a}, {b, of_b}, reversed};
+                    const auto from = ends_at(seam.a), to = ends_at(seam.b);
+                    const double distance = std::max((from[0] - to[reversed ? 1 : 0]).norm(),
+                                                     (from[1] - to[reversed ? 0 : 1]).norm());
+                    if (close(PossibleSeam{seam, distance})) {
+                        found.push_back({seam, distance});
+                    }
+                }
+            }
         }
     }
     return found;
 }
 
 /// Nearest first, no side twice nor in `taken`.
-std::vector<Seam> nearest_first(std::vector<PossibleSeam> found, const std::vector<Seam>& taken) {
+std::vector<Seam>
+nearest_first(std::vector<PossibleSeam> found, const std::vector<Seam>& taken, std::size_t patches) {
+    std::vector<std::array<bool, sides.size()>> in_one(patches);
+    const auto is_in_one = [&](const PatchSide& side) -> bool& {
+        return in_one[static_cast<std::size_t>(side.patch)][static_cast<std::size_t>(side.side)];
+    };
+    for (const Seam& seam : taken) {
+        is_in_one(seam.a) = is_in_one(seam.b) = true;
+    }
     std::ranges::stable_sort(found, {}, &PossibleSeam::distance);
     std::vector<Seam> seams;
-    for (const auto& [next, distance] : found) {
-        const auto shares_a_side = [&next = next](const Seam& seam) {
-            const auto has = [&](const PatchSide& side) { return seam.a == side || seam.b == side; };
-            return has(next.a) || has(next.b);
-        };
-        if (std::ranges::none_of(seams, shares_a_side) && std::ranges::none_of(taken, shares_a_side)) {
-            seams.push_back(next);
+    for (const auto& [seam, distance] : found) {
+        if (!is_in_one(seam.a) && !is_in_one(seam.b)) {
+            is_in_one(seam.a) = is_in_one(seam.b) = true;
+            seams.push_back(seam);
         }
     }
     return seams;
@@ -149,17 +201,22 @@ std::string_view to_text(Side side) {
 
 std::vector<Seam> seams_of(const std::vector<BezierPatch>& patches, double tolerance) {
     const auto close = [tolerance](const PossibleSeam& pair) { return pair.distance <= tolerance; };
-    return nearest_first(possible_seams(patches, close), {});
+    const std::vector<double> reach(patches.size(), tolerance);
+    return nearest_first(possible_seams(patches, reach, close), {}, patches.size());
 }
 
 std::vector<Seam> open_seams_of(const std::vector<BezierPatch>& patches, const std::vector<Seam>& joined) {
     constexpr double share = 0.25;   // of the patches' lengths
     constexpr double same_way = 0.5; // cosine of 60 degrees
     std::vector<std::array<Surroundings, sides.size()>> around;
+    std::vector<double> reach;
     for (const BezierPatch& patch : patches) {
         auto& of_patch = around.emplace_back();
+        double& farthest = reach.emplace_back(0.0);
         for (const Side side : sides) {
-            of_patch[static_cast<std::size_t>(side)] = surroundings_of(patch, side);
+            const Surroundings& beside = of_patch[static_cast<std::size_t>(side)] =
+                surroundings_of(patch, side);
+            farthest = std::max(farthest, share * beside.least);
         }
     }
     const auto beside = [&](const PatchSide& side) -> const Surroundings& {
@@ -170,7 +227,7 @@ std::vector<Seam> open_seams_of(const std::vector<BezierPatch>& patches, const s
         const Surroundings& b = beside(pair.seam.b);
         return pair.distance <= share * std::min(a.least, b.least) && a.outwards.dot(b.outwards) < same_way;
     };
-    return nearest_first(possible_seams(patches, faces), joined);
+    return nearest_first(possible_seams(patches, reach, faces), joined, patches.size());
 }
 
 SeamFigures figures_of(const std::vector<BezierPatch>& patches, const Seam& seam) {

@@ -17,7 +17,8 @@ struct TrimmedSquare {
 };
 
 /// Two triangles for each of nu x nv equal cells, more where an outline comes through one. Loops that cross
-/// each other are followed to within the height of a cell. Throws Defect if nu or nv < 1.
+/// themselves or each other are followed exactly up to 1,000 crossings beside each other in a row of cells,
+/// beyond that to within the slices of the row. Throws Defect if nu or nv < 1.
 [[nodiscard]] TrimmedSquare trimmed_square(const Trim& trim, int nu, int nv);
 
 } // namespace millwright::geometry

@@ -32,8 +32,8 @@ std::vector<OpenSeam> open_seams(const std::vector<geometry::BezierPatch>& patch
 
 [[noreturn]] void refuse(const std::vector<geometry::BezierPatch>& patches, double gap_mm) {
     std::string message = fmt::format("no two patches have sides whose ends are within {:.4g} mm", gap_mm);
-    for (const OpenSeam& open : open_seams(patches, {})) {
-        message += fmt::format("; {} are up to {:.4g} mm apart", seam_text(open.seam), open.gap);
+    if (const std::vector<OpenSeam> open = open_seams(patches, {}); !open.empty()) {
+        message += "; left open: " + open_text(open);
     }
     throw Error(message);
 }
@@ -58,6 +58,16 @@ std::string seam_text(const geometry::Seam& seam) {
                        geometry::to_text(seam.b.side));
 }
 
+std::string open_text(const std::vector<OpenSeam>& open) {
+    constexpr std::size_t most = 8; // a sentence is read, a list of hundreds is not
+    std::string text;
+    for (std::size_t n = 0; n < std::min(open.size(), most); ++n) {
+        text += fmt::format(
+            "{}{} with a gap of {:.4f} mm", n == 0 ? "" : ", ", seam_text(open[n].seam), open[n].gap);
+    }
+    return open.size() > most ? text + fmt::format(", and {} more", open.size() - most) : text;
+}
+
 JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity continuity, double gap_mm) {
     const geometry::Surface design = surface_of(surface);
     const std::vector<geometry::BezierPatch>& patches = design.patches();
@@ -69,7 +79,8 @@ JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity c
     const geometry::Joined joined = geometry::joined(patches, result.seams, continuity);
     result.before = figures_of(patches, result.seams);
     result.after = figures_of(joined.patches, result.seams);
-    result.open = open_seams(joined.patches, result.seams);
+    result.open =
+        open_seams(patches, result.seams); // joining moves corners: what is open was too wide before
     result.largest_move = joined.largest_move;
     result.rms_move = joined.rms_move;
     result.surface = surface;

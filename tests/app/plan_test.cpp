@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <string>
 
 namespace millwright::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -44,6 +46,30 @@ TEST(PlanCommand, LeavesNoEmptyFolderWhereItFails) {
     fs::create_directory(scratch / "old");
     EXPECT_EQ(run({"plan", project, "--out", scratch / "old"}).exit_code, 1);
     EXPECT_TRUE(fs::exists(scratch / "old")) << "it was there before";
+}
+
+/// It was an internal error, and "new" stayed.
+TEST(PlanCommand, SaysThatAFolderCannotBeMadeAndLeavesNothingOfIt) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended ended = run({"plan", project, "--out", scratch / "new" / std::string(300, 'n')});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("cannot make the folder: "), Not(HasSubstr("internal error"))));
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+}
+
+TEST(PlanCommand, RemovesTheFolderThatItMadeWhereTheWayThereGoesUp) {
+    const ScratchFolder scratch;
+    const fs::path project =
+        small_project(scratch.path(), "dome", "\"rotary-tilt-listing\"", "\"no-such-machine\"");
+    fs::create_directories(scratch / "elsewhere/inner");
+    fs::create_directory_symlink(scratch / "elsewhere/inner", scratch / "link");
+    EXPECT_EQ(run({"plan", project, "--out", scratch / "link/../out"}).exit_code, 1);
+    EXPECT_TRUE(fs::is_empty(scratch / "elsewhere/inner"));
+    EXPECT_FALSE(fs::exists(scratch / "elsewhere/out")) << "where the link leads";
+    EXPECT_EQ(run({"plan", project, "--out", scratch / "new/../out"}).exit_code, 1);
+    EXPECT_FALSE(fs::exists(scratch / "new"));
+    EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
 TEST(PlanCommand, ChoosesTheRotaryAxesForTheWholePath) {

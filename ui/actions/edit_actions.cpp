@@ -90,13 +90,10 @@ std::string seams_text(const project::JoinedSurface& joined) {
 
 /// Empty if all are closed.
 std::string open_text(const project::JoinedSurface& joined, double gap_mm) {
-    std::string text;
-    for (const auto& [seam, gap] : joined.open) {
-        text += fmt::format(
-            "{} {} with a gap of {:.4f} mm", text.empty() ? "" : ",", project::seam_text(seam), gap);
-    }
-    return text.empty() ? text
-                        : fmt::format(" Left open, as more than {:.4f} mm are not closed:{}.", gap_mm, text);
+    return joined.open.empty() ? std::string()
+                               : fmt::format(" Left open, as more than {:.4f} mm are not closed: {}.",
+                                             gap_mm,
+                                             project::open_text(joined.open));
 }
 
 void join(Hands& hands, geometry::Continuity continuity) {

@@ -110,6 +110,7 @@ TEST_F(Files, AFolderIsMadeWithItsParentsAndNeverOverAFile) {
     write_file(in_folder("file"), "");
     EXPECT_THROW(make_folder(in_folder("file")), Error);
     EXPECT_THROW(make_folder(in_folder("file/below")), Error);
+    EXPECT_THROW(make_folder(in_folder(std::string(300, 'n'))), Error) << "longer than a name may be";
 }
 
 } // namespace

@@ -90,6 +90,38 @@ TEST(PatchJoin, SidesWithMoreThanAGapBetweenThemAreNoOpenSeam) {
     EXPECT_TRUE(open_seams_of({far.front(), BezierPatch(above)}, {}).empty());
 }
 
+/// Squares of 10 mm in `rows` x `rows` places, `step` from each other, standing up.
+std::vector<BezierPatch> tiles(int rows, double step) {
+    std::vector<BezierPatch> patches;
+    for (int n = 0; n < rows * rows; ++n) {
+        ControlNet net = ControlNet::sized(2, 2);
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) {
+                net.point(i, j) = {3.0, step * (n / rows) + 10.0 * i, step * (n % rows) + 10.0 * j};
+            }
+        }
+        patches.emplace_back(net);
+    }
+    return patches;
+}
+
+/// Three minutes where every pair of patches is looked at side by side.
+TEST(PatchJoin, FindsEverySeamOfThousandsOfPatches) {
+    constexpr int rows = 50, count = 2 * rows * (rows - 1);
+    const std::vector<BezierPatch> near = tiles(rows, 10.02), far = tiles(rows, 12.0);
+    const auto seams = seams_of(near, 0.1);
+    EXPECT_EQ(std::ssize(seams), count);
+    for (const Seam& seam : seams) {
+        const int apart = seam.b.patch - seam.a.patch;
+        EXPECT_TRUE(apart == (seam.a.side == Side::u_end ? rows : 1))
+            << seam.a.patch << " - " << seam.b.patch;
+        EXPECT_FALSE(seam.reversed);
+    }
+    EXPECT_TRUE(open_seams_of(near, seams).empty());
+    EXPECT_TRUE(seams_of(far, 0.1).empty());
+    EXPECT_EQ(std::ssize(open_seams_of(far, {})), count);
+}
+
 TEST(PatchJoin, TheLastSeamOfARingIsNamedWhereItStaysOpen) {
     std::vector<BezierPatch> ring;
     constexpr int count = 4;

@@ -9,7 +9,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::project {
 namespace {
@@ -121,6 +125,55 @@ TEST(ReferenceMesh, OfATrimmedFaceEndsAtItsOutline) {
         0.5 * (0.13 * 0.21 + (1.71 * 0.93 - 1.37 * 0.21) + (1.37 * 0.77 - 0.29 * 0.93) - 0.13 * 0.77);
     const double hole = 0.5 * (0.43 * 0.19 - 0.24 * 0.01);
     EXPECT_NEAR(area, 100.0 * (outer - hole), 1e-9);
+}
+
+exchange::CadFace plate(const std::vector<Vec2>& holes, int corners) {
+    exchange::CadFace face;
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            net.point(i, j) = {10.0 * i, 10.0 * j, 0.0};
+        }
+    }
+    face.patches.emplace_back(net);
+    face.outline = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+    for (const Vec2& middle : holes) {
+        auto& hole = face.holes.emplace_back();
+        for (int k = 0; k < corners; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / corners;
+            hole.emplace_back(middle + 0.02 * Vec2(std::cos(angle), std::sin(angle)));
+        }
+    }
+    return face;
+}
+
+exchange::TriangleMesh reference_of(std::vector<exchange::CadFace> faces) {
+    ImportSource source;
+    source.model = exchange::CadModel{.faces = std::move(faces), .left_out = {}, .unit = "mm"};
+    return reference_mesh(source, {}, nullptr, Progress()).rest;
+}
+
+TEST(ReferenceMesh, KeepsToItsLimitWhateverCornersTheOutlinesHave) {
+    const auto numbered = [](exchange::CadFace face, int count) {
+        std::vector<exchange::CadFace> faces(static_cast<std::size_t>(count), face);
+        for (int k = 0; k < count; ++k) {
+            faces[static_cast<std::size_t>(k)].number = k + 1;
+        }
+        return faces;
+    };
+    const exchange::CadFace four = plate({{0.2, 0.2}, {0.8, 0.2}, {0.2, 0.8}, {0.8, 0.8}}, 48);
+    const exchange::TriangleMesh plates = reference_of(numbered(four, 2'000));
+    EXPECT_LE(plates.triangles.size(), 300'000U);
+    EXPECT_GE(plates.triangles.size(), 50'000U) << "still outlines";
+    EXPECT_LE(plates.points.size(), 300'000U);
+    std::vector<Vec2> grid;
+    for (int k = 0; k < 100; ++k) {
+        grid.emplace_back((k % 10 + 0.5) / 10.0, (k / 10 + 0.5) / 10.0);
+    }
+    const exchange::TriangleMesh sieves = reference_of(numbered(plate(grid, 6), 1'000));
+    EXPECT_LE(sieves.triangles.size(), 300'000U) << "no room for all holes";
+    EXPECT_GE(sieves.triangles.size(), 2'000U) << "every face is there";
+    EXPECT_GT(reference_of({plate(grid, 48)}).triangles.size(), 100U * 48U) << "room for all corners";
 }
 
 TEST(ImportedFace, AFittedPatchGetsTheOutlineToo) {
