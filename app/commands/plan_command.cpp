@@ -68,19 +68,19 @@ void print_warnings(const project::Plan& plan) {
     }
 }
 
-/// Where nothing better than the uniform grid was found: its figures are those of that.
-void print_kept(const project::Plan& plan) {
-    std::vector<std::string_view> kept;
+/// Why the uniform grid is kept, whose figures stand there then, and whose grid the whole chain took.
+void print_notes(const project::Plan& plan) {
     for (const project::GridMethod method : project::every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
-        if (method != project::GridMethod::uniform && evaluation &&
-            project::keeps_grid(*evaluation, *plan.uniform)) {
-            kept.push_back(project::row_of(project::grid_methods(), method).id);
+        const bool kept = evaluation && project::keeps_grid(*evaluation, *plan.uniform);
+        if (method == project::GridMethod::uniform || !(kept || method == project::GridMethod::chain) ||
+            !evaluation || evaluation->outcome.note.empty()) {
+            continue;
         }
-    }
-    if (!kept.empty()) {
-        fmt::print("no gain: {}: nothing better than the uniform grid was found, which is kept\n",
-                   fmt::join(kept, ", "));
+        fmt::print("{}{}: {}\n",
+                   kept ? "no gain: " : "",
+                   project::row_of(project::grid_methods(), method).id,
+                   evaluation->outcome.note);
     }
 }
 
@@ -133,7 +133,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
     if (project::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
-    print_kept(plan);
+    print_notes(plan);
     print_links(plan);
     const project::Evaluation& chosen = *plan.program_path(project);
     if (project.toolpath.strategy != project::StrategyInput::zigzag) {

@@ -20,6 +20,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -120,14 +121,16 @@ void write_whole(const std::filesystem::path& folder, const std::vector<StudyRow
     write_outputs(folder, files);
 }
 
-/// Of a study with cases missing, apart from those of a whole one, which may stand in `folder`. Returns
-/// where. The tables first: where mpirun stops a study, it may leave no time for pictures.
-std::filesystem::path write_unfinished(const std::filesystem::path& folder,
-                                       const std::vector<StudyRow>& rows) {
+/// Of a study with cases missing, apart from those of a whole one, which may stand in `folder`. Where mpirun
+/// stops a study, it may leave no time for pictures: `tell_where` is called before them.
+template <class TellWhere>
+void write_unfinished(const std::filesystem::path& folder,
+                      const std::vector<StudyRow>& rows,
+                      const TellWhere& tell_where) {
     const std::filesystem::path apart = folder / "unfinished";
     write_outputs(apart, tables_of(rows));
+    tell_where(apart.string());
     write_outputs(apart, study_pictures(rows));
-    return apart;
 }
 
 void print_head() {
@@ -152,6 +155,7 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
     const auto show = [&](std::span<const StudyRow> found) {
         printer.finish();
         std::ranges::for_each(found, print);
+        std::fflush(stdout); // mpirun may stop us any time
     };
     const auto name_lost = [&](const std::string& sentence) {
         if (ranks.size() > 1) {
@@ -172,7 +176,10 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
     if (whole) {
         write_whole(options.out, rows);
     } else if (done > 0) {
-        kept = fmt::format("they are in {}", write_unfinished(options.out, rows).string());
+        write_unfinished(options.out, rows, [&](const std::string& where) {
+            kept = fmt::format("they are in {}", where);
+            name_lost(fmt::format("the cases that are done are in {}", where));
+        });
     }
     if (std::ranges::any_of(rows, &StudyRow::no_gain)) {
         fmt::print("no gain: nothing better was found than what the method starts from, which is kept\n");

@@ -1,6 +1,10 @@
 // A grid made by a method and measured on the finished part, never worse than the uniform one.
 #include "core/project/grids.h"
+#include "core/project/internal/larger_figures.h"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <utility>
 
 namespace millwright::project {
@@ -13,6 +17,15 @@ Evaluation made(const GridMaking& by, const Progress& progress) {
     constexpr double measuring = 0.9; // share of the improvement
     GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
     return evaluate(by.workpiece, std::move(outcome), sampling_of(by.effort), progress.part(measuring, 1.0));
+}
+
+std::string refusal(const Evaluation& found, const Evaluation& uniform, bool turns) {
+    const std::string larger = larger_figures(found.closest, uniform.closest, turns);
+    return larger.empty()
+               ? std::string("Nothing better than the uniform grid was found; it is kept.")
+               : fmt::format("The uniform grid is kept: on the whole path the grid that was found would "
+                             "have more error in some figure ({}).",
+                             larger);
 }
 
 } // namespace
@@ -30,7 +43,7 @@ Evaluation evaluation_by(const GridMaking& by, const Evaluation& uniform, const 
                     found.outcome.norm,
                     found.outcome.start_by_curve,
                     found.outcome.start_by_curve,
-                    "Nothing better than the uniform grid was found on the whole path; it is kept.",
+                    refusal(found, uniform, !by.workpiece.machine.rotary_axes().empty()),
                     found.outcome.warning,
                     found.outcome.links};
     return kept;

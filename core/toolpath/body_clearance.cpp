@@ -110,12 +110,12 @@ BodyClearance clearance_near(const geometry::BezierPatch& patch,
             break;
         }
     }
-    const BodyClearance seen{uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d, uv};
+    const BodyClearance seen{uv, now.d < 0.0 ? depth_at(patch, body, pose, uv) : now.d};
     if (!(body.shape().flat > 0.0)) {
         return seen;
     }
     const CornerBite corner = corner_bite(patch, body, pose, uv);
-    return corner.height < std::min(seen.distance, 0.0) ? BodyClearance{corner.parameters, corner.height, uv}
+    return corner.height < std::min(seen.distance, 0.0) ? BodyClearance{corner.parameters, corner.height}
                                                         : seen;
 }
 

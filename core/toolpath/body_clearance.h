@@ -10,9 +10,6 @@ namespace millwright::toolpath {
 struct BodyClearance {
     Vec2 parameters = Vec2::Zero(); ///< of the surface point, inside [0,1]^2
     double distance = 0.0;          ///< mm; negative: so deep below this point the body ends
-    /// Where the descent ended: the point of the surface that the body is nearest to, or deepest in. Not
-    /// `parameters` where a rim bites elsewhere.
-    Vec2 nearest = Vec2::Zero();
 };
 
 /// Descends from `start` to the surface point that is locally nearest to the body, or deepest in it: a damped

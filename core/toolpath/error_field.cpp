@@ -38,19 +38,14 @@ Vec3 normal_at(const Cut& cut, const Vec2& uv, bool flipped, const Vec3& otherwi
     return flipped ? Vec3(-normal) : normal;
 }
 
-/// The surface point that the tool is nearest to, and how far it is from cutting just that.
-struct Off {
-    Vec2 parameters = Vec2::Zero();
-    double distance = 0.0;
-};
-
-Off off_surface(const Cut& cut, const geometry::ToolPose& pose, const Vec2& uv) {
-    if (cut.path.tool.cutter) {
-        const BodyClearance found = clearance_near(cut.patch, *cut.path.tool.cutter, pose, uv);
-        return {found.nearest, std::abs(found.distance)};
-    }
-    const geometry::ClosestPoint nearest = cut.search.closest(pose.tip, uv);
-    return {nearest.parameters, nearest.distance};
+/// How far the tool is from cutting just the surface.
+double off_surface(const Cut& cut,
+                   const geometry::ToolPose& pose,
+                   const Vec2& uv,
+                   const geometry::ClosestPoint& touched) {
+    return cut.path.tool.cutter
+               ? std::abs(clearance_near(cut.patch, *cut.path.tool.cutter, pose, uv).distance)
+               : touched.distance;
 }
 
 /// One move, or one node of it.
@@ -68,10 +63,16 @@ Look look_at(const Cut& cut, const Way& way, const geometry::ToolPose& actual, d
     const Vec2 heading = way.heading_at(t);
     const geometry::ToolPose intended = intended_pose(
         cut.patch, cut.machine, cut.path, uv, heading, normal_at(cut, uv, way.flipped, actual.axis));
-    const Off off = off_surface(cut, actual, uv);
-    const Vec3 normal = normal_at(cut, off.parameters, way.flipped, actual.axis);
-    const Vec3 axis = intended_axis(cut.patch, cut.path, off.parameters, heading, normal);
-    return {t, off.distance, (intended.tip - actual.tip).norm(), angle_between(axis, actual.axis)};
+    const Vec3 contact = cut.path.tool.cutter // it goes where the tip does: along the normal they are one
+                             ? Vec3(cut.patch.position(uv.x(), uv.y()) + (actual.tip - intended.tip))
+                             : actual.tip;
+    const geometry::ClosestPoint touched = cut.search.closest(contact, uv);
+    const Vec3 normal = normal_at(cut, touched.parameters, way.flipped, actual.axis);
+    const Vec3 axis = intended_axis(cut.patch, cut.path, touched.parameters, heading, normal);
+    return {t,
+            off_surface(cut, actual, uv, touched),
+            (intended.tip - actual.tip).norm(),
+            angle_between(axis, actual.axis)};
 }
 
 Way way_of(const Cut& cut, std::size_t move) {

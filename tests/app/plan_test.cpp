@@ -29,9 +29,7 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     EXPECT_EQ(report.at("grid").at("nu"), 6);
     EXPECT_THAT(ended.out, HasSubstr("tracks"));
     EXPECT_EQ(report.at("error").at("adapted").at("status"), "no-gain");
-    EXPECT_THAT(
-        ended.out,
-        HasSubstr("\nno gain: elliptic: nothing better than the uniform grid was found, which is kept\n"));
+    EXPECT_THAT(ended.out, HasSubstr("\nno gain: elliptic: "));
     for (const auto& entry : fs::directory_iterator(scratch / "new/out")) {
         EXPECT_THAT(entry.path().filename().string(), Not(StartsWith("."))) << "a draft was left behind";
     }

@@ -85,6 +85,21 @@ TEST(CutterError, OfABallIsThatOfItsCentre) {
     }
 }
 
+/// A motion is a motion: where the tip is the contact the axis strays by as much, whatever the cutter.
+TEST(CutterError, TheAxisIsThatOfThePointWhereTheTipTouches) {
+    const auto patch = test::patch("two-bell");
+    const auto machine = test::machine("ac-table");
+    const Toolpath contacts = zigzag(patch, Grid::uniform(12, 12), TrackDirection::along_u, false);
+    const auto axis_of = [&](const Tool& tool) {
+        return summary(field_of(patch, machine, tool, contacts), Distance::closest, MoveKind::track).axis_max;
+    };
+    const double of_a_point = axis_of({});
+    EXPECT_GT(of_a_point, from_degrees(10.0));
+    for (const CutterShape& shape : {test::ball, test::flat_end, test::bull_nose}) {
+        EXPECT_NEAR(axis_of({.cutter = test::body(shape)}), of_a_point, 1e-9);
+    }
+}
+
 /// The axis is compared with the one that was asked for, not with the normal.
 TEST(CutterError, AToolThatLeansAsItShouldHasNoDeviationAtItsNodes) {
     const auto patch = test::patch("dome");

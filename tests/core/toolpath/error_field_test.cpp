@@ -108,7 +108,6 @@ TEST(ErrorField, FindsTheParametricErrorWhereNoOtherIs) {
     EXPECT_NEAR(moves[0].param, largest, 1e-2);
 }
 
-/// The axis is compared with the normal of the point that the body is nearest to, which may jump.
 TEST(ErrorField, IsKnownOfABallToo) {
     const Tool tool{.cutter = test::body(test::ball)};
     for (const Case& made :
