@@ -1,26 +1,19 @@
 #include "core/geometry/trim.h"
 
+#include "tests/support/trim_loops.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace millwright::geometry {
 namespace {
 
-Trim::Loop circle(const Vec2& middle, double radius) {
-    Trim::Loop loop;
-    constexpr int corners = 400;
-    for (int k = 0; k < corners; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / corners;
-        loop.emplace_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
-    }
-    return loop;
-}
+using test::rectangle;
 
-Trim::Loop rectangle(double u0, double v0, double u1, double v1) {
-    return {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+Trim::Loop circle(const Vec2& middle, double radius, int corners = 400) {
+    return test::circle(middle, radius, corners);
 }
 
 TEST(Trim, WithoutLoopsIsEverything) {

@@ -1,6 +1,7 @@
 #include "core/geometry/trimmed_square.h"
 
 #include "core/base/error.h"
+#include "tests/support/trim_loops.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +16,12 @@
 namespace millwright::geometry {
 namespace {
 
+using test::rectangle;
+
 using Triangles = std::vector<std::array<int, 3>>;
 
 Trim::Loop circle(const Vec2& middle, double radius, int corners = 48) {
-    Trim::Loop loop;
-    for (int k = 0; k < corners; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / corners;
-        loop.emplace_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
-    }
-    return loop;
-}
-
-Trim::Loop rectangle(double u0, double v0, double u1, double v1) {
-    return {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+    return test::circle(middle, radius, corners);
 }
 
 double area(const Trim::Loop& loop) {
