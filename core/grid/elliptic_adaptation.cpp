@@ -237,6 +237,7 @@ bool EllipticAdaptation::advance(const Progress& progress) {
 /// The figures that people compare are fine ones, as those of the other methods. On the way a coarse look has
 /// to do, and is compared with a coarse one.
 void EllipticAdaptation::measure_start(Position& at, const Progress& progress) const {
+    progress.report(at.state.done, "Measuring the start");
     at.coarse_start = at.state.start;
     at.coarse_best = at.state.start.mean;
     at.state.start = at.state.now = at.state.of_best = finely(start_, progress);
@@ -436,12 +437,18 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
         constexpr double paths = enough_kept + 1;
         return progress.part(n / paths, (n + 1) / paths);
     };
+    const auto tell = [&](int n, const std::string& what) {
+        share(n).report(0.0, "Judging " + what + " on the whole path");
+    };
+    tell(0, "the start");
     const GridPromise promise(model_, start_, settings_.direction, share(0));
     CandidatePtr chosen;
     double least = infinity;
     int kept = 0;
     std::vector<double> worse_elsewhere; // their means
     for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
+        const auto which = std::to_string(c - at.candidates.begin() + 1);
+        tell(kept + 1, "grid " + which + " of " + std::to_string(at.candidates.size()));
         const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
         if (!path) {
             worse_elsewhere.push_back((*c)->error.mean);

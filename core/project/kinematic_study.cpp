@@ -57,6 +57,15 @@ std::optional<Workpiece> in_best_set_up(Workpiece workpiece, const Progress& pro
     return workpiece;
 }
 
+constexpr double visible_gain = 1e-3; // a smaller part of a figure is rounding
+
+bool lowers_a_figure(const grid::ErrorSummary& now, const grid::ErrorSummary& before) {
+    const auto lower = [](double figure, double old_figure) {
+        return figure < (1.0 - visible_gain) * old_figure;
+    };
+    return lower(now.max, before.max) || lower(now.mean, before.mean) || lower(now.axis_max, before.axis_max);
+}
+
 /// A workpiece with its uniform grid, and rows of grids on it.
 class Bench {
 public:
@@ -92,14 +101,14 @@ private:
         const Evaluation found =
             evaluate(sequenced, nearest.outcome, report_sampling, progress.part(0.0, making));
         const bool worse = is_worse(found, nearest, workpiece_.machine);
-        const bool better = is_worse(nearest, found, workpiece_.machine);
         const Progress told = progress.part(making, 1.0);
-        if (better && !worse) {
+        if (!worse && lowers_a_figure(found.closest, nearest.closest)) {
             return row_of(method, found, told);
         }
         StudyRow kept = row_of(method, nearest, told);
         kept.note = worse ? "No sequence is better in every figure than the nearest branch; it is kept."
-                          : "No sequence is better in any figure than the nearest branch; it is kept.";
+                          : "No sequence is better in any figure, by a thousandth at least, than the nearest "
+                            "branch; it is kept.";
         kept.no_gain = true;
         return kept;
     }
@@ -127,10 +136,9 @@ double score(const StudyRow& row) {
 /// The search for a set-up looks at a mean error of another grid. Where it gains nothing here the part stays
 /// where it was; what it costs elsewhere is said.
 void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
-    constexpr double rounding = 1e-3;
     const grid::ErrorSummary& before = unmoved.figures->error;
     const grid::ErrorSummary& now = row.figures->error;
-    if (!(now.mean <= before.mean && score(row) < (1.0 - rounding) * score(unmoved))) {
+    if (!(now.mean <= before.mean && score(row) < (1.0 - visible_gain) * score(unmoved))) {
         row.figures = unmoved.figures;
         row.no_gain = true;
         row.note =
@@ -139,7 +147,7 @@ void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
         return;
     }
     const auto tell = [&](double old_figure, double figure, const char* name) {
-        if (old_figure > 0.0 && figure > (1.0 + rounding) * old_figure) {
+        if (old_figure > 0.0 && figure > (1.0 + visible_gain) * old_figure) {
             row.loss += fmt::format(
                 "{}{} +{:.1f} %", row.loss.empty() ? "" : ", ", name, 100.0 * (figure / old_figure - 1.0));
         }

@@ -29,7 +29,8 @@ toolpath::SetUpCost set_up_cost(const Workpiece& workpiece, const SetUpStudySett
             workpiece.flipped,
             grid::Grid::uniform(settings.nodes, settings.nodes),
             workpiece.direction,
-            settings.goal};
+            settings.goal,
+            workpiece.tool};
 }
 
 SetUpStudy set_up_study(const Workpiece& workpiece,

@@ -38,14 +38,21 @@ Vec3 normal_at(const Cut& cut, const Vec2& uv, bool flipped, const Vec3& otherwi
     return flipped ? Vec3(-normal) : normal;
 }
 
-/// How far the tool is from cutting just the surface.
+/// How far the tool is from cutting just the surface: `touched` is where its contact has come to.
 double off_surface(const Cut& cut,
                    const geometry::ToolPose& pose,
                    const Vec2& uv,
                    const geometry::ClosestPoint& touched) {
-    return cut.path.tool.cutter
-               ? std::abs(clearance_near(cut.patch, *cut.path.tool.cutter, pose, uv).distance)
-               : touched.distance;
+    const auto& cutter = cut.path.tool.cutter;
+    if (!cutter) {
+        return touched.distance;
+    }
+    double clearance = clearance_near(cut.patch, *cutter, pose, uv).distance;
+    if (clearance > touched.distance) { // no body is farther off than a point of it: it lost its way
+        const double there = clearance_near(cut.patch, *cutter, pose, touched.parameters).distance;
+        clearance = std::min(clearance, there);
+    }
+    return std::abs(clearance);
 }
 
 /// One move, or one node of it.

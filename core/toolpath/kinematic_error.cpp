@@ -1,21 +1,22 @@
 #include "core/toolpath/kinematic_error.h"
 
 #include "core/base/error.h"
-#include "core/base/parallel.h"
 #include "core/base/units.h"
 #include "core/geometry/surface_point.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
+#include "core/toolpath/cutter.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/internal/move_error.h"
+#include "core/toolpath/internal/tool_curve.h"
+#include "core/toolpath/internal/track_gap.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -38,22 +39,13 @@ struct Node {
     bool on_pole = false;
 };
 
-ToolPose pose_at(const BezierPatch& patch, const Vec2& uv, bool flipped) {
-    const geometry::SurfacePoint at = geometry::point_of(patch, uv.x(), uv.y());
-    const Vec3 normal = at.normal.value_or(Vec3::Zero());
-    return {at.position, flipped ? Vec3(-normal) : normal};
-}
-
-Node node_at(const MachineModel& machine, const ToolPose& pose) {
-    Node node{pose, {}, false};
-    if (pose.axis.squaredNorm() < 0.5) {
-        return node; // a degenerate normal leaves no branch: the move is out of reach
-    }
-    const std::optional<ToolPose> reachable = pose_on(machine, pose);
-    if (!reachable) {
+/// `pose` is nothing where no tool can stand: the move is out of reach.
+Node node_at(const MachineModel& machine, const std::optional<ToolPose>& pose) {
+    Node node;
+    if (!pose) {
         return node;
     }
-    node.pose = *reachable;
+    node.pose = *pose;
     node.branches =
         kinematics::inverse_branches(machine, node.pose, AxisPositions::Zero(machine.axis_count()));
     node.on_pole = kinematics::at_pole(machine, node.pose.axis);
@@ -89,8 +81,81 @@ follow(const MachineModel& machine, const AxisPositions& from, const std::vector
     return nearest;
 }
 
+/// The tool as a point along the normal.
+class Point {
+public:
+    using Place = ToolPose;
+
+    Point(const BezierPatch& patch, const MachineModel& machine, bool flipped)
+        : patch_(patch), machine_(machine), flipped_(flipped) {}
+
+    [[nodiscard]] Place at(const Vec2& uv, const Vec2& /*heading*/) const {
+        const geometry::SurfacePoint at = geometry::point_of(patch_, uv.x(), uv.y());
+        const Vec3 normal = at.normal.value_or(Vec3::Zero());
+        return {at.position, flipped_ ? Vec3(-normal) : normal};
+    }
+    [[nodiscard]] std::optional<ToolPose> pose(const Place& place) const {
+        return place.axis.squaredNorm() < 0.5 ? std::nullopt : pose_on(machine_, place);
+    }
+    [[nodiscard]] ChordCurve curve(const std::vector<Place>& places) const {
+        std::vector<Vec3> points(places.size()), normals(places.size());
+        for (std::size_t n = 0; n < places.size(); ++n) {
+            points[n] = places[n].tip;
+            normals[n] = places[n].axis;
+        }
+        return {std::move(points), std::move(normals)};
+    }
+
+private:
+    const BezierPatch& patch_;
+    const MachineModel& machine_;
+    bool flipped_;
+};
+
+/// The tool with a cutter, or leaning.
+class Body {
+public:
+    using Place = ToolPlace;
+
+    Body(const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool)
+        : patch_(patch), machine_(machine), flipped_(flipped), tool_(tool) {}
+
+    [[nodiscard]] Place at(const Vec2& uv, const Vec2& heading) const {
+        return tool_place(patch_, flipped_, tool_, uv, heading);
+    }
+    [[nodiscard]] std::optional<ToolPose> pose(const Place& place) const {
+        if (place.normal.squaredNorm() < 0.5) {
+            return std::nullopt;
+        }
+        std::optional<ToolPose> pose = pose_on(machine_, {place.contact, place.axis});
+        if (pose && tool_.cutter) {
+            pose->tip = tip_for(*tool_.cutter, place.contact, place.normal, pose->axis);
+        }
+        return pose;
+    }
+    [[nodiscard]] ToolCurve curve(std::vector<Place> places) const {
+        const bool upright = tool_.lean.upright() && !machine_.rotary_axes().empty();
+        return {std::move(places), bottom_of(tool_), upright};
+    }
+
+private:
+    const BezierPatch& patch_;
+    const MachineModel& machine_;
+    bool flipped_;
+    const Tool& tool_;
+};
+
+/// Calls `work` with the tool as it is to be seen.
+template <class Work>
+auto with_seen(
+    const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool, const Work& work) {
+    return tool.cutter || !tool.lean.upright() ? work(Body(patch, machine, flipped, tool))
+                                               : work(Point(patch, machine, flipped));
+}
+
+template <class Curve>
 grid::MoveError
-judge(const MachineModel& machine, const Node& a, const Node& b, const ChordCurve& curve, int tip_samples) {
+judge(const MachineModel& machine, const Node& a, const Node& b, const Curve& curve, int tip_samples) {
     if (borrows_angle(a, b)) {
         return judge(machine, off_the_pole(machine, a, b), b, curve, tip_samples);
     }
@@ -109,22 +174,19 @@ Vec2 blend(const Vec2& a, const Vec2& b, double t) {
 }
 
 /// Nodes and a fine raster of the curve through them, computed once for all pairs.
-class Lattice final : public grid::LatticeErrors {
+template <class Seen> class Lattice final : public grid::LatticeErrors {
 public:
-    Lattice(const BezierPatch& patch,
-            const MachineModel& machine,
-            bool flipped,
-            std::span<const Vec2> nodes,
-            grid::Sampling sampling)
-        : machine_(machine), sampling_(sampling) {
+    Lattice(Seen seen, const MachineModel& machine, std::span<const Vec2> nodes, grid::Sampling sampling)
+        : seen_(std::move(seen)), machine_(machine), sampling_(sampling) {
         expects(nodes.size() >= 2, "a lattice has two nodes or more");
         for (std::size_t n = 0; n < nodes.size(); ++n) {
-            const ToolPose pose = pose_at(patch, nodes[n], flipped);
-            nodes_.push_back(node_at(machine, pose));
-            add(pose);
-            for (int s = 1; n + 1 < nodes.size() && s < raster; ++s) {
+            const bool last = n + 1 == nodes.size();
+            const Vec2 heading = last ? nodes[n] - nodes[n - 1] : nodes[n + 1] - nodes[n];
+            places_.push_back(seen_.at(nodes[n], heading));
+            nodes_.push_back(node_at(machine, seen_.pose(places_.back())));
+            for (int s = 1; !last && s < raster; ++s) {
                 const double t = static_cast<double>(s) / raster;
-                add(pose_at(patch, blend(nodes[n], nodes[n + 1], t), flipped));
+                places_.push_back(seen_.at(blend(nodes[n], nodes[n + 1], t), heading));
             }
         }
     }
@@ -133,66 +195,37 @@ public:
         expects(0 <= k && k < l && l < static_cast<int>(nodes_.size()), "a move goes forward on its lattice");
         const int intervals = raster * (l - k);
         const int chords = std::min(intervals, sampling_.curve);
-        std::vector<Vec3> points(static_cast<std::size_t>(chords) + 1);
-        std::vector<Vec3> normals(points.size());
+        std::vector<typename Seen::Place> places(static_cast<std::size_t>(chords) + 1);
         for (int c = 0; c <= chords; ++c) {
-            const auto n = static_cast<std::size_t>(raster * k + intervals * c / chords);
-            points[static_cast<std::size_t>(c)] = points_[n];
-            normals[static_cast<std::size_t>(c)] = normals_[n];
+            places[static_cast<std::size_t>(c)] =
+                places_[static_cast<std::size_t>(raster * k + intervals * c / chords)];
         }
-        const ChordCurve curve(std::move(points), std::move(normals));
-        return judge(machine_, node(k), node(l), curve, sampling_.tip);
+        return judge(machine_, node(k), node(l), seen_.curve(std::move(places)), sampling_.tip);
     }
 
 private:
     static constexpr int raster = 4; // curve points an interval
 
-    void add(const ToolPose& pose) {
-        points_.push_back(pose.tip);
-        normals_.push_back(pose.axis);
-    }
     [[nodiscard]] const Node& node(int n) const { return nodes_[static_cast<std::size_t>(n)]; }
 
+    Seen seen_;
     const MachineModel& machine_;
     grid::Sampling sampling_;
     std::vector<Node> nodes_;
-    std::vector<Vec3> points_; // of the raster
-    std::vector<Vec3> normals_;
+    std::vector<typename Seen::Place> places_; // of the raster
 };
 
-/// A track on the surface as a polyline, `steps` chords a move.
-std::vector<Vec3> track_line(
-    const BezierPatch& patch, const grid::Grid& grid, grid::TrackDirection direction, int track, int steps) {
-    std::vector<Vec3> line;
-    for (int k = 0; k + 1 < grid.nodes_per_track(direction); ++k) {
-        const Vec2& a = grid.track_node(direction, track, k);
-        const Vec2& b = grid.track_node(direction, track, k + 1);
-        for (int s = line.empty() ? 0 : 1; s <= steps; ++s) {
-            const Vec2 uv = blend(a, b, static_cast<double>(s) / steps);
-            line.push_back(patch.position(uv.x(), uv.y()));
-        }
+template <class Seen>
+grid::MoveError move_of(
+    const Seen& seen, const MachineModel& machine, const Vec2& a, const Vec2& b, grid::Sampling sampling) {
+    std::vector<typename Seen::Place> places(static_cast<std::size_t>(sampling.curve) + 1);
+    for (std::size_t c = 0; c < places.size(); ++c) {
+        const double t = static_cast<double>(c) / sampling.curve;
+        places[c] = seen.at(blend(a, b, t), b - a);
     }
-    return line;
-}
-
-/// Of the points of `from` to the line `to`, which goes along beside it. The points whose bounds are largest
-/// come first: the search ends where no bound is above what was found (Taha and Hanbury, An Efficient
-/// Algorithm for Calculating the Exact Hausdorff Distance, 2015).
-double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-    const ChordCurve curve(to, std::vector<Vec3>(to.size(), Vec3::UnitZ()));
-    std::vector<std::pair<double, std::size_t>> bounds(from.size());
-    for (std::size_t n = 0; n < from.size(); ++n) {
-        bounds[n] = {curve.squared_beside(from[n], n), n};
-    }
-    std::ranges::sort(bounds, std::greater());
-    double squared = 0.0;
-    for (const auto& [bound, n] : bounds) {
-        if (bound <= squared) {
-            break;
-        }
-        squared = std::max(squared, curve.nearest(from[n]).squared);
-    }
-    return std::sqrt(squared);
+    const Node first = node_at(machine, seen.pose(places.front()));
+    const Node second = node_at(machine, seen.pose(places.back()));
+    return judge(machine, first, second, seen.curve(std::move(places)), sampling.tip);
 }
 
 } // namespace
@@ -205,39 +238,21 @@ KinematicError::KinematicError(
 }
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
-    std::vector<Vec3> points(static_cast<std::size_t>(sampling.curve) + 1);
-    std::vector<Vec3> normals(points.size());
-    for (std::size_t c = 0; c < points.size(); ++c) {
-        const double t = static_cast<double>(c) / sampling.curve;
-        const ToolPose pose = pose_at(patch_, blend(a, b, t), flipped_);
-        points[c] = pose.tip;
-        normals[c] = pose.axis;
-    }
-    const Node first = node_at(machine_, {points.front(), normals.front()});
-    const Node second = node_at(machine_, {points.back(), normals.back()});
-    const ChordCurve curve(std::move(points), std::move(normals));
-    return judge(machine_, first, second, curve, sampling.tip);
+    return with_seen(patch_, machine_, flipped_, tool_, [&](const auto& seen) {
+        return move_of(seen, machine_, a, b, sampling);
+    });
 }
 
 std::unique_ptr<grid::LatticeErrors> KinematicError::lattice(std::span<const Vec2> nodes,
                                                              grid::Sampling sampling) const {
-    return std::make_unique<Lattice>(patch_, machine_, flipped_, nodes, sampling);
+    return with_seen(
+        patch_, machine_, flipped_, tool_, [&](auto seen) -> std::unique_ptr<grid::LatticeErrors> {
+            return std::make_unique<Lattice<decltype(seen)>>(seen, machine_, nodes, sampling);
+        });
 }
 
 double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection direction) const {
-    constexpr int steps = 4;
-    const int tracks = grid.track_count(direction);
-    std::vector<std::vector<Vec3>> lines;
-    for (int t = 0; t < tracks; ++t) {
-        lines.push_back(track_line(patch_, grid, direction, t, steps));
-    }
-    std::vector<double> gaps(static_cast<std::size_t>(tracks - 1));
-    parallel_for(tracks - 1, 1, [&](std::ptrdiff_t t) {
-        const auto n = static_cast<std::size_t>(t);
-        gaps[n] =
-            std::max(largest_distance(lines[n], lines[n + 1]), largest_distance(lines[n + 1], lines[n]));
-    });
-    return *std::max_element(gaps.begin(), gaps.end());
+    return largest_gap(patch_, grid, direction);
 }
 
 grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,

@@ -9,12 +9,12 @@
 
 namespace millwright::toolpath {
 
-/// The move from a to b: both poses by inverse kinematics, branch of b nearest to a, axes linear in between;
-/// `tip` is the largest distance of the true tip from the surface curve between the nodes, `axis` the largest
-/// angle of the true tool axis to the normal at the nearest point of that curve. A pose on the machine's pole
-/// takes the free angle of the other end, so that the move is judged without a rotation in place.
-/// Unlike on the path, each move chooses its branches for itself, and the tool is a point along the normal:
-/// what cuts has its say in `on_path`, and how the branches are chosen, `sequencing` (without added points).
+/// The move from a to b: both poses by inverse kinematics, branch of b nearest to a, axes linear in between.
+/// `tip`: largest distance of the true tip from the surface curve between the nodes; of a cutter by how much
+/// its bottom (internal/cutter_bottom.h) misses or enters the surface, and how far beside the curve. `axis`:
+/// largest angle of the true axis to that wanted there, leaning from a to b. A pose on the machine's pole
+/// takes the free angle of the other end: no rotation in place. Unlike on the path, each move chooses its
+/// branches for itself: `sequencing` (no added points) and what else the body touches count in `on_path`.
 class KinematicError final : public grid::ErrorModel {
 public:
     KinematicError(geometry::BezierPatch patch,

@@ -3,9 +3,9 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
-#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/kinematic_error.h"
 #include "core/toolpath/sequencing.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
 #include <Eigen/Geometry>
@@ -137,9 +137,10 @@ SetUpCost::SetUpCost(geometry::BezierPatch patch,
                      bool flipped,
                      grid::Grid grid,
                      grid::TrackDirection direction,
-                     SetUpGoal goal)
+                     SetUpGoal goal,
+                     Tool tool)
     : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), grid_(std::move(grid)),
-      direction_(direction), goal_(goal) {}
+      direction_(direction), goal_(goal), tool_(std::move(tool)) {}
 
 geometry::ControlNet turned(geometry::ControlNet net, double turn) {
     const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
@@ -164,14 +165,14 @@ PlaceFigures SetUpCost::figures_at(const SetUpPlace& place, const Progress& prog
     Toolpath contacts =
         zigzag(patch, grid_, direction_, flipped_); // what is wrong with it is so at every place
     try {
-        const AxisPath axes = sequence(machine, on_machine(machine, std::move(contacts)));
+        const AxisPath axes = sequence(machine, with_tool(patch, machine, tool_, std::move(contacts)));
         if (goal_ == SetUpGoal::travel) {
             return {linear_travel(machine, axes)};
         }
     } catch (const Error&) { // a pose that cannot be reached
         return {};
     }
-    const KinematicError error(patch, machine, flipped_);
+    const KinematicError error(patch, machine, flipped_, tool_);
     const grid::ErrorSummary found = grid::summary(measure(error, grid_, direction_, grid::coarse, progress));
     const bool turns = std::isfinite(found.mean) && !machine.rotary_axes().empty();
     return {found.mean, turns ? std::optional(found.axis_max) : std::nullopt};

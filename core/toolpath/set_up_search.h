@@ -6,6 +6,7 @@
 #include "core/geometry/bezier_patch.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/machine_model.h"
+#include "core/toolpath/tool.h"
 
 #include <functional>
 #include <limits>
@@ -16,7 +17,8 @@
 namespace millwright::toolpath {
 
 enum class SetUpGoal {
-    error, ///< mean over the moves inside the tracks of the distance from the surface curve, mm
+    error, ///< mean over the moves inside the tracks of the distance from the surface curve, or of what cuts
+           ///< (KinematicError), mm
     travel ///< way of the linear axes over the whole path, mm
 };
 
@@ -50,7 +52,8 @@ public:
               bool flipped,
               grid::Grid grid,
               grid::TrackDirection direction,
-              SetUpGoal goal);
+              SetUpGoal goal,
+              Tool tool = {});
 
     /// Out of reach where a pose cannot be reached inside the axes' limits. Throws Cancelled.
     [[nodiscard]] PlaceFigures figures_at(const SetUpPlace& place, const Progress& progress) const;
@@ -68,6 +71,7 @@ private:
     grid::Grid grid_;
     grid::TrackDirection direction_;
     SetUpGoal goal_;
+    Tool tool_;
 };
 
 /// The figures of many places, in their order; whoever measures them. Throws Cancelled, and Error for those

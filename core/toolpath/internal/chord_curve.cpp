@@ -55,7 +55,7 @@ ChordCurve::Nearest ChordCurve::on_chord(std::size_t chord, const Vec3& p) const
     const double square = ab.squaredNorm();
     const double s = square > 0.0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0.0;
     const Vec3 point = a + s * ab;
-    return {(point - p).squaredNorm(), point, (1.0 - s) * normals_[n] + s * normals_[n + 1]};
+    return {(point - p).squaredNorm(), point, (1.0 - s) * normals_[n] + s * normals_[n + 1], n, s};
 }
 
 double ChordCurve::squared_beside(const Vec3& p, std::size_t chord) const {

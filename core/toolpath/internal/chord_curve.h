@@ -20,6 +20,8 @@ public:
         double squared = std::numeric_limits<double>::infinity(); ///< distance, mm^2
         Vec3 point = Vec3::Zero();
         Vec3 normal = Vec3::UnitZ(); ///< between those of the chord's ends; not scaled
+        std::size_t chord = 0;       ///< on which it is
+        double fraction = 0.0;       ///< of that chord, 0 to 1
     };
     /// On the first of the chords that are equally near.
     [[nodiscard]] Nearest nearest(const Vec3& p) const;

@@ -2,40 +2,12 @@
 
 #include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
+#include "core/toolpath/internal/largest_angle.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace millwright::toolpath {
-
-namespace {
-
-/// The largest of many angles, of which only the last is worth an arc tangent.
-class LargestAngle {
-public:
-    void see(const Vec3& a, const Vec3& b) {
-        const double across = a.cross(b).squaredNorm();
-        const double along = a.dot(b);
-        if (wider(across, along)) {
-            across_ = across;
-            along_ = along;
-        }
-    }
-    [[nodiscard]] double angle() const { return std::atan2(std::sqrt(across_), along_); }
-
-private:
-    [[nodiscard]] bool wider(double across, double along) const {
-        if (along > 0.0 && along_ > 0.0) {
-            return across * square(along_) > across_ * square(along);
-        }
-        return std::atan2(std::sqrt(across), along) > angle();
-    }
-
-    double across_ = 0.0; // |a x b|^2
-    double along_ = 1.0;  // a . b
-};
-
-} // namespace
 
 grid::MoveError move_error(const kinematics::MachineModel& machine,
                            const kinematics::AxisPositions& from,

@@ -114,5 +114,26 @@ TEST(CutterError, AToolThatLeansAsItShouldHasNoDeviationAtItsNodes) {
     EXPECT_LT(axis_mean(160), from_degrees(1.0)); // of 10 asked for
 }
 
+/// However far a coarse move is off: a ball is no farther from the surface than its centre has come away from
+/// where it should be.
+TEST(CutterError, OfABallIsNoMoreThanItsCentreHasMoved) {
+    const auto patch = test::patch("two-bell");
+    const auto machine = test::machine("ac-table");
+    const Tool tool{.cutter = test::body({.kind = CutterKind::ball, .diameter = 12.0, .length = 40.0})};
+    int far = 0;
+    for (const int n : {5, 6, 7}) {
+        for (const TrackDirection direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            const Toolpath contacts = zigzag(patch, Grid::uniform(n, n), direction, false);
+            const Toolpath path = with_tool(patch, machine, tool, contacts);
+            const AxisPath axes = sequence(machine, path);
+            for (const MoveDeviation& move : error_field(patch, machine, path, axes, {40}, {}).moves) {
+                far += move.closest > 5.0 ? 1 : 0;
+                EXPECT_LE(move.closest, move.param + 6.0 * move.axis);
+            }
+        }
+    }
+    EXPECT_GT(far, 0);
+}
+
 } // namespace
 } // namespace millwright::toolpath

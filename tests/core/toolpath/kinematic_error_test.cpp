@@ -2,7 +2,9 @@
 
 #include "core/base/units.h"
 #include "core/toolpath/error_field.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/support/cutters.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/paths.h"
 
@@ -36,6 +38,60 @@ TEST(KinematicError, AgreesWithTheErrorFieldOfTheWholePath) {
         const auto move = error.move(path.points[n].origin.uv, path.points[n + 1].origin.uv, {10, 200});
         EXPECT_LE(field.moves[n].closest, move.tip + 1e-3) << n;
         EXPECT_LE(move.tip, field.moves[n].param + 1e-3) << n;
+    }
+}
+
+/// The share of the moves along tracks that go forward for which the model says of a tool what the field of
+/// the whole path says, to a quarter: the field looks at the whole body, and for the place of the real
+/// surface where it is nearest.
+double agreement(const char* surface, const Tool& tool) {
+    constexpr int n = 24;
+    const auto patch = test::patch(surface);
+    const auto machine = test::machine("ac-table");
+    const Toolpath contacts = zigzag(patch, Grid::uniform(n, n), TrackDirection::along_v, false);
+    const Toolpath path = with_tool(patch, machine, tool, contacts);
+    const ErrorField field = error_field(patch, machine, path, sequence(machine, path), {10}, {});
+    const KinematicError error(patch, machine, false, tool);
+    int moves = 0, agree = 0;
+    for (std::size_t m = 0; m < field.moves.size(); ++m) {
+        const Vec2 from = path.points[m].origin.uv, to = path.points[m + 1].origin.uv;
+        if (field.moves[m].kind == MoveKind::track && to.y() > from.y()) {
+            const double there = field.moves[m].closest;
+            ++moves;
+            agree += std::abs(error.move(from, to, {10, 200}).off_surface - there) <= 0.25 * there + 0.01;
+        }
+    }
+    return static_cast<double>(agree) / moves;
+}
+
+TEST(KinematicError, OfACutterIsWhatTheFieldOfThePathSays) {
+    const Lean leaning{.lead = from_degrees(8.0), .tilt = from_degrees(3.0)};
+    for (const char* surface : {"dome", "two-bell"}) {
+        for (const auto& cutter : {test::ball, test::flat_end, test::bull_nose, test::cone}) {
+            for (const Lean& lean : {Lean{}, leaning}) {
+                EXPECT_GT(agreement(surface, {.cutter = test::body(cutter), .lean = lean}), 0.9)
+                    << surface << ", cutter " << static_cast<int>(cutter.kind);
+            }
+        }
+    }
+}
+
+TEST(KinematicError, OfALatticeOfACutterEqualsThatOfSingleMoves) {
+    const Tool tool{.cutter = test::body(test::bull_nose), .lean = {.lead = from_degrees(5.0)}};
+    const KinematicError error(test::patch("dome"), test::machine("ac-table"), false, tool);
+    std::vector<Vec2> nodes;
+    for (int k = 0; k <= 40; ++k) {
+        nodes.emplace_back(0.3, k / 40.0);
+    }
+    const auto lattice = error.lattice(nodes, {10, 16});
+    for (const auto& [k, l] : {std::pair{0, 4}, {3, 7}, {10, 18}, {36, 40}}) {
+        const auto pair = lattice->between(k, l);
+        const auto single =
+            error.move(nodes[static_cast<std::size_t>(k)], nodes[static_cast<std::size_t>(l)], {10, 16});
+        EXPECT_NEAR(pair.tip, single.tip, 1e-9);
+        EXPECT_NEAR(pair.off_surface, single.off_surface, 1e-9);
+        EXPECT_NEAR(pair.axis, single.axis, 1e-9);
+        EXPECT_NEAR(pair.length, single.length, 1e-9);
     }
 }
 
