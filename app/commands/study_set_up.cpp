@@ -99,7 +99,10 @@ int set_up(const Options& options) {
     const project::Workpiece workpiece = project::workpiece_of(opened.project, opened.folders);
     const Ranks ranks;
     if (ranks.rank() > 0) {
-        help_with_costs(ranks, project::set_up_cost(workpiece, settings), interrupt.token());
+        const auto deserted = [&](const std::string& lost) {
+            fmt::print(stderr, "{}{}\n", lost, ranks.rank() == 1 ? "; nothing is written" : "");
+        };
+        help_with_costs(ranks, project::set_up_cost(workpiece, settings), deserted, interrupt.token());
         return 0;
     }
     const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
