@@ -172,9 +172,26 @@ TEST(StudyCommand, SaysThatAPartLargerThanTheMachineIsOutOfReach) {
     const std::string project = scratch / "large.json";
     write_content(project, json.dump());
     const Ended ended = set_up_study(scratch, project, scratch / "there.json");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("does not reach the whole part from any place that was searched (a "),
+                      HasSubstr(" cannot be reached: axis Y would have to go to "),
+                      HasSubstr("make the part smaller")));
+    EXPECT_EQ(ended.out, "");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out")) << "no map of nothing";
+    EXPECT_FALSE(std::filesystem::exists(scratch / "there.json"));
+}
+
+TEST(StudyCommand, TellsOfAStartAndOfPlacesOfTheMapThatAreOutOfReach) {
+    const ScratchFolder scratch;
+    const auto project = small_project(
+        scratch.path(), "dome", "\"angle_mode\"", "\"workpiece_offset\": [900, 0, 175], \"angle_mode\"");
+    const Ended ended = set_up_study(scratch, project, scratch / "there.json", {"--reach", "600"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("\nout of reach: from no place that was searched"));
-    EXPECT_THAT(ended.out, Not(HasSubstr("no gain")));
+    EXPECT_THAT(ended.out,
+                AllOf(HasSubstr("\nthe start is out of reach: path point "),
+                      HasSubstr(" cannot be reached: axis "),
+                      HasSubstr(" of 25 places of the map are out of reach\n")));
 }
 
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
