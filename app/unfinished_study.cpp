@@ -27,8 +27,7 @@ std::string missing_text(std::span<const StudyCase> cases, const std::vector<std
             ++missing;
         }
     }
-    return fmt::format(
-        "{} of {} cases are not in these tables{}\n{}", missing, cases.size(), missing > 0 ? ":" : "", names);
+    return fmt::format("not in these tables: {} of {} cases\n{}", missing, cases.size(), names);
 }
 
 std::optional<fs::file_time_type> written_at(const fs::path& file) {

@@ -78,7 +78,7 @@ void print_out_of_reach(const SetUpStudy& study,
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
     if (holes > 0) {
-        fmt::print("{} of {} places of the map are out of reach\n", holes, study.map.costs.size());
+        fmt::print("out of reach: {} of {} places of the map\n", holes, study.map.costs.size());
     }
 }
 

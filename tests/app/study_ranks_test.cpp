@@ -115,7 +115,7 @@ TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_EQ(content_of(unfinished / "missing.txt"),
-              "1 of 2 cases are not in these tables:\ndome on rotary-tilt-listing with 12 points\n");
+              "not in these tables: 1 of 2 cases\ndome on rotary-tilt-listing with 12 points\n");
     EXPECT_THAT(content_of(unfinished / "kinematic-error.csv"), HasSubstr("\ndome,ca-head,12,"));
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("the cases that were done are in " + unfinished.string() +
