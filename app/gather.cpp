@@ -1,5 +1,7 @@
 #include "app/gather.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -11,7 +13,11 @@ namespace millwright::app {
 
 namespace {
 
-/// What rank 0 says to itself, from the thread of its work.
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds nap{5};
+
+/// From the thread of the work to the one that speaks with the others.
 class Mailbox {
 public:
     void put(std::string message) {
@@ -47,25 +53,36 @@ bool hear(Mailbox& mailbox, const Ranks& ranks, const GatheredWork& work) {
     return !silent;
 }
 
+void pass_on(Mailbox& mailbox, const Ranks& ranks) {
+    while (const auto message = mailbox.take()) {
+        ranks.tell(*message);
+    }
+}
+
 } // namespace
+
+std::string shared_work(std::size_t count, std::string_view thing, const Ranks& ranks) {
+    const std::string work = fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+    return ranks.size() == 1 ? work : fmt::format("{} on {} ranks", work, ranks.size());
+}
 
 bool gather(const Ranks& ranks, const GatheredWork& work, const Progress& progress) {
     // A rank that is gone says nothing more; mpirun then stops the others, and kills them a second later.
     // Until then it has to be said who is gone, and what came has to be written.
     constexpr std::chrono::milliseconds patience_when_stopped{250};
-    constexpr std::chrono::milliseconds nap{5};
     Mailbox mailbox;
     std::stop_source stop;
     std::jthread thread(
         [&] { work.own([&](const std::string& message) { mailbox.put(message); }, stop.get_token()); });
-    std::optional<std::chrono::steady_clock::time_point> stopped;
+    std::optional<Clock::time_point> stopped;
     while (!work.over()) {
         const bool heard = hear(mailbox, ranks, work);
         if (progress.cancelled() && !stopped) {
-            stopped = std::chrono::steady_clock::now();
+            stopped = Clock::now();
             stop.request_stop();
+            ranks.let_go(); // so that they know who tells of it
         }
-        if (stopped && std::chrono::steady_clock::now() - *stopped > patience_when_stopped) {
+        if (stopped && Clock::now() - *stopped > patience_when_stopped) {
             work.given_up();
             break;
         }
@@ -76,6 +93,40 @@ bool gather(const Ranks& ranks, const GatheredWork& work, const Progress& progre
     thread.join();
     hear(mailbox, ranks, work);
     return !stopped;
+}
+
+void help(const Ranks& ranks, const HelpingWork& work, const std::stop_token& stop) {
+    // mpirun kills a second after it said stop; rank 0 answers at once, on a busy computer a little later.
+    constexpr std::chrono::milliseconds patience_with_rank_0{500};
+    Mailbox mailbox;
+    std::jthread thread;
+    std::optional<Clock::time_point> stopped;
+    while (true) {
+        pass_on(mailbox, ranks);
+        if (const auto word = ranks.heard()) {
+            if (word->text.empty()) {
+                break;
+            }
+            thread = std::jthread([&, asked = word->text](const std::stop_token& own_stop) {
+                work.own(
+                    asked, [&](const std::string& message) { mailbox.put(message); }, own_stop);
+            });
+        }
+        if (stop.stop_requested() && !stopped) {
+            stopped = Clock::now();
+            thread.request_stop();
+        }
+        if (stopped && Clock::now() - *stopped > patience_with_rank_0) {
+            work.deserted();
+            break;
+        }
+        std::this_thread::sleep_for(nap);
+    }
+    thread.request_stop();
+    if (thread.joinable()) {
+        thread.join();
+    }
+    pass_on(mailbox, ranks);
 }
 
 } // namespace millwright::app

@@ -25,6 +25,7 @@
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
 #include "app/output_files.h"
+#include "app/threads_option.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/project/version.h"
@@ -108,6 +109,7 @@ int main(int argc, char** argv) {
     add_plot_command(app, chosen);
     add_picture_command(app, chosen);
     add_thesis_command(app, chosen);
+    add_threads_option(app);
     expect_finite_numbers(app);
     try {
         app.parse(argc, argv);

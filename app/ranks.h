@@ -16,21 +16,24 @@ public:
     Ranks();
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;
-    ~Ranks(); ///< waits for the others
+    ~Ranks(); ///< lets the others go, and waits for them
 
     [[nodiscard]] int rank() const { return rank_; }
     [[nodiscard]] int size() const { return size_; }
 
-    /// From another rank to rank 0; blocks until it is on its way.
+    /// From another rank to rank 0. Never waits for one that may be gone: what is left to do is done by
+    /// heard(), as of all that is told.
     void tell(std::string_view message) const;
 
     struct Message {
         int from = 0;
         std::string text;
     };
-    /// From rank 0 to every other. Never waits for one that may be gone: what is left to do is done by
-    /// heard().
+    /// From rank 0 to every other; never empty.
     void tell_all(std::string_view message) const;
+    /// Rank 0 tells all, with an empty message, that it is there and that there is nothing more to do for
+    /// them. Once: then nothing.
+    void let_go() const;
     /// The next one that has come whole, nothing if none has. Never waits either.
     [[nodiscard]] std::optional<Message> heard() const;
 

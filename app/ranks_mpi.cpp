@@ -36,6 +36,19 @@ bool ended(Transfer& transfer) {
 struct Ranks::UnderWay {
     std::list<Transfer> sent;         // a list, whose elements stay where they are
     std::unique_ptr<Transfer> coming; // one at a time, so that messages stay in their order
+    bool let_go = false;
+
+    void send(std::string_view message, int to) {
+        Transfer& leaving = sent.emplace_back();
+        leaving.text = message;
+        MPI_Isend(leaving.text.data(),
+                  static_cast<int>(leaving.text.size()),
+                  MPI_CHAR,
+                  to,
+                  tag,
+                  MPI_COMM_WORLD,
+                  &leaving.request);
+    }
 };
 
 Ranks::Ranks() : under_way_(std::make_unique<UnderWay>()) {
@@ -55,6 +68,9 @@ Ranks::~Ranks() {
     int begun = 0;
     MPI_Initialized(&begun);
     if (begun != 0) {
+        if (rank_ == 0) {
+            let_go();
+        }
         for (Transfer& transfer : under_way_->sent) {
             MPI_Wait(&transfer.request, MPI_STATUS_IGNORE);
         }
@@ -64,21 +80,22 @@ Ranks::~Ranks() {
 
 void Ranks::tell(std::string_view message) const {
     expects(rank_ != 0, "rank 0 is told, it does not tell");
-    MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, 0, tag, MPI_COMM_WORLD);
+    under_way_->send(message, 0);
 }
 
 void Ranks::tell_all(std::string_view message) const {
     expects(rank_ == 0, "rank 0 tells all");
+    expects(!message.empty() && !under_way_->let_go, "an empty message lets the others go");
     for (int to = 1; to < size_; ++to) {
-        Transfer& sent = under_way_->sent.emplace_back();
-        sent.text = message;
-        MPI_Isend(sent.text.data(),
-                  static_cast<int>(sent.text.size()),
-                  MPI_CHAR,
-                  to,
-                  tag,
-                  MPI_COMM_WORLD,
-                  &sent.request);
+        under_way_->send(message, to);
+    }
+}
+
+void Ranks::let_go() const {
+    expects(rank_ == 0, "rank 0 lets the others go");
+    const bool before = std::exchange(under_way_->let_go, true);
+    for (int to = 1; to < size_ && !before; ++to) {
+        under_way_->send({}, to);
     }
 }
 

@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace millwright::app {
@@ -55,6 +55,13 @@ std::string name_of(const SetUpPlace& place) {
                        fixed(to_degrees(place[3]), 1));
 }
 
+std::string without_places(std::span<const SetUpPlace> places, const std::vector<std::size_t>& without) {
+    return fmt::format("without {} of its places: from {} to {}",
+                       without.size(),
+                       name_of(places[without.front()]),
+                       name_of(places[without.back()]));
+}
+
 /// What has come of one request.
 class Costs {
 public:
@@ -94,12 +101,10 @@ public:
                 continue;
             }
             told_[rank] = true;
-            lost_.push_back(fmt::format("rank {} {}; without {} of its places: from {} to {}",
+            lost_.push_back(fmt::format("rank {} {}; {}",
                                         rank,
                                         why_not_[rank].empty() ? "has not ended" : why_not_[rank],
-                                        without.size(),
-                                        name_of(places_[without.front()]),
-                                        name_of(places_[without.back()])));
+                                        without_places(places_, without)));
             say(lost_.back());
         }
     }
@@ -130,18 +135,45 @@ private:
     std::size_t come_ = 0;
 };
 
+/// Of another rank: how far it is, asked by one thread while another measures.
+class OwnPlaces {
+public:
+    explicit OwnPlaces(const Ranks& ranks) : ranks_(ranks) {}
+
+    void begin(const std::vector<SetUpPlace>& places) {
+        const std::scoped_lock lock(turn_);
+        places_ = places;
+        next_ = static_cast<std::size_t>(ranks_.rank());
+    }
+    void add(std::size_t measured) {
+        const std::scoped_lock lock(turn_);
+        next_ += measured * static_cast<std::size_t>(ranks_.size());
+    }
+    /// What is lost with rank 0, as a sentence.
+    [[nodiscard]] std::string lost() const {
+        const std::scoped_lock lock(turn_);
+        std::vector<std::size_t> without;
+        for (std::size_t n = next_; n < places_.size(); n += static_cast<std::size_t>(ranks_.size())) {
+            without.push_back(n);
+        }
+        return fmt::format("rank {} was stopped, and rank 0 does not answer{}",
+                           ranks_.rank(),
+                           without.empty() ? "" : "; " + without_places(places_, without));
+    }
+
+private:
+    const Ranks& ranks_;
+    mutable std::mutex turn_; ///< guards what follows
+    std::vector<SetUpPlace> places_;
+    std::size_t next_ = 0; ///< of this rank's places
+};
+
 } // namespace
 
 SpreadCosts::SpreadCosts(const Ranks& ranks,
                          const SetUpCost& cost,
                          std::function<void(const std::string&)> say)
     : ranks_(ranks), cost_(cost), say_(std::move(say)) {}
-
-SpreadCosts::~SpreadCosts() {
-    if (!lost_) {
-        ranks_.tell_all({});
-    }
-}
 
 std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, const Progress& progress) {
     ranks_.tell_all(packed(places));
@@ -152,16 +184,14 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
         .heard = [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
         .over =
             [&] {
-                progress.report(costs.fraction(),
-                                fmt::format("{} places on {} ranks", places.size(), ranks_.size()));
+                progress.report(costs.fraction(), shared_work(places.size(), "place", ranks_));
                 return costs.over();
             },
         .given_up = [&] { costs.tell_lost(1, say_); }};
     const bool whole = gather(ranks_, all, progress);
     costs.tell_lost(0, say_);
     const std::vector<std::string>& lost = costs.lost();
-    lost_ = !lost.empty();
-    if (lost_) {
+    if (!lost.empty()) {
         throw Error(fmt::format("{} of {} places were measured: {}", costs.come(), places.size(), lost[0]));
     }
     if (!whole) {
@@ -170,20 +200,24 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
     return costs.all();
 }
 
-void help_with_costs(const Ranks& ranks, const SetUpCost& cost, const std::stop_token& stop) {
-    constexpr std::chrono::milliseconds nap{5};
-    while (!stop.stop_requested()) {
-        const auto word = ranks.heard();
-        if (!word) {
-            std::this_thread::sleep_for(nap);
-        } else if (word->text.empty()) {
-            return;
-        } else {
-            const std::vector<SetUpPlace> places = unpacked_places(word->text);
-            work(
-                ranks, cost, places, [&](const std::string& bytes) { ranks.tell(bytes); }, stop);
-        }
-    }
+void help_with_costs(const Ranks& ranks,
+                     const SetUpCost& cost,
+                     const std::function<void(const std::string& lost)>& deserted,
+                     const std::stop_token& stop) {
+    OwnPlaces own(ranks);
+    const HelpingWork mine{
+        .own =
+            [&](const std::string& asked, const Tell& tell, const std::stop_token& own_stop) {
+                const std::vector<SetUpPlace> places = unpacked_places(asked);
+                own.begin(places);
+                const auto count_and_tell = [&](const std::string& bytes) {
+                    own.add(unpacked_costs(bytes).figures.size());
+                    tell(bytes);
+                };
+                work(ranks, cost, places, count_and_tell, own_stop);
+            },
+        .deserted = [&] { deserted(own.lost()); }};
+    help(ranks, mine, stop);
 }
 
 } // namespace millwright::app

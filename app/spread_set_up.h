@@ -23,7 +23,7 @@ public:
                 std::function<void(const std::string&)> say);
     SpreadCosts(const SpreadCosts&) = delete;
     SpreadCosts& operator=(const SpreadCosts&) = delete;
-    ~SpreadCosts(); ///< lets the others go
+    ~SpreadCosts() = default;
 
     /// As toolpath::SetUpCosts. Throws Error if costs did not come; Cancelled.
     [[nodiscard]] std::vector<toolpath::PlaceFigures> at(std::span<const toolpath::SetUpPlace> places,
@@ -33,10 +33,13 @@ private:
     const Ranks& ranks_;
     const toolpath::SetUpCost& cost_;
     std::function<void(const std::string&)> say_;
-    bool lost_ = false; ///< some rank, which nothing can be told any more
 };
 
-/// At the others, until rank 0 lets them go.
-void help_with_costs(const Ranks& ranks, const toolpath::SetUpCost& cost, const std::stop_token& stop);
+/// At the others, until rank 0 lets them go. Where rank 0 is gone `deserted` is told so in a sentence, by the
+/// caller's thread, with the places of this rank that are lost.
+void help_with_costs(const Ranks& ranks,
+                     const toolpath::SetUpCost& cost,
+                     const std::function<void(const std::string& lost)>& deserted,
+                     const std::stop_token& stop);
 
 } // namespace millwright::app

@@ -2,11 +2,13 @@
 
 #include "app/gather.h"
 #include "app/study_message.h"
+#include "app/unfinished_study.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <numeric>
@@ -51,10 +53,6 @@ void work(const Ranks& ranks,
     tell(end);
 }
 
-std::string name_of(const StudyCase& of) {
-    return fmt::format("{} on {} with {} points", of.surface, of.machine, of.points);
-}
-
 /// Where all ranks are.
 class Gathering {
 public:
@@ -63,7 +61,8 @@ public:
         study_.rows.resize(cases.size());
     }
 
-    void take(int from, StudyMessage message) {
+    /// Whether a case is done with it.
+    bool take(int from, StudyMessage message) {
         Rank& rank = ranks_[static_cast<std::size_t>(from)];
         rank.ended = rank.ended || message.ended;
         if (message.failed) {
@@ -75,13 +74,14 @@ public:
         if (message.rows) {
             study_.rows.at(*message.at) = std::move(*message.rows);
         }
+        return message.rows.has_value();
     }
     [[nodiscard]] bool over() const { return std::ranges::all_of(ranks_, &Rank::ended); }
     [[nodiscard]] double fraction() const {
         return std::accumulate(fractions_.begin(), fractions_.end(), 0.0) /
                static_cast<double>(cases_.size());
     }
-    [[nodiscard]] const std::vector<StudyRow>& rows(std::size_t n) const { return study_.rows[n]; }
+    [[nodiscard]] const std::vector<std::vector<StudyRow>>& rows() const { return study_.rows; }
 
     /// What is lost by one rank, as a sentence; nothing if all of its cases have come.
     [[nodiscard]] std::optional<std::string> lost_by(std::size_t rank) const {
@@ -129,6 +129,19 @@ private:
     SpreadStudy study_;
 };
 
+/// Of a rank that is at case `next` when rank 0 is gone; empty where all of its cases are done.
+std::string lost_with_rank_0(const Ranks& ranks, std::span<const StudyCase> cases, std::size_t next) {
+    std::string missing;
+    for (std::size_t n = next; n < cases.size(); n += static_cast<std::size_t>(ranks.size())) {
+        missing += (missing.empty() ? "" : ", ") + name_of(cases[n]) + (n == next ? " (begun)" : "");
+    }
+    return missing.empty()
+               ? std::string()
+               : fmt::format("rank {} was stopped, and rank 0 does not answer; without its cases: {}",
+                             ranks.rank(),
+                             missing);
+}
+
 } // namespace
 
 SpreadStudy gather_study(const Ranks& ranks,
@@ -136,19 +149,24 @@ SpreadStudy gather_study(const Ranks& ranks,
                          const StudyOne& study,
                          const StudyNews& news,
                          const Progress& progress) {
+    ranks.tell_all("begin");
     Gathering gathering(ranks.size(), cases);
     std::size_t shown = 0;
     const auto over = [&] {
-        for (; shown < cases.size() && !gathering.rows(shown).empty(); ++shown) {
-            news.done(gathering.rows(shown));
+        for (; shown < cases.size() && !gathering.rows()[shown].empty(); ++shown) {
+            news.done(gathering.rows()[shown]);
         }
-        progress.report(gathering.fraction(),
-                        fmt::format("{} cases on {} ranks", cases.size(), ranks.size()));
+        progress.report(gathering.fraction(), shared_work(cases.size(), "case", ranks));
         return gathering.over();
     };
     const GatheredWork all{
         .own = [&](const Tell& tell, const std::stop_token& stop) { work(ranks, cases, study, tell, stop); },
-        .heard = [&](int from, const std::string& bytes) { gathering.take(from, unpacked(bytes)); },
+        .heard =
+            [&](int from, const std::string& bytes) {
+                if (gathering.take(from, unpacked(bytes))) {
+                    news.came(gathering.rows());
+                }
+            },
         .over = over,
         .given_up = [&] { gathering.tell_lost(1, news); }};
     const bool whole = gather(ranks, all, progress);
@@ -161,9 +179,20 @@ SpreadStudy gather_study(const Ranks& ranks,
 void help_with_study(const Ranks& ranks,
                      std::span<const StudyCase> cases,
                      const StudyOne& study,
+                     const std::function<void(const std::string& lost)>& deserted,
                      const std::stop_token& stop) {
-    work(
-        ranks, cases, study, [&](const std::string& bytes) { ranks.tell(bytes); }, stop);
+    std::atomic<std::size_t> next = static_cast<std::size_t>(ranks.rank()); // of this rank's cases
+    const auto one = [&](const StudyCase& of, const Progress& progress) {
+        std::vector<StudyRow> rows = study(of, progress);
+        next += static_cast<std::size_t>(ranks.size());
+        return rows;
+    };
+    const HelpingWork mine{.own =
+                               [&](const std::string&, const Tell& tell, const std::stop_token& own_stop) {
+                                   work(ranks, cases, one, tell, own_stop);
+                               },
+                           .deserted = [&] { deserted(lost_with_rank_0(ranks, cases, next)); }};
+    help(ranks, mine, stop);
 }
 
 } // namespace millwright::app

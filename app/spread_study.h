@@ -24,6 +24,8 @@ using StudyOne = std::function<std::vector<project::StudyRow>(const project::Stu
 
 /// What is told on the way, by the caller's thread.
 struct StudyNews {
+    /// The rows of all cases that have come, as in SpreadStudy::rows, whenever another one has.
+    std::function<void(const std::vector<std::vector<project::StudyRow>>&)> came;
     /// The rows of each case in the order of the cases, as soon as those before it have come.
     std::function<void(std::span<const project::StudyRow>)> done;
     /// Each sentence of SpreadStudy::lost, once: as soon as it is known, since mpirun may leave no time
@@ -38,10 +40,13 @@ struct StudyNews {
                                        const StudyNews& news,
                                        const Progress& progress);
 
-/// At the others: does their cases and tells rank 0. Never throws what `study` throws: rank 0 is told.
+/// At the others: does their cases and tells rank 0. Never throws what `study` throws: rank 0 is told. Where
+/// rank 0 is gone `deserted` is told in a sentence, by the caller's thread, which cases of this rank are
+/// lost; in an empty one that they are all done.
 void help_with_study(const Ranks& ranks,
                      std::span<const project::StudyCase> cases,
                      const StudyOne& study,
+                     const std::function<void(const std::string& lost)>& deserted,
                      const std::stop_token& stop);
 
 } // namespace millwright::app

@@ -92,6 +92,10 @@ viewport::Chart bars_of(std::span<const StudyRow> rows, const Figure& figure) {
 
 } // namespace
 
+std::string study_picture_name(const project::StudyCase& of) {
+    return fmt::format("{}-{}.png", of.surface, of.machine);
+}
+
 std::vector<OutputFile> study_pictures(const std::vector<StudyRow>& rows) {
     constexpr render::PixelSize size{1300, 1200};
     std::vector<OutputFile> files;
@@ -107,7 +111,7 @@ std::vector<OutputFile> study_pictures(const std::vector<StudyRow>& rows) {
             charts.push_back(of.size() > project::every_study_method.size() ? curves_of(of, figure)
                                                                             : bars_of(of, figure));
         }
-        files.push_back({fmt::format("{}-{}.png", of.front().of.surface, of.front().of.machine),
+        files.push_back({study_picture_name(of.front().of),
                          to_png(viewport::chart_picture(charts, size, render::Theme::light))});
         from = to;
     }

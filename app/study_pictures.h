@@ -4,9 +4,13 @@
 #include "app/outputs.h"
 #include "core/project/kinematic_study.h"
 
+#include <string>
 #include <vector>
 
 namespace millwright::app {
+
+/// Of the file of this surface and machine.
+[[nodiscard]] std::string study_picture_name(const project::StudyCase& of);
 
 /// A PNG file a surface and machine: a curve a method over the numbers of points, or a bar a method where
 /// there is one number. `rows` as project::studied gives them, case after case.

@@ -7,6 +7,7 @@
 #include "app/progress_printer.h"
 #include "app/spread_study.h"
 #include "app/study_pictures.h"
+#include "app/unfinished_study.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -109,28 +110,10 @@ void print(const StudyRow& row) {
                                   : "  " + row.loss);
 }
 
-std::vector<OutputFile> tables_of(const std::vector<StudyRow>& rows) {
-    return {{"kinematic-error.csv", project::study_csv(rows)},
-            {"kinematic-error.json", project::study_json(rows)},
-            {"kinematic-error.md", project::study_markdown(rows)}};
-}
-
 void write_whole(const std::filesystem::path& folder, const std::vector<StudyRow>& rows) {
-    std::vector<OutputFile> files = tables_of(rows);
+    std::vector<OutputFile> files = study_tables(rows);
     std::ranges::move(study_pictures(rows), std::back_inserter(files));
     write_outputs(folder, files);
-}
-
-/// Of a study with cases missing, apart from those of a whole one, which may stand in `folder`. Where mpirun
-/// stops a study, it may leave no time for pictures: `tell_where` is called before them.
-template <class TellWhere>
-void write_unfinished(const std::filesystem::path& folder,
-                      const std::vector<StudyRow>& rows,
-                      const TellWhere& tell_where) {
-    const std::filesystem::path apart = folder / "unfinished";
-    write_outputs(apart, tables_of(rows));
-    tell_where(apart.string());
-    write_outputs(apart, study_pictures(rows));
 }
 
 void print_head() {
@@ -145,41 +128,88 @@ void print_head() {
                "gap mm");
 }
 
+/// What rank 0 says, of one or several.
+class Teller {
+public:
+    Teller(const Ranks& ranks, const Interrupt& interrupt)
+        : several_(ranks.size() > 1),
+          progress_([this](const Progress::Report& report) { printer_.show(report); }, interrupt.token()) {}
+    Teller(const Teller&) = delete;
+    Teller& operator=(const Teller&) = delete;
+    ~Teller() = default;
+
+    [[nodiscard]] const Progress& progress() const { return progress_; }
+    void finish() { printer_.finish(); }
+
+    void show(std::span<const StudyRow> found) {
+        printer_.finish();
+        std::ranges::for_each(found, print);
+        std::fflush(stdout); // mpirun may stop us any time
+    }
+    /// What is said of one process by its error alone.
+    void say_of_several(const std::string& sentence) {
+        if (several_) {
+            printer_.say(sentence);
+        }
+    }
+    /// A study goes on without what it keeps for the case that it is stopped.
+    void say_not_kept(const Error& error) {
+        const std::string sentence = to_text(error.diagnostic());
+        if (not_kept_ != sentence) {
+            printer_.say(sentence);
+        }
+        not_kept_ = sentence;
+    }
+
+private:
+    bool several_;
+    ProgressPrinter printer_;
+    Progress progress_;
+    std::string not_kept_;
+};
+
+/// Where what is done is, of a study with cases missing. Where mpirun stops it there may be no time for
+/// pictures: this is said before them.
+std::string write_unfinished(const UnfinishedStudy& unfinished,
+                             std::span<const StudyCase> cases,
+                             const SpreadStudy& found,
+                             Teller& teller) {
+    unfinished.keep(cases, found.rows);
+    const std::string where = unfinished.folder().string();
+    teller.say_of_several(fmt::format("the cases that are done are in {}", where));
+    write_outputs(unfinished.folder(), study_pictures(joined(found.rows)));
+    return fmt::format("they are in {}", where);
+}
+
 /// Rank 0 of one or several. What came is written, whatever is missing.
 int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
     const OutputFolder folder(options.out);
-    ProgressPrinter printer;
-    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const UnfinishedStudy unfinished(options.out);
+    Teller teller(ranks, interrupt);
     print_head();
-    const auto show = [&](std::span<const StudyRow> found) {
-        printer.finish();
-        std::ranges::for_each(found, print);
-        std::fflush(stdout); // mpirun may stop us any time
-    };
-    const auto name_lost = [&](const std::string& sentence) {
-        if (ranks.size() > 1) {
-            printer.finish();
-            fmt::print(stderr, "{}\n", sentence);
-        }
-    };
-    const SpreadStudy found = gather_study(ranks, cases, study, {show, name_lost}, progress);
-    printer.finish();
-    std::vector<StudyRow> rows;
-    std::size_t done = 0;
-    for (const std::vector<StudyRow>& of_case : found.rows) {
-        rows.insert(rows.end(), of_case.begin(), of_case.end());
-        done += of_case.empty() ? 0 : 1;
-    }
-    const bool whole = done == cases.size();
+    const StudyNews news{.came =
+                             [&](const auto& rows) {
+                                 try {
+                                     unfinished.keep(cases, rows);
+                                 } catch (const Error& error) {
+                                     teller.say_not_kept(error);
+                                 }
+                             },
+                         .done = [&](std::span<const StudyRow> found) { teller.show(found); },
+                         .lost = [&](const std::string& sentence) { teller.say_of_several(sentence); }};
+    const SpreadStudy found = gather_study(ranks, cases, study, news, teller.progress());
+    teller.finish();
+    const std::vector<StudyRow> rows = joined(found.rows);
+    const std::ptrdiff_t done =
+        std::ssize(cases) - std::ranges::count_if(found.rows, &std::vector<StudyRow>::empty);
+    const bool whole = done == std::ssize(cases);
     std::string kept = "nothing is written";
     if (whole) {
         write_whole(options.out, rows);
+        unfinished.remove(cases);
     } else if (done > 0) {
-        write_unfinished(options.out, rows, [&](const std::string& where) {
-            kept = fmt::format("they are in {}", where);
-            name_lost(fmt::format("the cases that are done are in {}", where));
-        });
+        kept = write_unfinished(unfinished, cases, found, teller);
     }
     if (std::ranges::any_of(rows, &StudyRow::no_gain)) {
         fmt::print("no gain: nothing better was found than what the method starts from, which is kept\n");
@@ -195,6 +225,29 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
     return 0;
 }
 
+std::string left_by_rank_0(const UnfinishedStudy& unfinished) {
+    return unfinished.kept()
+               ? fmt::format("the cases that were done are in {}, whose missing.txt names the others",
+                             unfinished.folder().string())
+               : std::string("rank 0 has written no case");
+}
+
+/// Another rank.
+int helped(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
+    const std::vector<StudyCase> cases = cases_of(options);
+    const UnfinishedStudy unfinished(options.out);
+    const auto deserted = [&](const std::string& lost) {
+        if (!lost.empty()) {
+            fmt::print(stderr, "{}\n", lost);
+        }
+        if (ranks.rank() == 1) {
+            fmt::print(stderr, "{}\n", left_by_rank_0(unfinished));
+        }
+    };
+    help_with_study(ranks, cases, study, deserted, interrupt.token());
+    return 0;
+}
+
 int kinematic_error(const Options& options) {
     const Interrupt interrupt;
     const Ranks ranks;
@@ -202,11 +255,8 @@ int kinematic_error(const Options& options) {
                                const StudyCase& of, const Progress& progress) {
         return project::studied(of, folders, progress);
     };
-    if (ranks.rank() > 0) {
-        help_with_study(ranks, cases_of(options), study, interrupt.token());
-        return 0;
-    }
-    return gathered(options, ranks, study, interrupt);
+    return ranks.rank() > 0 ? helped(options, ranks, study, interrupt)
+                            : gathered(options, ranks, study, interrupt);
 }
 
 } // namespace

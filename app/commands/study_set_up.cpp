@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/project/project_file.h"
 #include "core/project/set_up_edge.h"
+#include "core/project/set_up_reach.h"
 #include "core/project/set_up_study.h"
 #include "ui/viewport/map_picture.h"
 #include "ui/viewport/set_up_map.h"
@@ -66,6 +67,21 @@ void print(std::string_view name, const toolpath::SetUp& at) {
                at.axis_max ? fixed(to_degrees(*at.axis_max), 2) : "-");
 }
 
+/// Where the part stands, and in the map, whose best place is in reach.
+void print_out_of_reach(const SetUpStudy& study,
+                        const project::Workpiece& workpiece,
+                        const project::SetUpStudySettings& settings) {
+    if (!std::isfinite(study.search.start.cost)) {
+        fmt::print("the start is out of reach: {}\n",
+                   project::why_out_of_reach(workpiece, settings, study.search.start.place).value_or(""));
+    }
+    const auto holes =
+        std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
+    if (holes > 0) {
+        fmt::print("out of reach: {} of {} places of the map\n", holes, study.map.costs.size());
+    }
+}
+
 /// At rank 0 of one or several.
 SetUpStudy found_on(const Ranks& ranks,
                     const project::Workpiece& workpiece,
@@ -99,7 +115,10 @@ int set_up(const Options& options) {
     const project::Workpiece workpiece = project::workpiece_of(opened.project, opened.folders);
     const Ranks ranks;
     if (ranks.rank() > 0) {
-        help_with_costs(ranks, project::set_up_cost(workpiece, settings), interrupt.token());
+        const auto deserted = [&](const std::string& lost) {
+            fmt::print(stderr, "{}{}\n", lost, ranks.rank() == 1 ? "; nothing is written" : "");
+        };
+        help_with_costs(ranks, project::set_up_cost(workpiece, settings), deserted, interrupt.token());
         return 0;
     }
     const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
@@ -118,11 +137,10 @@ int set_up(const Options& options) {
     print("start", study.search.start);
     print("best", study.search.best);
     const bool gains = study.search.best.cost < study.search.start.cost;
-    if (!std::isfinite(study.search.best.cost)) {
-        fmt::print("out of reach: from no place that was searched the machine reaches the whole part\n");
-    } else if (!gains) {
+    if (!gains) {
         fmt::print("no gain: no better place than the start was found\n");
     }
+    print_out_of_reach(study, workpiece, settings);
     const std::string edge = project::edge_sentence(study.search,
                                                     project::set_up_box(workpiece, settings),
                                                     {"--reach", "--reach", "--height-reach", "--turn-reach"});

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/set_up_reach.h"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ SetUpStudy set_up_study(const Workpiece& workpiece,
     toolpath::SetUpSearchSettings box = set_up_box(workpiece, settings);
     SetUpStudy study;
     study.search = toolpath::search_set_up(cost, box, progress.part(0.0, searching), measure);
+    expect_in_reach(study.search, workpiece, settings, box);
     const bool maps_turn = settings.across == SetUpParameter::turn || settings.up == SetUpParameter::turn;
     if (maps_turn && !(settings.turn_reach > 0.0)) { // it was not searched, but is to be seen
         box.least[3] = -pi;

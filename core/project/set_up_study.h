@@ -37,7 +37,8 @@ struct SetUpStudy {
 };
 
 /// `measure`: who measures many places at once; empty for this process's threads. The same bytes by any
-/// number of them. Throws Cancelled, and what `measure` throws.
+/// number of them. Throws Cancelled, what `measure` throws, and Error, with the reason, if no place is in
+/// reach.
 [[nodiscard]] SetUpStudy set_up_study(const Workpiece& workpiece,
                                       const SetUpStudySettings& settings,
                                       const Progress& progress,

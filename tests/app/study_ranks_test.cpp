@@ -5,16 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 namespace millwright::test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> study(const std::string& out) {
     return {"study", "kinematic-error", "--quick", "--surface", "dome", "--out", out};
@@ -36,6 +39,13 @@ pid_t process_of_rank(pid_t mpirun, int rank) {
         }
     }
     return 0;
+}
+
+/// kill -9, of a process that nothing can prepare for it.
+void kill_rank(const Program& program, int rank) {
+    const pid_t lost = process_of_rank(program.pid(), rank);
+    ASSERT_GT(lost, 0);
+    ::kill(lost, SIGKILL);
 }
 
 class StudyOnRanks : public ::testing::Test {
@@ -67,9 +77,7 @@ TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndAnEarlierStudyStays) {
     Program program(
         {"study", "kinematic-error", "--surface", "dome", "--out", folder_ / "out"}, {}, two_ranks);
     program.wait_for_error_text("cases on 2 ranks");
-    const pid_t lost = process_of_rank(program.pid(), 1);
-    ASSERT_GT(lost, 0);
-    ::kill(lost, SIGKILL);
+    kill_rank(program, 1);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(
@@ -77,6 +85,49 @@ TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndAnEarlierStudyStays) {
         HasSubstr("rank 1 has not ended; without its cases: dome on rotary-tilt-listing with 20 points, "));
     EXPECT_THAT(ended.err, AllOf(HasSubstr("0 of 15 cases"), HasSubstr("nothing is written")));
     EXPECT_EQ(content_of(folder_ / "out" / "kinematic-error.csv"), "an earlier study");
+}
+
+TEST_F(StudyOnRanks, TheOthersNameTheirCasesWhenRank0IsLost) {
+    Program program(
+        {"study", "kinematic-error", "--surface", "dome", "--out", folder_ / "out"}, {}, two_ranks);
+    program.wait_for_error_text("cases on 2 ranks");
+    kill_rank(program, 0);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(
+        ended.err,
+        AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; without its cases: dome on "
+                        "rotary-tilt-listing with 20 points (begun), dome on rotary-tilt-listing with "
+                        "40 points, "),
+              HasSubstr("rank 0 has written no case\n")));
+}
+
+TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
+    std::vector<std::string> words = study(folder_ / "out"); // the second of the machines is done first
+    words.insert(words.end(), {"--machine", "rotary-tilt-listing", "--machine", "ca-head"});
+    Program program(words, {}, two_ranks);
+    program.wait_for_error_text("cases on 2 ranks");
+    const auto unfinished = folder_ / "out" / "unfinished";
+    while (!std::filesystem::exists(unfinished / "missing.txt") && process_of_rank(program.pid(), 0) > 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    kill_rank(program, 0);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_EQ(content_of(unfinished / "missing.txt"),
+              "not in these tables: 1 of 2 cases\ndome on rotary-tilt-listing with 12 points\n");
+    EXPECT_THAT(content_of(unfinished / "kinematic-error.csv"), HasSubstr("\ndome,ca-head,12,"));
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("the cases that were done are in " + unfinished.string() +
+                                ", whose missing.txt names the others\n"),
+                      Not(HasSubstr("without its cases"))));
+}
+
+TEST_F(StudyOnRanks, AFolderThatCannotBeMadeEndsAllOfThem) {
+    const Ended none =
+        Program({"study", "kinematic-error", "--out", "/proc/no-such-folder"}, {}, two_ranks).end();
+    EXPECT_NE(none.exit_code, 0);
+    EXPECT_THAT(none.err, HasSubstr("/proc/no-such-folder"));
 }
 
 std::vector<std::string> set_up(const std::string& out, const std::string& places) {
@@ -99,13 +150,24 @@ TEST_F(StudyOnRanks, ASetUpSearchFindsWhatOneProcessFinds) {
 TEST_F(StudyOnRanks, PlacesOfALostRankAreNamed) {
     Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
     program.wait_for_error_text("90000 places on 2 ranks");
-    const pid_t lost = process_of_rank(program.pid(), 1);
-    ASSERT_GT(lost, 0);
-    ::kill(lost, SIGKILL);
+    kill_rank(program, 1);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(ended.err, HasSubstr("rank 1 has not ended; without "));
     EXPECT_THAT(ended.err, HasSubstr(" of its places: from ("));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
+}
+
+TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLost) {
+    Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
+    program.wait_for_error_text("50 %  90000 places on 2 ranks"); // before, the other may not know of them
+    kill_rank(program, 0);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; without "),
+                      HasSubstr(" of its places: from ("),
+                      HasSubstr("; nothing is written\n")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
 

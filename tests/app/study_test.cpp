@@ -13,6 +13,8 @@
 namespace millwright::test {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -29,8 +31,13 @@ TEST(StudyCommand, CountsTheFewestPoints) {
     EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
 }
 
-TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
+TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndTakesAnUnfinishedStudyAway) {
     const ScratchFolder scratch;
+    std::filesystem::create_directories(scratch / "out/unfinished");
+    for (const char* name :
+         {"kinematic-error.csv", "missing.txt", "dome-rotary-tilt-listing.png", "notes.txt"}) {
+        write_content(scratch / "out/unfinished" / name, "left");
+    }
     const Ended ended = run({"study",
                              "kinematic-error",
                              "--quick",
@@ -48,6 +55,9 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsToo) {
     EXPECT_THAT(content_of(scratch / "out/kinematic-error.md"), HasSubstr(" (no gain) | "));
     EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
     EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr(" 1 case\n"), Not(HasSubstr("rank"))));
+    const std::filesystem::directory_iterator left(scratch / "out/unfinished");
+    EXPECT_THAT(std::vector(begin(left), end(left)), ElementsAre(scratch / "out/unfinished/notes.txt"));
 }
 
 /// A folder with what an earlier, whole study left.
@@ -68,7 +78,7 @@ TEST(StudyCommand, StoppedBeforeItsFirstCaseItWritesNothing) {
     const ScratchFolder scratch;
     leave_old_study(scratch / "out");
     Program program({"study", "kinematic-error", "--surface", "dome", "--out", scratch / "out"});
-    program.wait_for_error_text("15 cases on 1 ranks");
+    program.wait_for_error_text("15 cases\n");
     program.send(SIGINT);
     const Ended ended = program.end();
     EXPECT_EQ(ended.exit_code, 1);
@@ -92,6 +102,8 @@ TEST(StudyCommand, StoppedLaterItWritesWhatIsDoneApartFromAWholeStudy) {
     EXPECT_THAT(content_of(out / "unfinished/kinematic-error.csv"),
                 HasSubstr("\ndome,rotary-tilt-listing,12,"));
     EXPECT_THAT(content_of(out / "unfinished/dome-rotary-tilt-listing.png"), StartsWith("\x89PNG"));
+    EXPECT_THAT(content_of(out / "unfinished/missing.txt"),
+                AllOf(StartsWith("not in these tables: "), HasSubstr(" of 3 cases\n")));
 }
 
 TEST(StudyCommand, NamesWhatTheStudyDoesNotHave) {
@@ -160,9 +172,27 @@ TEST(StudyCommand, SaysThatAPartLargerThanTheMachineIsOutOfReach) {
     const std::string project = scratch / "large.json";
     write_content(project, json.dump());
     const Ended ended = set_up_study(scratch, project, scratch / "there.json");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("does not reach the whole part from any place that was searched (a "),
+                      HasSubstr(" cannot be reached: axis Y would have to go to "),
+                      HasSubstr("make the part smaller")));
+    EXPECT_EQ(ended.out, "");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out")) << "no map of nothing";
+    EXPECT_FALSE(std::filesystem::exists(scratch / "there.json"));
+}
+
+TEST(StudyCommand, TellsOfAStartAndOfPlacesOfTheMapThatAreOutOfReach) {
+    const ScratchFolder scratch;
+    const auto project = small_project(
+        scratch.path(), "dome", "\"angle_mode\"", "\"workpiece_offset\": [900, 0, 175], \"angle_mode\"");
+    const Ended ended = set_up_study(scratch, project, scratch / "there.json", {"--reach", "600"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("\nout of reach: from no place that was searched"));
-    EXPECT_THAT(ended.out, Not(HasSubstr("no gain")));
+    EXPECT_THAT(ended.out,
+                AllOf(HasSubstr("\nthe start is out of reach: path point "),
+                      HasSubstr(" cannot be reached: axis "),
+                      HasSubstr("\nout of reach: "),
+                      HasSubstr(" of 25 places of the map\n")));
 }
 
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {

@@ -77,6 +77,26 @@ TEST(Usage, ASpeedIsInItsRange) {
     }
 }
 
+TEST(Usage, ANumberOfThreadsIsWhole) {
+    for (const char* threads : {"", "0", "-2", "1.5", "2x", "many", "1025", "99999999999"}) {
+        const std::string says =
+            "--threads: \"" + std::string(threads) + "\" is no whole number from 1 to 1024";
+        expect_wrong_usage({"plan", dome, "--out", "x", "--threads", threads}, says);
+        expect_wrong_usage({"--threads", threads, "plan", dome, "--out", "x"}, says);
+    }
+    expect_wrong_usage({"gcode", "check", "--threads", "2", "x.ngc"}, "--threads");
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"plan"},
+                                               {"study", "set-up"},
+                                               {"cordic", "accuracy"},
+                                               {"picture", "relief"},
+                                               {"plot", "toolpath"}}) {
+        std::vector<std::string> words = command;
+        words.emplace_back("--help");
+        EXPECT_THAT(run(words).out, HasSubstr("--threads N")) << testing::PrintToString(command);
+    }
+}
+
 /// The file is not there, which is only found out if it was taken for the file.
 TEST(Usage, SeriesOfNumbersLeaveTheFileBehindThemAlone) {
     const std::vector<std::vector<std::string>> commands{

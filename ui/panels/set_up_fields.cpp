@@ -174,7 +174,11 @@ std::string edge_text(const Workbench& now, const project::SetUpResult& found) {
 void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
     if (found.failure) {
         (void)widgets::banner(
-            ui, "failure", {widgets::Severity::warning, with_full_stop(found.failure->message), {}});
+            ui,
+            "failure",
+            {widgets::Severity::warning,
+             with_sentence(as_sentence(found.failure->message), as_sentence(found.failure->hint)),
+             {}});
         return;
     }
     map_field(ui, now, ask, found);
@@ -203,13 +207,6 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
                  axis_text(search.start.axis_max) + " > " + axis_text(search.best.axis_max),
                  "deg",
                  "Largest angle between tool axis and normal on the way, where it stood > at the best place");
-    }
-    if (!std::isfinite(search.best.cost)) {
-        (void)widgets::banner(ui,
-                              "out_of_reach",
-                              {widgets::Severity::warning,
-                               "From no place that was searched the machine reaches the whole part.",
-                               {}});
     }
     const std::string edge = edge_text(now, found);
     if (!edge.empty()) {

@@ -37,6 +37,7 @@ SetUpMapView::SetUpMapView(const toolpath::SetUpMap& map,
     view.y_label = project::name(map.up);
     view.y_unit = project::unit(map.up);
     view.unit = "mm";
+    view.when_empty = "No place of the map is in reach.";
     view.x = x;
     view.y = y;
     view.values = map.costs;

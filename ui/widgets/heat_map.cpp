@@ -64,6 +64,23 @@ Mapping mapping_of(const HeatMapView& view, const Rect& box) {
     return mapping;
 }
 
+bool has_holes(const HeatMapView& view) {
+    return !std::ranges::all_of(view.values, [](double value) { return std::isfinite(value); });
+}
+
+/// What the cells with a value are drawn over.
+void draw_hatch(Ui& ui, const Rect& box) {
+    constexpr double share = 0.45; // quieter than the ticks, so that the marks stand out
+    const float step = ui.px(7.0F);
+    const Colour colour = faded(ui.colours().muted, share);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImGui::PushClipRect(upper_left(box), lower_right(box), true);
+    for (float x = box.x - box.h; x < box.right(); x += step) {
+        list.AddLine({x, box.bottom()}, {x + box.h, box.y}, colour, ui.px(1.0F));
+    }
+    ImGui::PopClipRect();
+}
+
 void draw_cells(const Mapping& mapping, const HeatMapView& view, const Extremes& range) {
     for (std::size_t row = 0; row < view.y.size(); ++row) {
         const float bottom = std::round(mapping.pixel_y(border(view.y, row)));
@@ -117,7 +134,7 @@ void draw_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float l
               Align::right);
 }
 
-/// What the ends of the colours mean, at the right of the line above the map; below, what goes upwards.
+/// What the map is of, and at the right what the ends of the colours mean.
 void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes& range) {
     const ImFont* font = ui.look().fonts.small;
     const float bar = ui.px(60.0F);
@@ -138,8 +155,6 @@ void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes&
     x -= gap + low_width;
     draw_text(ui, font, {x, line.y, low_width, line.h}, ui.colours().text, low);
     draw_text(ui, font, {line.x, line.y, x - gap - line.x, line.h}, ui.colours().muted, view.title);
-    const std::string up = fmt::format("up: {} ({})", view.y_label, view.y_unit);
-    draw_text(ui, font, {line.x, line.bottom() + ui.px(3.0F), line.w, line.h}, ui.colours().muted, up);
 }
 
 double value_y(const Mapping& mapping, float pixel) {
@@ -191,12 +206,29 @@ void draw_arrow_outwards(Ui& ui, const Mapping& mapping, const MapPlace& place) 
     list.AddTriangle(corners[0], corners[1], corners[2], 0xFF000000, ui.px(1.5F));
 }
 
-/// Above the map at the right, where its mark is none but an arrow.
-void draw_where_outside(Ui& ui, const Rect& line, const Mapping& mapping, const HeatMapView& view) {
+/// Just above the map: what goes upwards, what the hatched places are, and at the right where the place is
+/// whose mark is none but an arrow.
+void draw_second_line(Ui& ui, Rect line, const Mapping& mapping, const HeatMapView& view) {
+    const ImFont* font = ui.look().fonts.small;
+    const auto move_on = [&](float width) {
+        line.x += width;
+        line.w -= width;
+    };
+    const auto draw_left = [&](const std::string& text) {
+        const float width = text_width(font, text) + 1.0F;
+        draw_text(ui, font, {line.x, line.y, width, line.h}, ui.colours().muted, text);
+        move_on(width + ui.px(12.0F));
+    };
+    draw_left(fmt::format("up: {} ({})", view.y_label, view.y_unit));
+    if (has_holes(view)) {
+        draw_hatch(ui, {line.x, line.y, ui.px(18.0F), line.h});
+        move_on(ui.px(24.0F));
+        draw_left("out of reach");
+    }
     if (view.chosen && is_outside(mapping, *view.chosen)) {
         const std::string text = fmt::format(
             "outside: {} {:.6g}, {} {:.6g}", view.x_label, view.chosen->x, view.y_label, view.chosen->y);
-        draw_text(ui, ui.look().fonts.small, line, ui.colours().text, text, Align::right);
+        draw_text(ui, font, line, ui.colours().text, text, Align::right);
     }
 }
 
@@ -246,11 +278,14 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
     const Press now = press(ui, own, box);
     const Mapping mapping = mapping_of(view, box);
     ImGui::PushClipRect(upper_left(box), lower_right(box), true);
+    if (has_holes(view)) {
+        draw_hatch(ui, box);
+    }
     draw_cells(mapping, view, range);
     draw_marks(ui, mapping, view);
     ImGui::PopClipRect();
     draw_ticks(ui, mapping, view, all.x);
-    draw_where_outside(ui, {all.x, all.y + line + ui.px(3.0F), all.w, line}, mapping, view);
+    draw_second_line(ui, {all.x, all.y + line + ui.px(3.0F), all.w, line}, mapping, view);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const MapPlace place{mapping.value_x(mouse.x), value_y(mapping, mouse.y)};
     if (now.hovered) {

@@ -1,7 +1,9 @@
 #include "core/project/set_up_study.h"
 
 #include "core/base/error.h"
+#include "core/project/set_up_reach.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +13,8 @@
 namespace millwright::project {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
 using toolpath::SetUpParameter;
 
 const Folders folders{{}, "assets"};
@@ -47,6 +51,43 @@ TEST(SetUpStudy, AProjectWithThePartThereCostsWhatWasFound) {
     const toolpath::SetUpCost cost = set_up_cost(workpiece_of(there, folders), settings);
     EXPECT_NEAR(
         cost.at(cost.start(), Progress()), set_up_cost(workpiece, settings).at(place, Progress()), 1e-9);
+}
+
+/// The dome 20 times as large.
+Project large_dome() {
+    Project project = project_from_preset("dome");
+    for (geometry::ControlNet& net : project.surface.patches) {
+        for (Vec3& point : net.points) {
+            point *= 20.0;
+        }
+    }
+    return project;
+}
+
+TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
+    try {
+        (void)set_up_study(workpiece_of(large_dome(), folders), small_settings(), Progress());
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.diagnostic().message,
+                    AllOf(HasSubstr("from any place that was searched (a -1060.0 ... -940.0 mm, b "),
+                          HasSubstr("; where the part stands, path point "),
+                          HasSubstr(" cannot be reached: axis Y would have to go to "),
+                          HasSubstr(", outside -500.000 ... 500.000 mm")));
+        EXPECT_NE(error.diagnostic().hint, "");
+    }
+}
+
+TEST(SetUpStudy, AStartOutOfReachHasItsReasonAndTheBestHasNone) {
+    Project project = project_from_preset("dome");
+    project.machine.workpiece_offset = Vec3(900.0, 0.0, 175.0);
+    const Workpiece workpiece = workpiece_of(project, folders);
+    const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
+    const auto why = [&](const toolpath::SetUpPlace& place) {
+        return why_out_of_reach(workpiece, small_settings(), place).value_or("in reach");
+    };
+    EXPECT_THAT(why(study.search.start.place), HasSubstr(" cannot be reached: axis "));
+    EXPECT_EQ(why(study.search.best.place), "in reach");
 }
 
 TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {

@@ -180,7 +180,9 @@ TEST_F(ToolpathWorkspace, ASearchInVainSaysThatNoPlaceIsInReach) {
     person_.workshop().session().set_up.settings.nodes = 4;
     person_.click("inspector/set_up_search/set_up_search");
     person_.wait_idle();
-    EXPECT_TRUE(person_.sees("inspector/set_up_search/out_of_reach"));
+    EXPECT_TRUE(person_.sees("inspector/set_up_search/failure"));
+    EXPECT_FALSE(person_.sees("inspector/set_up_search/map"));
+    EXPECT_FALSE(person_.refusal("inspector/set_up_search/set_up_accept").empty());
     person_.keep("toolpath-set-up-out-of-reach");
 }
 

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace millwright::widgets {
@@ -95,6 +97,30 @@ TEST_F(HeatMap, APlaceOutsideHasAnArrowAtTheEdge) {
     chosen = MapPlace{1.0, 10.0};
     stage.frames(1);
     EXPECT_EQ(white(), 0);
+}
+
+// A place out of reach was as blank as the ground of the map.
+TEST_F(HeatMap, AHoleIsHatched) {
+    const auto colours_of_the_last_cell = [this] {
+        const Rect box = stage.place("maps/cost");
+        const auto picture = stage.picture();
+        std::set<std::uint32_t> found;
+        for (int row = static_cast<int>(box.y + 0.1F * box.h); row < static_cast<int>(box.y + 0.4F * box.h);
+             ++row) {
+            for (int column = static_cast<int>(box.x + 0.8F * box.w);
+                 column < static_cast<int>(box.x + 0.95F * box.w);
+                 ++column) {
+                found.insert(picture.pixels[static_cast<std::size_t>(row * picture.width + column)]);
+            }
+        }
+        return found.size();
+    };
+    stage.frames(2);
+    EXPECT_GT(colours_of_the_last_cell(), 1U);
+    EXPECT_TRUE(stage.ui().cut_texts().empty());
+    values.back() = 6.0;
+    stage.frames(1);
+    EXPECT_EQ(colours_of_the_last_cell(), 1U);
 }
 
 TEST_F(HeatMap, WithoutANumberSaysSo) {

@@ -40,6 +40,10 @@ constexpr float beside_scale_bar = 168.0F;
 constexpr double behind_share = 0.02; // of the content's radius: how far behind the surface counts as hidden
 constexpr double bar_px = 150.0;      // the scale bar is at most this long
 
+bool reaches(const project::SetUpStudy& study) {
+    return std::ranges::any_of(study.map.costs, [](double cost) { return std::isfinite(cost); });
+}
+
 Point in_window(const Pane& pane, const glm::dvec2& pixel) {
     return {pane.rect.x + static_cast<float>(pixel.x), pane.rect.y + static_cast<float>(pixel.y)};
 }
@@ -145,7 +149,7 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
              "The height of what the cutter leaves; the signal colour is higher, or not cut at all.",
              scallop_colors(scene, colors.over_limit)});
     }
-    if (scene.layers.set_up_map && scene.set_up && scene.set_up->study) {
+    if (scene.layers.set_up_map && scene.set_up && scene.set_up->study && reaches(*scene.set_up->study)) {
         found.push_back({"set_up_legend",
                          "Set-up",
                          "mm",

@@ -1,0 +1,67 @@
+#include "app/threads_option.h"
+
+#include "core/base/parallel.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+constexpr int most_threads = 1024; // each has memory set aside
+
+CLI::Validator number_of_threads() {
+    const auto fault_of = [](std::string& text) {
+        int threads = 0;
+        const char* const end = text.data() + text.size();
+        const std::from_chars_result read = std::from_chars(text.data(), end, threads);
+        const bool fits =
+            read.ec == std::errc() && read.ptr == end && threads >= 1 && threads <= most_threads;
+        return fits ? std::string()
+                    : fmt::format("\"{}\" is no whole number from 1 to {}", text, most_threads);
+    };
+    return {fault_of, ""};
+}
+
+void add_to(CLI::App& command) {
+    command
+        .add_option_function<int>(
+            "--threads", set_thread_count, "Compute in so many threads; by default one a core")
+        ->check(number_of_threads())
+        ->type_name("N");
+}
+
+} // namespace
+
+void add_threads_option(CLI::App& app) {
+    static const std::array<std::vector<const char*>, 13> computing{{{"plan"},
+                                                                     {"cutter"},
+                                                                     {"render"},
+                                                                     {"run"},
+                                                                     {"import"},
+                                                                     {"study", "kinematic-error"},
+                                                                     {"study", "fewest-points"},
+                                                                     {"study", "set-up"},
+                                                                     {"cordic", "accuracy"},
+                                                                     {"picture", "relief"},
+                                                                     {"picture", "engrave"},
+                                                                     {"picture", "trace"},
+                                                                     {"plot", "toolpath"}}};
+    add_to(app);
+    for (const std::vector<const char*>& words : computing) {
+        CLI::App* command = &app;
+        for (const char* const word : words) {
+            command = command->get_subcommand(word);
+        }
+        add_to(*command);
+    }
+}
+
+} // namespace millwright::app

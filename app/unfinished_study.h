@@ -1,0 +1,47 @@
+// What a study leaves that ends in the middle, however it ends: the cases that are done, in a folder of their
+// own, apart from those of a whole study.
+#pragma once
+
+#include "app/outputs.h"
+#include "core/project/kinematic_study.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+/// For people.
+[[nodiscard]] std::string name_of(const project::StudyCase& of);
+
+/// Of all cases, one case after another.
+[[nodiscard]] std::vector<project::StudyRow> joined(const std::vector<std::vector<project::StudyRow>>& rows);
+
+/// kinematic-error.csv, .json and .md.
+[[nodiscard]] std::vector<OutputFile> study_tables(const std::vector<project::StudyRow>& rows);
+
+/// OUT/unfinished, of one study on any of its ranks.
+class UnfinishedStudy {
+public:
+    /// Made before the first case is done. Changes nothing.
+    explicit UnfinishedStudy(const std::filesystem::path& out);
+
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+    /// Writes the tables of the cases that have come, and missing.txt, which names the others, over those of
+    /// an earlier study. `rows` has an element a case, empty for one that did not come. Throws Error.
+    void keep(std::span<const project::StudyCase> cases,
+              const std::vector<std::vector<project::StudyRow>>& rows) const;
+    /// Whether keep() was called, on whatever rank that writes into the same folder.
+    [[nodiscard]] bool kept() const;
+    /// Takes the tables and the pictures of these cases away, and the folder where nothing else is in it.
+    void remove(std::span<const project::StudyCase> cases) const;
+
+private:
+    std::filesystem::path folder_;
+    std::optional<std::filesystem::file_time_type> earlier_; ///< when an earlier study wrote there
+};
+
+} // namespace millwright::app
