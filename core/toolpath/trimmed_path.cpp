@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/toolpath/internal/contact_point.h"
+#include "core/toolpath/outline_tree.h"
 
 #include <optional>
 #include <utility>
@@ -20,7 +21,7 @@ bool is_whole(const std::vector<WayPart>& parts) {
 class Trimmer {
 public:
     Trimmer(const geometry::BezierPatch& patch, const Trim& trim, const Toolpath& whole, bool flipped)
-        : patch_(patch), trim_(trim), whole_(whole), flipped_(flipped) {
+        : patch_(patch), outline_(trim), whole_(whole), flipped_(flipped) {
         kept_.direction = whole.direction;
         kept_.tool = whole.tool;
     }
@@ -39,7 +40,7 @@ private:
     void keep_of_move(std::size_t n) {
         const PathPoint& a = whole_.points[n - 1];
         const PathPoint& b = whole_.points[n];
-        for (const WayPart& part : parts_inside(trim_, a.origin.uv, b.origin.uv)) {
+        for (const WayPart& part : outline_.parts_inside(a.origin.uv, b.origin.uv)) {
             const bool from_start = !(part.from > 0.0);
             if (!from_start || last_whole_ != n - 1) { // else the piece goes on
                 begin(from_start ? a : between(a, b, part.from), from_start ? n - 1 : 0);
@@ -62,7 +63,7 @@ private:
 
     [[nodiscard]] bool is_link(const PathPoint& to, std::size_t n) const {
         return n > 0 && last_whole_ == n - 1 && whole_.points[n].reached_by == MoveKind::cross &&
-               is_whole(parts_inside(trim_, kept_.points.back().origin.uv, to.origin.uv));
+               is_whole(outline_.parts_inside(kept_.points.back().origin.uv, to.origin.uv));
     }
 
     [[nodiscard]] PathPoint between(const PathPoint& a, const PathPoint& b, double share) const {
@@ -74,7 +75,7 @@ private:
     }
 
     const geometry::BezierPatch& patch_;
-    const Trim& trim_;
+    OutlineTree outline_;
     const Toolpath& whole_;
     bool flipped_;
     Toolpath kept_;
