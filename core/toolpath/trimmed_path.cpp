@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/toolpath/internal/contact_point.h"
-#include "core/toolpath/outline_tree.h"
 
 #include <optional>
 #include <utility>
@@ -43,10 +42,10 @@ private:
         for (const WayPart& part : outline_.parts_inside(a.origin.uv, b.origin.uv)) {
             const bool from_start = !(part.from > 0.0);
             if (!from_start || last_whole_ != n - 1) { // else the piece goes on
-                begin(from_start ? a : between(a, b, part.from), from_start ? n - 1 : 0);
+                begin(from_start ? with_normal(a) : between(a, b, part.from), from_start ? n - 1 : 0);
             }
             const bool to_end = !(part.to < 1.0);
-            PathPoint end = to_end ? b : between(a, b, part.to);
+            PathPoint end = to_end ? with_normal(b) : between(a, b, part.to);
             end.reached_by = MoveKind::track;
             kept_.points.push_back(end);
             last_whole_ = to_end ? std::optional(n) : std::nullopt;
@@ -66,6 +65,15 @@ private:
                is_whole(outline_.parts_inside(kept_.points.back().origin.uv, to.origin.uv));
     }
 
+    [[nodiscard]] PathPoint with_normal(const PathPoint& point) const {
+        if (!point.normal.isZero()) {
+            return point;
+        }
+        PathPoint touched = contact_point(patch_, point.origin.uv, flipped_);
+        touched.origin = point.origin;
+        return touched;
+    }
+
     [[nodiscard]] PathPoint between(const PathPoint& a, const PathPoint& b, double share) const {
         PathPoint point = contact_point(patch_, a.origin.uv + share * (b.origin.uv - a.origin.uv), flipped_);
         const GridOrigin& nearest = share < 0.5 ? a.origin : b.origin;
@@ -83,6 +91,19 @@ private:
 };
 
 } // namespace
+
+PathPoint
+point_to_trim(const geometry::BezierPatch& patch, const OutlineTree* outline, const Vec2& uv, bool flipped) {
+    if (outline == nullptr || outline->contains(uv)) {
+        return contact_point(patch, uv, flipped);
+    }
+    PathPoint point;
+    point.contact = patch.position(uv.x(), uv.y());
+    point.normal = Vec3::Zero();
+    point.pose.tip = point.contact;
+    point.origin.uv = uv;
+    return point;
+}
 
 Toolpath trimmed(const geometry::BezierPatch& patch, const Trim& trim, Toolpath contacts, bool flipped) {
     if (trim.everything()) {
