@@ -206,14 +206,9 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
 
 void print_cut(const project::Project& project, const project::Plan& plan) {
     const project::CutStudy& cut = *plan.cut;
-    fmt::print(
-        "left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; {} % not cut; deepest "
-        "cut below it: {} mm\n",
-        fixed(cut.scallops.max, 4),
-        fixed(cut.scallops.mean, 4),
-        shortest(project.tool.scallop_mm),
-        fixed(100.0 * cut.scallops.not_cut, 2),
-        fixed(cut.deepest, 4));
+    fmt::print("left on the surface: {}; deepest cut below it: {} mm\n",
+               project::left_text(project, plan),
+               fixed(cut.deepest, 4));
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
