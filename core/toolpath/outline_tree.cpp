@@ -119,6 +119,9 @@ void OutlineTree::add_crossings(std::size_t number,
 }
 
 std::vector<WayPart> OutlineTree::parts_inside(const Vec2& a, const Vec2& b) const {
+    if (loops_.empty()) {
+        return {{0.0, 1.0}};
+    }
     std::vector<double> shares{0.0, 1.0};
     for (const std::size_t loop : loops_) {
         add_crossings(loop, a, b, shares);
