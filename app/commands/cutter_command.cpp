@@ -42,11 +42,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
                fixed(chosen.closest.max, 4),
                fixed(chosen.closest.mean, 4),
                fixed(to_degrees(chosen.closest.axis_max), 2));
-    fmt::print("left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; {} % not cut\n",
-               fixed(study.scallops.max, 4),
-               fixed(study.scallops.mean, 4),
-               shortest(project.tool.scallop_mm),
-               fixed(100.0 * study.scallops.not_cut, 2));
+    fmt::print("left on the surface: {}\n", project::left_text(project, plan));
     fmt::print("tracks: {}; a scallop of {} mm asks for {}\n",
                chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"
                                 : "as far apart as the scallop allows",

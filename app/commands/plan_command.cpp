@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -90,8 +91,11 @@ void print_links(const project::Plan& plan) {
         return;
     }
     const bool turns = !plan.workpiece->machine.rotary_axes().empty();
-    const auto axis = [turns](const grid::ErrorSummary& of) {
-        return turns ? fixed(to_degrees(of.axis_max), 2) : std::string("-");
+    const auto figure = [](double value, int decimals) { // of nodes that are never cut there may be none
+        return std::isfinite(value) ? fixed(value, decimals) : std::string("-");
+    };
+    const auto axis = [&](const grid::ErrorSummary& of) {
+        return turns ? figure(to_degrees(of.axis_max), 2) : std::string("-");
     };
     fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "link of the chain, to the curve",
@@ -104,11 +108,11 @@ void print_links(const project::Plan& plan) {
     for (const grid::ImproverLink& link : plan.chain->outcome.links) {
         fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}{}\n",
                    link.name,
-                   fixed(link.reached.max, 4),
-                   fixed(link.reached.mean, 4),
+                   figure(link.reached.max, 4),
+                   figure(link.reached.mean, 4),
                    axis(link.reached),
-                   fixed(link.of_best.max, 4),
-                   fixed(link.of_best.mean, 4),
+                   figure(link.of_best.max, 4),
+                   figure(link.of_best.mean, 4),
                    axis(link.of_best),
                    link.refused.empty() ? std::string() : "  not taken: " + link.refused);
     }
@@ -202,14 +206,9 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
 
 void print_cut(const project::Project& project, const project::Plan& plan) {
     const project::CutStudy& cut = *plan.cut;
-    fmt::print(
-        "left on the surface: at most {} mm, {} mm on average, where {} mm are wanted; {} % not cut; deepest "
-        "cut below it: {} mm\n",
-        fixed(cut.scallops.max, 4),
-        fixed(cut.scallops.mean, 4),
-        shortest(project.tool.scallop_mm),
-        fixed(100.0 * cut.scallops.not_cut, 2),
-        fixed(cut.deepest, 4));
+    fmt::print("left on the surface: {}; deepest cut below it: {} mm\n",
+               project::left_text(project, plan),
+               fixed(cut.deepest, 4));
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }

@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/grids.h"
+#include "core/project/internal/cut_reach.h"
 #include "core/project/internal/larger_figures.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
@@ -37,6 +38,28 @@ std::string way_out(int points, double off, double height) {
 }
 
 } // namespace
+
+std::optional<double> left_at_least(const Plan& plan) {
+    expects(plan.cut && plan.workpiece && plan.workpiece->tool.cutter, "a plan has its study");
+    const ScallopFigures& found = plan.cut->scallops;
+    return found.not_cut > 0.0 ? std::optional(cut_reach(*plan.workpiece->tool.cutter, found.by_formula))
+                               : std::nullopt;
+}
+
+std::string left_text(const Project& project, const Plan& plan) {
+    const std::optional<double> least = left_at_least(plan);
+    const ScallopFigures& found = plan.cut->scallops;
+    const std::string where_cut =
+        fmt::format("at most {} mm, {} mm on average", fixed(found.max, 4), fixed(found.mean, 4));
+    const std::string wanted = fmt::format("where {} mm are wanted", shortest(project.tool.scallop_mm));
+    const std::string not_cut = fixed(100.0 * found.not_cut, 2);
+    return least ? fmt::format("at least {} mm on the {} % that are not cut, elsewhere {}, {}",
+                               fixed(*least, 4),
+                               not_cut,
+                               where_cut,
+                               wanted)
+                 : fmt::format("{}, {}; {} % not cut", where_cut, wanted, not_cut);
+}
 
 std::string why_higher(const Project& project, const Plan& plan) {
     expects(plan.cut != nullptr, "a plan has its study before it is explained");

@@ -5,10 +5,19 @@
 #include "core/project/plan.h"
 #include "core/project/project.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace millwright::project {
+
+/// How high at least what is left stands where the cutter never came near the surface, mm: farther up it is
+/// not looked for, and ScallopFigures leave it out. Nothing where it came everywhere. `plan` has its study.
+[[nodiscard]] std::optional<double> left_at_least(const Plan& plan);
+
+/// "at most 0.0124 mm, 0.0031 mm on average, where 0.01 mm are wanted; 0.00 % not cut", or that it is at
+/// least so much where it is not cut. `plan` has its study.
+[[nodiscard]] std::string left_text(const Project& project, const Plan& plan);
 
 /// Why tracks of constant scallop leave more than they should, as a sentence with what to do; empty if they
 /// do not, or if the program has others. `plan` has its study.

@@ -10,6 +10,7 @@
 #include "core/project/version.h"
 
 #include <cmath>
+#include <optional>
 
 namespace millwright::project {
 
@@ -73,6 +74,8 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     const std::string why = why_higher(project, plan);
     json["scallop_mm"]["why_higher"] = why.empty() ? Json() : Json(why);
     json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
+    const std::optional<double> least = left_at_least(plan);
+    json["left_where_not_cut_mm"] = least ? Json(rounded(*least)) : Json();
     json["step_over_mm"] = std::isfinite(study.step_over) ? Json(rounded(study.step_over)) : Json();
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = bites(study);

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/project/internal/cut_reach.h"
 #include "core/toolpath/contact_shape.h"
 #include "core/toolpath/tool_poses.h"
 
@@ -201,10 +202,7 @@ sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double h
     settings.nu = points(grid.nu());
     settings.nv = points(grid.nv());
     settings.step = sweep_step(cutter);
-    // Higher than the cutter is wide stands what it never came near; to look as far as the formula says of
-    // tracks that are far apart would compare every pose with every point.
-    const double widest = 2.0 * cutter.shape().radius;
-    settings.highest = std::max(1.0, std::min(2.0 * highest_ridge, widest));
+    settings.highest = cut_reach(cutter, highest_ridge);
     return settings;
 }
 
@@ -287,6 +285,11 @@ CutStudy study(const Workpiece& workpiece,
 }
 
 } // namespace
+
+double cut_reach(const toolpath::Profile& cutter, double by_formula) {
+    constexpr double least = 1.0; // mm
+    return std::max(least, 2.0 * std::min(by_formula, cutter.shape().radius));
+}
 
 CutStudy study_cut(const Plan& plan, const Project& project, const Progress& progress) {
     const auto& chosen = plan.program_path(project);

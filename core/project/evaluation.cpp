@@ -4,6 +4,7 @@
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/trimmed_path.h"
 #include "core/toolpath/turning_over.h"
+#include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <array>
@@ -46,16 +47,27 @@ fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progre
     return best;
 }
 
+/// Before it is trimmed. Nodes of a zigzag that are never cut need no normal.
+toolpath::Toolpath contacts_of(const Workpiece& workpiece,
+                               const grid::Grid& grid,
+                               const toolpath::StrategySettings& strategy,
+                               const Progress& progress) {
+    if (strategy.kind == toolpath::StrategyKind::zigzag && !workpiece.trim.everything()) {
+        const toolpath::OutlineTree outline(workpiece.trim);
+        return toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped, &outline);
+    }
+    const toolpath::Covering all{
+        workpiece.patch, workpiece.machine, workpiece.tool, grid, workpiece.direction, workpiece.flipped};
+    return toolpath::make_strategy(strategy)->contacts(all, progress);
+}
+
 toolpath::SequencedPath path_of(const Workpiece& workpiece,
                                 const grid::Grid& grid,
                                 const toolpath::StrategySettings& strategy,
                                 const Progress& progress) {
     constexpr double covering = 0.5; // share of the work
-    const toolpath::Covering all{
-        workpiece.patch, workpiece.machine, workpiece.tool, grid, workpiece.direction, workpiece.flipped};
-    toolpath::Toolpath contacts =
-        toolpath::make_strategy(strategy)->contacts(all, progress.part(0.0, covering));
-    toolpath::refuse_turning_over(workpiece.patch, workpiece.trim, contacts);
+    toolpath::Toolpath contacts = contacts_of(workpiece, grid, strategy, progress.part(0.0, covering));
+    toolpath::refuse_turning_over(workpiece.patch, workpiece.trim, grid, contacts);
     contacts = toolpath::trimmed(workpiece.patch, workpiece.trim, std::move(contacts), workpiece.flipped);
     toolpath::Toolpath path =
         toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));

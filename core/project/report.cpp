@@ -64,16 +64,21 @@ Json gap_of(const Evaluation& evaluation) {
     return evaluation.track_gap ? Json(rounded(*evaluation.track_gap)) : Json();
 }
 
+/// Null where nodes that are never cut cannot be reached, or have no normal: a grid is measured over all.
+Json known(double figure) {
+    return std::isfinite(figure) ? Json(rounded(figure)) : Json();
+}
+
 Json links_of(const GridOutcome& outcome) {
     Json json = Json::array();
     for (const grid::ImproverLink& link : outcome.links) {
         json.push_back({{"name", link.name},
-                        {"max", rounded(link.reached.max)},
-                        {"mean", rounded(link.reached.mean)},
-                        {"axis_max_deg", rounded(to_degrees(link.reached.axis_max))},
-                        {"best_max", rounded(link.of_best.max)},
-                        {"best_mean", rounded(link.of_best.mean)},
-                        {"best_axis_max_deg", rounded(to_degrees(link.of_best.axis_max))},
+                        {"max", known(link.reached.max)},
+                        {"mean", known(link.reached.mean)},
+                        {"axis_max_deg", known(to_degrees(link.reached.axis_max))},
+                        {"best_max", known(link.of_best.max)},
+                        {"best_mean", known(link.of_best.mean)},
+                        {"best_axis_max_deg", known(to_degrees(link.of_best.axis_max))},
                         {"refused", link.refused}});
     }
     return json;
@@ -86,7 +91,7 @@ Json errors(const Plan& plan,
     Json json;
     json["closest"] = distances(evaluation.closest);
     json["param"] = distances(evaluation.param);
-    json["curve"] = by_curve ? distances(*by_curve) : Json();
+    json["curve"] = by_curve && std::isfinite(by_curve->max) ? distances(*by_curve) : Json();
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(evaluation.closest.axis_mean));
     json["track_gap_mm"] = gap_of(evaluation);

@@ -20,7 +20,7 @@ bool is_whole(const std::vector<WayPart>& parts) {
 class Trimmer {
 public:
     Trimmer(const geometry::BezierPatch& patch, const Trim& trim, const Toolpath& whole, bool flipped)
-        : patch_(patch), trim_(trim), whole_(whole), flipped_(flipped) {
+        : patch_(patch), outline_(trim), whole_(whole), flipped_(flipped) {
         kept_.direction = whole.direction;
         kept_.tool = whole.tool;
     }
@@ -39,13 +39,13 @@ private:
     void keep_of_move(std::size_t n) {
         const PathPoint& a = whole_.points[n - 1];
         const PathPoint& b = whole_.points[n];
-        for (const WayPart& part : parts_inside(trim_, a.origin.uv, b.origin.uv)) {
+        for (const WayPart& part : outline_.parts_inside(a.origin.uv, b.origin.uv)) {
             const bool from_start = !(part.from > 0.0);
             if (!from_start || last_whole_ != n - 1) { // else the piece goes on
-                begin(from_start ? a : between(a, b, part.from), from_start ? n - 1 : 0);
+                begin(from_start ? with_normal(a) : between(a, b, part.from), from_start ? n - 1 : 0);
             }
             const bool to_end = !(part.to < 1.0);
-            PathPoint end = to_end ? b : between(a, b, part.to);
+            PathPoint end = to_end ? with_normal(b) : between(a, b, part.to);
             end.reached_by = MoveKind::track;
             kept_.points.push_back(end);
             last_whole_ = to_end ? std::optional(n) : std::nullopt;
@@ -62,7 +62,16 @@ private:
 
     [[nodiscard]] bool is_link(const PathPoint& to, std::size_t n) const {
         return n > 0 && last_whole_ == n - 1 && whole_.points[n].reached_by == MoveKind::cross &&
-               is_whole(parts_inside(trim_, kept_.points.back().origin.uv, to.origin.uv));
+               is_whole(outline_.parts_inside(kept_.points.back().origin.uv, to.origin.uv));
+    }
+
+    [[nodiscard]] PathPoint with_normal(const PathPoint& point) const {
+        if (!point.normal.isZero()) {
+            return point;
+        }
+        PathPoint touched = contact_point(patch_, point.origin.uv, flipped_);
+        touched.origin = point.origin;
+        return touched;
     }
 
     [[nodiscard]] PathPoint between(const PathPoint& a, const PathPoint& b, double share) const {
@@ -74,7 +83,7 @@ private:
     }
 
     const geometry::BezierPatch& patch_;
-    const Trim& trim_;
+    OutlineTree outline_;
     const Toolpath& whole_;
     bool flipped_;
     Toolpath kept_;
@@ -82,6 +91,19 @@ private:
 };
 
 } // namespace
+
+PathPoint
+point_to_trim(const geometry::BezierPatch& patch, const OutlineTree* outline, const Vec2& uv, bool flipped) {
+    if (outline == nullptr || outline->contains(uv)) {
+        return contact_point(patch, uv, flipped);
+    }
+    PathPoint point;
+    point.contact = patch.position(uv.x(), uv.y());
+    point.normal = Vec3::Zero();
+    point.pose.tip = point.contact;
+    point.origin.uv = uv;
+    return point;
+}
 
 Toolpath trimmed(const geometry::BezierPatch& patch, const Trim& trim, Toolpath contacts, bool flipped) {
     if (trim.everything()) {

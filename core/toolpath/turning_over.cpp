@@ -1,8 +1,11 @@
 #include "core/toolpath/turning_over.h"
 
 #include "core/base/error.h"
+#include "core/toolpath/outline_tree.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace millwright::toolpath {
 
@@ -55,19 +58,25 @@ std::optional<Vec2> flip_between(const geometry::BezierPatch& patch, const Vec2&
 
 void refuse_turning_over(const geometry::BezierPatch& patch,
                          const geometry::Trim& trim,
+                         const grid::Grid& grid,
                          const Toolpath& contacts) {
-    const auto& points = contacts.points;
-    for (std::size_t n = 1; n < points.size(); ++n) {
-        if (points[n - 1].normal.dot(points[n].normal) >= 0.0) {
-            continue;
-        }
-        const Vec2& a = points[n - 1].origin.uv;
-        const Vec2& b = points[n].origin.uv;
-        for (const auto& [from, to] : geometry::parts_inside(trim, a, b)) {
+    const OutlineTree outline(trim);
+    const auto look = [&](const Vec2& a, const Vec2& b) {
+        for (const auto& [from, to] : outline.parts_inside(a, b)) {
             const Vec2 begin = a + from * (b - a), end = a + to * (b - a);
             if (const auto at = flip_between(patch, begin, end)) {
                 refuse(begin, end, *at);
             }
+        }
+    };
+    const auto& points = contacts.points;
+    for (std::size_t n = 1; n < points.size(); ++n) {
+        look(points[n - 1].origin.uv, points[n].origin.uv);
+    }
+    for (int i = 0; i < grid.nu(); ++i) { // links may run where nothing is cut: from track to track, too
+        for (int j = 0; j < grid.nv(); ++j) {
+            look(grid.node(std::max(i - 1, 0), j), grid.node(i, j));
+            look(grid.node(i, std::max(j - 1, 0)), grid.node(i, j));
         }
     }
 }

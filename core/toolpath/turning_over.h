@@ -4,6 +4,7 @@
 
 #include "core/geometry/bezier_patch.h"
 #include "core/geometry/trim.h"
+#include "core/grid/grid.h"
 #include "core/toolpath/toolpath.h"
 
 #include <optional>
@@ -16,10 +17,12 @@ namespace millwright::toolpath {
 [[nodiscard]] std::optional<Vec2>
 flip_between(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b);
 
-/// Throws Error, naming the place, where the normal flips between two points of `contacts` that follow each
-/// other, as far as the way between them lies inside `trim`.
+/// Throws Error, naming the place, where the normal flips inside `trim`: between points of `contacts` that
+/// follow each other, and between neighbouring nodes of the grid. What is never cut does not matter: nor does
+/// it that pieces on both sides of a hole face opposite ways, since no cut leads from one to the other.
 void refuse_turning_over(const geometry::BezierPatch& patch,
                          const geometry::Trim& trim,
+                         const grid::Grid& grid,
                          const Toolpath& contacts);
 
 } // namespace millwright::toolpath

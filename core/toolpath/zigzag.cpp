@@ -1,13 +1,14 @@
 #include "core/toolpath/zigzag.h"
 
-#include "core/toolpath/internal/contact_point.h"
+#include "core/toolpath/trimmed_path.h"
 
 namespace millwright::toolpath {
 
 Toolpath zigzag(const geometry::BezierPatch& patch,
                 const grid::Grid& grid,
                 grid::TrackDirection direction,
-                bool flipped) {
+                bool flipped,
+                const OutlineTree* outline) {
     Toolpath toolpath;
     toolpath.direction = direction;
     const int tracks = grid.track_count(direction);
@@ -17,7 +18,7 @@ Toolpath zigzag(const geometry::BezierPatch& patch,
         for (int step = 0; step < nodes; ++step) {
             const int node = backwards ? nodes - 1 - step : step;
             const Vec2& uv = grid.track_node(direction, track, node);
-            PathPoint point = contact_point(patch, uv, flipped);
+            PathPoint point = point_to_trim(patch, outline, uv, flipped);
             point.reached_by = step > 0 ? MoveKind::track : track > 0 ? MoveKind::cross : MoveKind::start;
             point.origin = origin_at(direction, track, node, uv);
             toolpath.points.push_back(point);

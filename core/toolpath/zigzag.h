@@ -3,15 +3,18 @@
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
+#include "core/toolpath/outline_tree.h"
 #include "core/toolpath/toolpath.h"
 
 namespace millwright::toolpath {
 
-/// The tool axis is the surface normal, on the side of S_u x S_v, or the other one if `flipped`.
-/// Throws Error naming the parameters where the normal is degenerate.
+/// Every node, those outside of `outline` (null: there are none) as point_to_trim() has them. The tool axis
+/// is the surface normal, on the side of S_u x S_v, or the other one if `flipped`. Throws Error naming the
+/// parameters where the normal is degenerate.
 [[nodiscard]] Toolpath zigzag(const geometry::BezierPatch& patch,
                               const grid::Grid& grid,
                               grid::TrackDirection direction,
-                              bool flipped);
+                              bool flipped,
+                              const OutlineTree* outline = nullptr);
 
 } // namespace millwright::toolpath

@@ -1,6 +1,7 @@
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/actions/workshop.h"
 
 namespace millwright::actions {
@@ -32,8 +33,10 @@ template <GridMethod method> void start(Hands& hands) {
     hands.pipeline.start_adaptation(method);
     hands.pipeline.play_adaptation();
     hands.session.workspace = Workspace::grid;
-    if (hands.now.evaluation(method)) { // what is watched only has no path
+    if (hands.now.evaluation(method)) {
         show_grid(hands.session, method);
+    } else { // what is watched only has no path, and the one that was watched before is not meant any more
+        show_program_path(hands.session, hands.now.project);
     }
 }
 
@@ -44,8 +47,8 @@ template <GridMethod method> bool is_chosen(const Workbench& now) {
 template <GridMethod method> void choose(Hands& hands) {
     project::Project draft = hands.history.current();
     draft.grid.method = method;
+    show_program_path(hands.session, draft);
     hands.history.commit(std::move(draft), "Choose the grid of the program");
-    hands.session.shown = method;
 }
 
 using viewport::SurfaceToolKind;
@@ -102,8 +105,7 @@ template <StrategyInput strategy> bool is_strategy(const Workbench& now) {
 template <StrategyInput strategy> void use(Hands& hands) {
     project::Project draft = hands.history.current();
     draft.toolpath.strategy = strategy;
-    hands.session.shown = project::program_grid(draft);
-    hands.session.own_path_shown = true;
+    show_program_path(hands.session, draft);
     hands.history.commit(std::move(draft), "Choose the strategy");
 }
 

@@ -10,6 +10,9 @@ namespace millwright::actions {
 /// unless that of a strategy is shown.
 [[nodiscard]] project::GridMethod shown_grid(const Workbench& now);
 
+/// From now on the path is drawn that the program of `project` follows, with its error.
+void show_program_path(Session& session, const project::Project& project);
+
 /// Whether this stands in until the exact one is there, and stays where the work was cancelled: the grid from
 /// before the last change on what is there now, or one that was measured coarsely.
 [[nodiscard]] bool is_so_far(const project::Evaluation& evaluation);

@@ -9,6 +9,7 @@
 #include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"
 
@@ -91,8 +92,7 @@ void Workshop::open(const fs::path& file) {
     }
     const fs::path whole = fs::absolute(file).lexically_normal();
     project::Project opened = project::read_project(whole);
-    session_.shown = project::program_grid(opened);
-    session_.own_path_shown = true;
+    show_program_path(session_, opened);
     begin(opened, "Open " + file.filename().string(), {whole, opened});
     remember(file);
 }

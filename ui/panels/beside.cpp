@@ -4,6 +4,7 @@
 #include "ui/panels/internal/fields.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace millwright::panels {
@@ -72,19 +73,34 @@ void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions
     action_button(ui, now, ask, catalogue, "view.keep_result");
 }
 
-std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown) {
+std::optional<PathBeside> path_beside(const Workbench& now) {
     const Beside& beside = now.session.beside;
-    if (now.session.workspace != actions::Workspace::toolpath || !beside.any() || !shown.shown) {
+    if (now.session.workspace != actions::Workspace::toolpath || !beside.any()) {
         return std::nullopt;
     }
-    NamedScene other{shown, {}};
+    if (beside.kept) {
+        const auto& kept = now.session.kept;
+        return PathBeside{kept->evaluation, "Kept: " + kept->name + ", " + kept->place};
+    }
+    auto path = now.evaluation(*beside.method);
+    std::string name(project::row_of(project::grid_methods(), *beside.method).label);
+    return path ? std::optional(PathBeside{std::move(path), std::move(name)}) : std::nullopt;
+}
+
+std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown) {
+    const Beside& beside = now.session.beside;
+    const auto path = path_beside(now);
+    if (!path || !shown.shown) {
+        return std::nullopt;
+    }
+    NamedScene other{shown, path->name};
     other.scene.now.reset();
+    other.scene.shown = path->path;
     if (beside.kept) {
         const auto& kept = now.session.kept;
         other.name = kept->name + "\n" + kept->place;
         other.scene.surface = kept->surface;
         other.scene.workpiece = kept->workpiece;
-        other.scene.shown = kept->evaluation;
         other.scene.cut = kept->cut;
         other.scene.set_up = map_for(*kept, now);
         if (other.scene.set_up) {
@@ -92,12 +108,7 @@ std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& sh
         }
         other.scene.singular_points = kept->singular_points;
     } else {
-        other.name = std::string(project::row_of(project::grid_methods(), *beside.method).label);
-        other.scene.shown = now.evaluation(*beside.method);
         other.scene.cut = now.plan->plan.cut_of(now.project, other.scene.shown.get());
-    }
-    if (!other.scene.shown) {
-        return std::nullopt;
     }
     const double high =
         std::max(viewport::error_colors(shown, {}).high, viewport::error_colors(other.scene, {}).high);

@@ -4,6 +4,7 @@
 #include "ui/panels/panel.h"
 #include "ui/viewport/scene.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,14 @@ namespace millwright::panels {
 
 /// The choice of what stands beside the shown result, and the button that keeps one.
 void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue);
+
+/// The path that stands beside the shown one, in the Toolpath workspace alone, with a name in one line.
+struct PathBeside {
+    std::shared_ptr<const project::Evaluation> path; ///< never null
+    std::string name;
+};
+/// Nothing where there is none, or not yet.
+[[nodiscard]] std::optional<PathBeside> path_beside(const Workbench& now);
 
 /// A result under its name.
 struct NamedScene {

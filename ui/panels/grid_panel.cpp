@@ -128,7 +128,8 @@ void draw_note(Ui& ui, const Workbench& now) {
     if (now.plan && !project::crossing_remark(now.plan->project, now.plan->plan).empty()) {
         ui.note("The program's grid (Uniform): " + grid_note(now));
     } else if (made && !made->outcome.note.empty()) {
-        ui.note("The program's grid (" + label_of(now.project.grid.method) + "): " + made->outcome.note);
+        ui.note("The program's grid (" + label_of(now.project.grid.method) + "): " + made->outcome.note +
+                so_far_note(*made));
     }
     if (made && !made->outcome.warning.empty()) {
         (void)widgets::banner(ui, "warning", {widgets::Severity::warning, made->outcome.warning, {}});

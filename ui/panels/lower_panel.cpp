@@ -1,7 +1,6 @@
 #include "ui/panels/lower_panel.h"
 
 #include "core/base/text.h"
-#include "core/project/settings.h"
 #include "ui/panels/arm_motors.h"
 #include "ui/panels/error_table.h"
 #include "ui/panels/gouge_table.h"
@@ -23,7 +22,6 @@ namespace {
 
 namespace icons = widgets::icons;
 using actions::LowerTab;
-using project::GridMethod;
 
 struct Tab {
     LowerTab tab;
@@ -132,22 +130,19 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const auto uniform = now.evaluation(GridMethod::uniform);
-    const auto shown = now.shown();
-    if (!uniform || !shown) {
-        ui.note("No path yet.");
+    const std::vector<PlottedPath> paths = plotted_paths(now);
+    if (paths.empty()) {
+        ui.note(now.shown() ? "No path of the project is on screen." : "No path yet.");
         return;
     }
-    const ErrorOverPath before = error_over_path(*uniform);
-    const ErrorOverPath after = error_over_path(*shown);
-    const std::string shown_name = now.shown_name();
-    std::vector<widgets::Series> series{{project::row_of(project::grid_methods(), GridMethod::uniform).label,
-                                         before.at,
-                                         before.error,
-                                         0,
-                                         false}};
-    if (shown != uniform) {
-        series.push_back({shown_name, after.at, after.error, 0, true});
+    std::vector<ErrorOverPath> errors;
+    for (const PlottedPath& path : paths) {
+        errors.push_back(error_over_path(*path.path));
+    }
+    std::vector<widgets::Series> series;
+    for (std::size_t n = 0; n < paths.size(); ++n) {
+        const bool on_screen = n > 0; // what it is compared with stays a line
+        series.push_back({paths[n].name, errors[n].at, errors[n].error, 0, on_screen});
     }
     widgets::PlotView view;
     view.x_label = "path length";
@@ -156,12 +151,14 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.y_unit = "mm";
     view.series = series;
     view.limit_y = now.session.error.limit;
+    const project::Evaluation& shown = *paths.back().path;
+    const bool is_program = paths.back().path == now.program_path();
     const auto moment = now.moment();
-    if (moment && shown == now.program_path()) {
-        view.cursor_x = length_before(*shown, moment->move, moment->fraction);
+    if (moment && is_program) {
+        view.cursor_x = length_before(shown, moment->move, moment->fraction);
     }
-    if (const auto x = widgets::line_plot(ui, "error", view)) {
-        go_to_length(ask, now, *shown, *x);
+    if (const auto x = widgets::line_plot(ui, "error", view); x && is_program) {
+        go_to_length(ask, now, shown, *x);
     }
 }
 

@@ -76,22 +76,29 @@ std::vector<OutlineRow> outline_rows(const Workbench& now) {
         }
     }
     const auto path = now.program_path();
+    const bool so_far = is_so_far(path.get()); // then the program made of it, too
+    const std::string mark = so_far ? "~ " : "";
     if (project::has_own_path(now.project)) {
-        rows.push_back(
-            {"path", "  Path", path ? mean_text(*path) : "...", Workspace::toolpath, is_so_far(path.get())});
+        rows.push_back({"path", "  Path", path ? mean_text(*path) : "...", Workspace::toolpath, so_far});
     }
     rows.push_back({"toolpath",
                     "Toolpath",
-                    path ? counted(std::ssize(path->field.moves), "moves") : "...",
-                    Workspace::toolpath});
+                    path ? mark + counted(std::ssize(path->field.moves), "moves") : "...",
+                    Workspace::toolpath,
+                    so_far});
+    const std::string of_program = now.in_file() ? "" : mark; // an opened file is final
     const auto program = now.program();
     rows.push_back({"program",
                     "Program",
-                    program ? counted(program->block_count(), "blocks") : "...",
-                    Workspace::program});
+                    program ? of_program + counted(program->block_count(), "blocks") : "...",
+                    Workspace::program,
+                    program && !of_program.empty()});
     const auto trajectory = now.trajectory();
-    rows.push_back(
-        {"machine", "Machine", trajectory ? clock_time(trajectory->duration()) : "...", Workspace::machine});
+    rows.push_back({"machine",
+                    "Machine",
+                    trajectory ? of_program + clock_time(trajectory->duration()) : "...",
+                    Workspace::machine,
+                    trajectory && !of_program.empty()});
     return rows;
 }
 

@@ -2,9 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/project/settings.h"
+#include "ui/actions/shown_grid.h"
+#include "ui/panels/beside.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace millwright::panels {
 
@@ -18,6 +23,44 @@ ErrorOverPath error_over_path(const project::Evaluation& evaluation) {
         length += move.length;
     }
     return series;
+}
+
+namespace {
+
+PlottedPath
+named(const actions::Workbench& now, std::shared_ptr<const project::Evaluation> path, std::string name) {
+    const bool of_grid = std::ranges::any_of(project::every_grid_method, [&](project::GridMethod method) {
+        return now.evaluation(method) == path;
+    });
+    name += of_grid && path->outcome.status == grid::ImproverStatus::no_gain ? " (as uniform)" : "";
+    name += path == now.program_path() ? ", the program's path" : "";
+    name += actions::is_so_far(*path) ? " (so far)" : "";
+    return {std::move(path), std::move(name)};
+}
+
+/// What stands beside the path on screen, else the path over the uniform grid; null where there is neither.
+std::optional<PlottedPath> compared_path(const actions::Workbench& now) {
+    if (auto beside = path_beside(now)) {
+        return named(now, std::move(beside->path), std::move(beside->name));
+    }
+    auto uniform = now.evaluation(project::GridMethod::uniform);
+    std::string name(project::row_of(project::grid_methods(), project::GridMethod::uniform).label);
+    return uniform ? std::optional(named(now, std::move(uniform), std::move(name))) : std::nullopt;
+}
+
+} // namespace
+
+std::vector<PlottedPath> plotted_paths(const actions::Workbench& now) {
+    const auto shown = now.shown();
+    if (!shown || now.in_file() || now.session.workspace == actions::Workspace::plot) {
+        return {};
+    }
+    std::vector<PlottedPath> paths;
+    if (auto other = compared_path(now); other && other->path != shown) {
+        paths.push_back(*std::move(other));
+    }
+    paths.push_back(named(now, shown, now.shown_name()));
+    return paths;
 }
 
 double length_before(const project::Evaluation& evaluation, int move, double fraction) {

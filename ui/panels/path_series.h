@@ -3,6 +3,8 @@
 
 #include "ui/actions/workbench.h"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace millwright::panels {
@@ -14,6 +16,17 @@ struct ErrorOverPath {
         error; ///< closest, mm; NaN from track to track, as these moves are no part of the error
 };
 [[nodiscard]] ErrorOverPath error_over_path(const project::Evaluation& evaluation);
+
+/// A path whose error is plotted, under the name that the key has: which it is, whether the program follows
+/// it, and whether its figures are so far.
+struct PlottedPath {
+    std::shared_ptr<const project::Evaluation> path;
+    std::string name;
+};
+/// The path on screen comes last; before it what stands beside it, else that over the uniform grid, where it
+/// is another one. Empty where no path of the project is on screen: none is there yet, or a G-code file or a
+/// plot is.
+[[nodiscard]] std::vector<PlottedPath> plotted_paths(const actions::Workbench& now);
 
 /// Length of the path of `evaluation` up to `fraction` of `move`, mm; 0 before the path.
 [[nodiscard]] double length_before(const project::Evaluation& evaluation, int move, double fraction);

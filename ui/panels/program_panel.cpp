@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
@@ -55,9 +56,11 @@ void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) 
         return;
     }
     ui.value("machine", "Machine", program->machine);
-    ui.value("blocks", "Blocks", fmt::format("{}", program->block_count()));
-    ui.value("time", "Estimated time", clock_time(trajectory->duration()));
-    ui.value("length", "Way of the tip", fixed(trajectory->part_length(), 1), "mm");
+    const auto path = now.program_path();
+    const std::string mark = path && actions::is_so_far(*path) ? "~ " : "";
+    ui.value("blocks", "Blocks", fmt::format("{}{}", mark, program->block_count()));
+    ui.value("time", "Estimated time", mark + clock_time(trajectory->duration()));
+    ui.value("length", "Way of the tip", mark + fixed(trajectory->part_length(), 1), "mm");
     action_button(ui, now, ask, catalogue_, "file.write_program");
 }
 

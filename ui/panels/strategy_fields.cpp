@@ -5,6 +5,7 @@
 #include "core/project/cut_remarks.h"
 #include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
+#include "ui/actions/shown_grid.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
@@ -49,6 +50,11 @@ void kept_tolerance(Ui& ui, const Workbench& now) {
 
 } // namespace
 
+std::string so_far_note(const project::Evaluation& evaluation) {
+    return actions::is_so_far(evaluation) ? " So far: measured coarsely; the exact figures can say otherwise."
+                                          : "";
+}
+
 std::string grid_note(const Workbench& now) {
     const Project& project = now.project;
     if (project::follows_nodes(project.toolpath.strategy)) {
@@ -57,7 +63,7 @@ std::string grid_note(const Workbench& now) {
         return crossing.empty()
                    ? fmt::format("Over the nodes of the grid: {}.",
                                  project::row_of(project::grid_methods(), project.grid.method).label)
-                   : crossing;
+                   : crossing + so_far_note(*now.program_path());
     }
     switch (project.toolpath.strategy) {
     case StrategyInput::constant_scallop:
@@ -94,14 +100,15 @@ void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.note(grid_note(now));
     kept_tolerance(ui, now);
     if (const auto path = now.program_path()) {
+        const std::string mark = actions::is_so_far(*path) ? "~ " : "";
         ui.value("points",
                  "Points",
-                 fmt::format("{}", path->toolpath.points.size()),
+                 fmt::format("{}{}", mark, path->toolpath.points.size()),
                  "",
                  "Of the whole path, with those that the sequencing adds");
         ui.value("length",
                  "Length",
-                 fixed(path->path_length, 1),
+                 mark + fixed(path->path_length, 1),
                  "mm",
                  "Of the tip's way, tracks and cross moves");
     }

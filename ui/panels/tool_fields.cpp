@@ -109,6 +109,22 @@ void sequencing_warning(Ui& ui, const Workbench& now) {
     }
 }
 
+/// Where a part is not cut, what stands there is higher than any ridge.
+void highest_left(Ui& ui, const project::Plan& plan) {
+    const double on_cut = plan.cut->scallops.max;
+    if (const auto least = project::left_at_least(plan)) {
+        ui.value("scallop_max",
+                 "Highest left",
+                 "at least " + length_text(*least),
+                 "mm",
+                 "Where no pass comes near; how much it is there is not looked for");
+        ui.value(
+            "scallop_cut", "Where cut", length_text(on_cut), "mm", "The highest ridge left on what was cut");
+    } else {
+        ui.value("scallop_max", "Highest left", length_text(on_cut), "mm", "The highest ridge that is left");
+    }
+}
+
 } // namespace
 
 void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -146,11 +162,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
         return;
     }
     const project::CutStudy& cut = *now.plan->plan.cut;
-    ui.value("scallop_max",
-             "Highest left",
-             length_text(cut.scallops.max),
-             "mm",
-             "The highest ridge left on what was cut");
+    highest_left(ui, now.plan->plan);
     ui.value("scallop_mean",
              "Mean left",
              length_text(cut.scallops.mean),

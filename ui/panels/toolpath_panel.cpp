@@ -83,14 +83,16 @@ std::string_view gap_tip(const Project& project) {
                                   "surface: what the cutter leaves between them grows with its square.");
 }
 
-/// With the change against the uniform grid's.
+/// With the change against the uniform grid's; what is measured coarsely so far is marked.
 void error_values(Ui& ui,
                   const Project& project,
                   const project::Evaluation& shown,
-                  const grid::ErrorSummary& before) {
+                  const project::Evaluation& uniform) {
     const grid::ErrorSummary& error = shown.closest;
-    const auto changed = [](double from, double to) {
-        return length_text(to) + "  (" + change_text(from, to) + ")";
+    const grid::ErrorSummary& before = uniform.closest;
+    const std::string mark = actions::is_so_far(shown) || actions::is_so_far(uniform) ? "~ " : "";
+    const auto changed = [&](double from, double to) {
+        return mark + length_text(to) + "  (" + change_text(from, to) + ")";
     };
     ui.value(
         "max",
@@ -106,23 +108,23 @@ void error_values(Ui& ui,
              "The mean of the moves' largest distances, each move counting once");
     ui.value("lmean",
              "Mean by length",
-             length_text(error.lmean),
+             mark + length_text(error.lmean),
              "mm",
              "The same, each move counting by its length: many short moves where the error is small do not "
              "make it look small");
-    ui.value("p95", "95 % below", length_text(error.p95), "mm", "95 of 100 moves are not worse");
+    ui.value("p95", "95 % below", mark + length_text(error.p95), "mm", "95 of 100 moves are not worse");
     ui.value("axis",
              "Axis deviation",
-             angle_text(error.axis_max),
+             mark + angle_text(error.axis_max),
              "deg",
              "The largest angle between the tool axis on its way and the one that is wanted there: the tip "
              "may be true while the tool swings");
     if (shown.track_gap) {
-        ui.value("gap", "Track gap", length_text(*shown.track_gap), "mm", gap_tip(project));
+        ui.value("gap", "Track gap", mark + length_text(*shown.track_gap), "mm", gap_tip(project));
     }
     ui.value("cross",
              "Cross moves",
-             length_text(shown.cross_closest.max),
+             mark + length_text(shown.cross_closest.max),
              "mm",
              "The largest distance from the surface on the moves from track to track, which the figures "
              "above leave out");
@@ -154,7 +156,7 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
         return;
     }
-    error_values(ui, now.project, *shown, start->closest);
+    error_values(ui, now.project, *shown, *start);
     const widgets::FieldInfo limit{
         "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};
     if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {

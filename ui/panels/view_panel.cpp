@@ -54,7 +54,8 @@ void go_to_path_place(const gcode::PathPlace& place, const Workbench& now, Actio
 void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQueue& ask) {
     const auto program = now.program();
     const auto trajectory = now.trajectory();
-    if (!program || !trajectory || now.follows_job()) {
+    const bool is_program = now.shown() == now.program_path(); // else its moves are none of the program's
+    if (!program || !trajectory || !is_program || now.follows_job()) {
         return;
     }
     const auto ends_there = [&](const gcode::Block& block) { return block.path_point == wanted.move + 1; };

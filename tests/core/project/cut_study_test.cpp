@@ -195,10 +195,28 @@ TEST(CutStudy, OfAPointIsNone) {
 TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
     ToolInput narrow = ball;
     narrow.diameter_mm = 4.0;
-    const CutStudy& found = *studied(plane(5, 2), narrow).cut;
+    Project project = plane(5, 2);
+    const Plan plan = studied(project, narrow);
+    project.tool = narrow;
+    const CutStudy& found = *plan.cut;
     EXPECT_NEAR(found.scallops.by_formula, 1600.0 / (8.0 * 2.0), 1e-9);
     EXPECT_GT(found.scallops.not_cut, 0.8);
     EXPECT_LE(found.scallops.max, narrow.diameter_mm);
+    EXPECT_EQ(left_at_least(plan), narrow.diameter_mm);
+    EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at least 4.0000 mm on the "));
+    EXPECT_THAT(cut_report_text(project, plan), ::testing::HasSubstr("\"left_where_not_cut_mm\": 4,"));
+    for (const double height : found.swept.heights) {
+        EXPECT_TRUE(!std::isfinite(height) || height <= *left_at_least(plan)) << height;
+    }
+}
+
+TEST(CutStudy, WhereAllIsCutTheHighestThatIsLeftIsTold) {
+    const Project project = plane(5, 11);
+    const Plan plan = studied(project, ball);
+    ASSERT_EQ(plan.cut->scallops.not_cut, 0.0);
+    EXPECT_FALSE(left_at_least(plan));
+    EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at most "));
+    EXPECT_THAT(left_text(project, plan), ::testing::EndsWith("; 0.00 % not cut"));
 }
 
 /// Tracks with points that the sequencing put in: the gap is still that of the tracks.

@@ -6,10 +6,12 @@
 #include "core/project/pipeline.h"
 #include "core/project/plan.h"
 #include "core/project/project_file.h"
+#include "core/project/report.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 namespace millwright::project {
 namespace {
@@ -112,6 +114,40 @@ TEST(TrimmedSurfaceScallops, CountWhatIsCutOnly) {
         add_cut_study(plan, project, Progress());
     }
     EXPECT_LT(plan.cut->scallops.not_cut, 0.02);
+}
+
+/// A sheet with a waist that is one point, where it has no normal; both ends alone are cut.
+Project hourglass() {
+    Project project = read_project("assets/projects/dome.json");
+    geometry::ControlNet net = geometry::ControlNet::sized(3, 2);
+    for (int i = 0; i < 3; ++i) {
+        const double half = i == 1 ? -20.0 : 20.0;
+        net.point(i, 0) = {10.0 + 40.0 * i, 50.0 - half, i == 1 ? 10.0 : 0.0};
+        net.point(i, 1) = {10.0 + 40.0 * i, 50.0 + half, i == 1 ? 10.0 : 0.0};
+    }
+    project.surface = {};
+    project.surface.patches = {net};
+    project.surface.trims = {{{{{0.0, 0.0}, {0.3, 0.0}, {0.3, 1.0}, {0.0, 1.0}},
+                               {{0.7, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.7, 1.0}}}}};
+    project.grid.nu = project.grid.nv = 9; // with a row of nodes on the waist
+    project.grid.method = GridMethod::uniform;
+    return project;
+}
+
+TEST(TrimmedSurfaceWaist, NodesThatAreNeverCutNeedNoNormal) {
+    Project project = hourglass();
+    const geometry::BezierPatch patch(project.surface.patches.front());
+    ASSERT_FALSE(patch.unit_normal(0.5, 0.5));
+    const Plan plan = make_plan(project, folders, Progress());
+    for (const toolpath::PathPoint& point : plan.uniform->toolpath.points) {
+        EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
+        EXPECT_TRUE(point.origin.uv.x() < 0.3 + 1e-9 || point.origin.uv.x() > 0.7 - 1e-9);
+    }
+    EXPECT_GT(plan.program_notes.cut_moves, 20);
+    const std::string report = report_text(project, plan);
+    EXPECT_NE(report.find("\"curve\": null"), std::string::npos) << "no grid was measured there";
+    project.surface.trims.clear();
+    EXPECT_THROW((void)make_plan(project, folders, Progress()), Error);
 }
 
 } // namespace

@@ -104,6 +104,32 @@ TEST(TrimmedPath, EveryStrategyStaysInside) {
     }
 }
 
+/// A sheet that shrinks to a point on u = 0.5.
+geometry::BezierPatch bow_tie() {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    for (int j = 0; j < 2; ++j) {
+        net.point(0, j) = {0.0, 60.0 * j, 0.0};
+        net.point(1, j) = {60.0, 60.0 * (1 - j), 0.0};
+    }
+    return geometry::BezierPatch(net);
+}
+
+TEST(TrimmedPath, NodesWithoutANormalAreNoHarmWhereNothingIsCut) {
+    const auto patch = bow_tie();
+    const Grid grid = Grid::uniform(9, 5); // with a row on u = 0.5
+    EXPECT_THROW((void)zigzag(patch, grid, TrackDirection::along_u, false), Error);
+    const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
+                     {{0.625, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.625, 1.0}}}}; // through nodes
+    const OutlineTree outline(ends);
+    for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+        const Toolpath path = trimmed(patch, ends, zigzag(patch, grid, direction, false, &outline), false);
+        for (const PathPoint& point : path.points) {
+            EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12) << point.origin.uv.transpose();
+            EXPECT_NE(point.origin.uv.x(), 0.5);
+        }
+    }
+}
+
 TEST(TrimmedPath, NothingLeftIsToldWithAHint) {
     const auto patch = test::patch("dome");
     const Toolpath whole = zigzag(patch, Grid::uniform(3, 3), TrackDirection::along_v, false);

@@ -46,6 +46,13 @@ TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
     now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
     EXPECT_TRUE(row(now, "tracks").so_far);
     EXPECT_EQ(row(now, "tracks").detail.substr(0, 2), "~ ");
+    for (const char* made_of_it : {"toolpath", "program", "machine"}) {
+        EXPECT_TRUE(row(now, made_of_it).so_far) << made_of_it;
+        EXPECT_EQ(row(now, made_of_it).detail.substr(0, 2), "~ ") << made_of_it;
+        EXPECT_FALSE(row(person_.workshop().look(), made_of_it).so_far) << made_of_it;
+        EXPECT_NE(row(person_.workshop().look(), made_of_it).detail.front(), '~') << made_of_it;
+    }
+    EXPECT_FALSE(row(now, "uniform").so_far);
 }
 
 TEST_F(Outline, WhatStandsInForANewGridIsMarkedWhileThatIsMadeAndWhereItWasCancelled) {

@@ -1,7 +1,9 @@
 // Strategies and grid methods as a person chooses them: real mouse and keys, drawn in real OpenGL.
 #include "core/project/strategy_path.h"
 #include "tests/ui/panels/person.h"
+#include "ui/panels/strategy_fields.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,6 +14,8 @@ namespace {
 using project::GridMethod;
 using project::StrategyInput;
 using test::Person;
+using ::testing::EndsWith;
+using ::testing::StartsWith;
 
 class Strategies : public ::testing::Test {
 protected:
@@ -53,6 +57,27 @@ TEST_F(Strategies, ASpiralIsChosenShownAndUndone) {
     EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::zigzag);
     EXPECT_EQ(plan().path, nullptr);
     EXPECT_EQ(person_.workshop().look().shown()->closest.max, zigzag->closest.max);
+}
+
+TEST_F(Strategies, WhatACoarseSpiralSaysOfItsGridIsSoFar) {
+    person_.workshop().edit("Take the two bells",
+                            [](project::Project& p) {
+                                p = project::project_from_preset("two-bell");
+                                p.grid.nu = p.grid.nv = 8;
+                                p.grid.method = GridMethod::tracks;
+                                p.toolpath.strategy = StrategyInput::spiral;
+                            },
+                            {});
+    person_.wait_idle();
+    actions::Workbench now = person_.workshop().look();
+    const std::string exact = grid_note(now);
+    ASSERT_THAT(exact, EndsWith("which is kept."));
+    project::PublishedPlan plan = *now.plan;
+    project::Evaluation coarse = *plan.plan.path;
+    coarse.outcome.status = grid::ImproverStatus::running;
+    plan.plan.path = std::make_shared<const project::Evaluation>(std::move(coarse));
+    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    EXPECT_THAT(grid_note(now), StartsWith(exact + " So far: measured coarsely"));
 }
 
 TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {

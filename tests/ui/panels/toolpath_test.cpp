@@ -3,6 +3,7 @@
 #include "tests/ui/panels/person.h"
 #include "ui/panels/window.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -69,6 +70,17 @@ TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
     EXPECT_EQ(person_.project().tool, project::ToolInput{});
     EXPECT_EQ(plan().cut, nullptr);
     EXPECT_EQ(person_.workshop().look().shown()->path_length, point_path);
+}
+
+TEST_F(ToolpathWorkspace, WhereNoPassComesNearAtLeastSoMuchIsLeft) {
+    fold({"strategy"});
+    person_.choose("inspector/tool/cutter", "ball");
+    person_.fill_in("inspector/tool/diameter_mm", "4"); // tracks are 25 mm apart
+    person_.wait_idle();
+    ASSERT_TRUE(plan().cut && plan().cut->scallops.not_cut > 0.0);
+    EXPECT_TRUE(person_.sees("inspector/cut/scallop_cut")) << "the figure of what is cut stands beside it";
+    person_.keep("toolpath-at-least");
+    EXPECT_THAT(person_.desktop().ui().cut_texts(), ::testing::IsEmpty());
 }
 
 TEST_F(ToolpathWorkspace, AShapeThatCannotBeIsRefusedWithItsReason) {

@@ -1,6 +1,7 @@
 #include "core/geometry/mesh.h"
 #include "core/kinematics/forward.h"
 #include "core/toolpath/actual_trajectory.h"
+#include "tests/support/trim_loops.h"
 #include "tests/ui/viewport/scenes.h"
 #include "tests/ui/viewport/studio.h"
 #include "ui/render/convert.h"
@@ -120,6 +121,31 @@ TEST_F(LayersTest, ANetThatHasBecomeSmallerHighlightsNothing) {
     EXPECT_EQ(picture(scene, view, {.point = ControlPointId{.i = 9, .j = 1}, .move = {}}), plain);
     EXPECT_EQ(picture(scene, view, {.point = ControlPointId{.patch = geometry::PatchId{3}}, .move = {}}),
               plain);
+}
+
+/// Cells are 0.015 of the patch wide, or more where the net is bent.
+TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
+    const Scene all = test::scene_of(test::dome, ViewKind::error);
+    const render::View view = look_at(all, render::StandardView::top);
+    Scene scene = only(all, {.surface = false, .error_surface = true, .floor = false, .origin = false});
+    project::Workpiece made = *scene.workpiece;
+    made.trim = {{test::rectangle(0.0, 0.0, 1.0, 1.0), test::circle({0.5, 0.5}, 0.2, 96)}};
+    scene.workpiece = std::make_shared<const project::Workpiece>(made);
+    const Picture empty = picture(only(scene, nothing), view);
+    for (const bool bent : {false, true}) {
+        scene.shown = test::evaluation(made, bent ? test::bent_grid(12) : grid::Grid::uniform(12, 12));
+        const Picture seen = picture(scene, view);
+        const auto is_drawn = [&](double radius, double angle) {
+            const Spot at = spot(
+                view, made.patch.position(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle)));
+            return seen.at(at.x, at.y) != empty.at(at.x, at.y);
+        };
+        for (double angle = 0.0; angle < 6.28; angle += 0.05) {
+            EXPECT_FALSE(is_drawn(0.194, angle)) << angle;
+            EXPECT_TRUE(is_drawn(0.206, angle)) << angle;
+        }
+        test::keep(seen, bent ? "values-outline-bent" : "values-outline");
+    }
 }
 
 TEST_F(LayersTest, GridNodesLieOnTheSurface) {

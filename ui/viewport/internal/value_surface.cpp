@@ -1,10 +1,11 @@
 #include "ui/viewport/internal/value_surface.h"
 
 #include "core/base/numbers.h"
+#include "core/geometry/trimmed_square.h"
 #include "ui/render/convert.h"
+#include "ui/viewport/internal/net_outline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,74 +16,16 @@ namespace {
 constexpr int most_cells = 30000; // of the mesh; about 40 ms without a graphics card
 constexpr int most_per_cell = 6;  // of the net
 
-/// A mesh of `fine` x `fine` cells in every cell of the net.
-class Builder {
-public:
-    Builder(const geometry::BezierPatch& patch,
-            const geometry::Trim& trim,
-            const grid::NodeArray& nodes,
-            std::span<const double> values)
-        : patch_(patch), trim_(trim), array_(nodes), values_(values) {
-        const int cells = std::max((array_.rows - 1) * (array_.columns - 1), 1);
-        fine_ = std::clamp(static_cast<int>(std::sqrt(most_cells / cells)), 1, most_per_cell);
-    }
-
-    [[nodiscard]] render::MeshBuffer build() {
-        const int rows = (array_.rows - 1) * fine_ + 1;
-        const int columns = (array_.columns - 1) * fine_ + 1;
-        for (int r = 0; r < rows; ++r) {
-            for (int c = 0; c < columns; ++c) {
-                vertices_.push_back(vertex(r, c));
-            }
-        }
-        const auto at = [&](int r, int c) { return static_cast<std::uint32_t>(r * columns + c); };
-        for (int r = 0; r + 1 < rows; ++r) {
-            for (int c = 0; c + 1 < columns; ++c) {
-                add({at(r, c), at(r + 1, c), at(r + 1, c + 1)});
-                add({at(r, c), at(r + 1, c + 1), at(r, c + 1)});
-            }
-        }
-        return {vertices_, triangles_};
-    }
-
-private:
-    [[nodiscard]] render::MeshVertex vertex(int r, int c) {
-        const int i = std::min(r / fine_, array_.rows - 2);
-        const int j = std::min(c / fine_, array_.columns - 2);
-        const double s = static_cast<double>(r - i * fine_) / fine_;
-        const double t = static_cast<double>(c - j * fine_) / fine_;
-        const Vec2 low = (1.0 - t) * array_.at(i, j) + t * array_.at(i, j + 1);
-        const Vec2 high = (1.0 - t) * array_.at(i + 1, j) + t * array_.at(i + 1, j + 1);
-        const Vec2 uv = (1.0 - s) * low + s * high;
-        places_.push_back(uv);
-        const double value = mix(mix(value_at(i, j), value_at(i, j + 1), t),
-                                 mix(value_at(i + 1, j), value_at(i + 1, j + 1), t),
-                                 s);
-        normal_ = patch_.unit_normal(uv.x(), uv.y()).value_or(normal_);
-        return {.position = render::to_float(patch_.position(uv.x(), uv.y())),
-                .normal = render::to_float(normal_),
-                .value = static_cast<float>(value)};
-    }
-
-    void add(const std::array<std::uint32_t, 3>& corners) {
-        const Vec2 middle = (places_[corners[0]] + places_[corners[1]] + places_[corners[2]]) / 3.0;
-        if (trim_.contains(middle)) {
-            triangles_.insert(triangles_.end(), corners.begin(), corners.end());
-        }
-    }
-
-    [[nodiscard]] double value_at(int i, int j) const { return values_[array_.index(i, j)]; }
-
-    const geometry::BezierPatch& patch_;
-    const geometry::Trim& trim_;
-    const grid::NodeArray& array_;
-    std::span<const double> values_;
-    int fine_ = 1;
-    Vec3 normal_ = Vec3::UnitZ(); ///< of the last vertex that had one
-    std::vector<Vec2> places_;    ///< in the parameters, one a vertex
-    std::vector<render::MeshVertex> vertices_;
-    std::vector<std::uint32_t> triangles_;
-};
+/// Of the values at the nodes, spread over the cell that `at` lies in, in the net's own parameters.
+double value_on_net(const grid::NodeArray& nodes, std::span<const double> values, const Vec2& at) {
+    const double row = at.x() * (nodes.rows - 1), column = at.y() * (nodes.columns - 1);
+    const int i = std::clamp(static_cast<int>(row), 0, nodes.rows - 2);
+    const int j = std::clamp(static_cast<int>(column), 0, nodes.columns - 2);
+    const auto value = [&](int r, int c) { return values[nodes.index(r, c)]; };
+    return mix(mix(value(i, j), value(i, j + 1), column - j),
+               mix(value(i + 1, j), value(i + 1, j + 1), column - j),
+               row - i);
+}
 
 } // namespace
 
@@ -90,7 +33,27 @@ render::MeshBuffer value_surface(const geometry::BezierPatch& patch,
                                  const geometry::Trim& trim,
                                  const grid::NodeArray& nodes,
                                  std::span<const double> values) {
-    return Builder(patch, trim, nodes, values).build();
+    const int rows = nodes.rows - 1, columns = nodes.columns - 1;
+    const int fine =
+        std::clamp(static_cast<int>(std::sqrt(most_cells / std::max(rows * columns, 1))), 1, most_per_cell);
+    const geometry::TrimmedSquare square =
+        geometry::trimmed_square(trim_on_net(trim, nodes, fine), rows * fine, columns * fine);
+    std::vector<render::MeshVertex> vertices;
+    Vec3 normal = Vec3::UnitZ(); // of the last vertex that had one
+    for (const Vec2& at : square.places) {
+        const Vec2 uv = place_on_net(nodes, at);
+        normal = patch.unit_normal(uv.x(), uv.y()).value_or(normal);
+        vertices.push_back({.position = render::to_float(patch.position(uv.x(), uv.y())),
+                            .normal = render::to_float(normal),
+                            .value = static_cast<float>(value_on_net(nodes, values, at))});
+    }
+    std::vector<std::uint32_t> triangles;
+    for (const auto& corners : square.inside) {
+        for (const int corner : corners) {
+            triangles.push_back(static_cast<std::uint32_t>(corner));
+        }
+    }
+    return {vertices, triangles};
 }
 
 } // namespace millwright::viewport

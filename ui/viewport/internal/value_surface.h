@@ -11,7 +11,7 @@
 namespace millwright::viewport {
 
 /// Between nodes parameters and `values` ([rows x columns] of `nodes`) are blended; the cells of the mesh
-/// divide those of the net. Triangles whose middle lies outside of `trim` are left out.
+/// divide those of the net and end exactly at the outlines of `trim`.
 [[nodiscard]] render::MeshBuffer value_surface(const geometry::BezierPatch& patch,
                                                const geometry::Trim& trim,
                                                const grid::NodeArray& nodes,

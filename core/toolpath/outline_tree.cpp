@@ -1,0 +1,146 @@
+#include "core/toolpath/outline_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::toolpath {
+
+namespace {
+
+using geometry::WayPart;
+
+constexpr std::size_t few_edges = 4; // looked at one by one
+// Those of core/geometry/trim.cpp, whose answers these are.
+constexpr double beside_border = 1e-7;
+constexpr double shortest_part = 1e-6;
+/// Of the patch's side: what is nearer to a box is not decided by the box, but as the single edges have it.
+constexpr double rounding = 1e-9;
+
+double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Whether the way from `a` to `b` may come into the box.
+bool may_meet(const Vec2& low, const Vec2& high, const Vec2& a, const Vec2& b) {
+    const Vec2 middle = 0.5 * (low + high);
+    const Vec2 half = 0.5 * (high - low) + Vec2::Constant(rounding);
+    const Vec2 way = b - a;
+    const Vec2 apart = (0.5 * (a + b) - middle).cwiseAbs() - 0.5 * way.cwiseAbs();
+    return apart.x() <= half.x() && apart.y() <= half.y() &&
+           std::abs(cross(way, middle - a)) <= std::abs(way.x()) * half.y() + std::abs(way.y()) * half.x();
+}
+
+} // namespace
+
+OutlineTree::OutlineTree(const geometry::Trim& trim) {
+    for (const geometry::Trim::Loop& loop : trim.loops) {
+        const std::size_t first = corners_.size();
+        corners_.insert(corners_.end(), loop.begin(), loop.end());
+        corners_.push_back(loop.front());
+        loops_.push_back(stretches_.size());
+        add(first, corners_.size() - 1);
+    }
+}
+
+void OutlineTree::add(std::size_t first, std::size_t last) {
+    Stretch stretch{corners_[first], corners_[first], first, last, 0};
+    for (std::size_t n = first + 1; n <= last; ++n) {
+        stretch.low = stretch.low.cwiseMin(corners_[n]);
+        stretch.high = stretch.high.cwiseMax(corners_[n]);
+    }
+    const std::size_t own = stretches_.size();
+    stretches_.push_back(stretch);
+    if (last - first > few_edges) {
+        const std::size_t middle = first + (last - first) / 2;
+        add(first, middle);
+        stretches_[own].second = stretches_.size();
+        add(middle, last);
+    }
+}
+
+bool OutlineTree::contains(const Vec2& uv) const {
+    const Vec2 at = uv.cwiseMax(beside_border).cwiseMin(1.0 - beside_border);
+    bool odd = loops_.empty();
+    for (const std::size_t loop : loops_) {
+        odd = odd != odd_on_right(loop, at);
+    }
+    return odd;
+}
+
+/// Whether an odd number of its edges crosses the ray from `at` along u. Where all of them lie on the right,
+/// the two ends of the stretch tell.
+bool OutlineTree::odd_on_right(std::size_t number, const Vec2& at) const {
+    const Stretch& stretch = stretches_[number];
+    const auto above = [&](std::size_t n) { return corners_[n].y() > at.y(); };
+    if (stretch.high.y() <= at.y() || stretch.low.y() > at.y() || stretch.high.x() < at.x() - rounding) {
+        return false;
+    }
+    if (stretch.low.x() > at.x() + rounding) {
+        return above(stretch.first) != above(stretch.last);
+    }
+    if (stretch.second != 0) {
+        return odd_on_right(number + 1, at) != odd_on_right(stretch.second, at);
+    }
+    bool odd = false;
+    for (std::size_t n = stretch.first; n < stretch.last; ++n) {
+        const Vec2& a = corners_[n];
+        const Vec2& b = corners_[n + 1];
+        if (above(n) != above(n + 1) &&
+            at.x() < a.x() + (at.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
+            odd = !odd;
+        }
+    }
+    return odd;
+}
+
+void OutlineTree::add_crossings(std::size_t number,
+                                const Vec2& a,
+                                const Vec2& b,
+                                std::vector<double>& shares) const {
+    const Stretch& stretch = stretches_[number];
+    if (!may_meet(stretch.low, stretch.high, a, b)) {
+        return;
+    }
+    if (stretch.second != 0) {
+        add_crossings(number + 1, a, b, shares);
+        add_crossings(stretch.second, a, b, shares);
+        return;
+    }
+    const Vec2 way = b - a;
+    for (std::size_t n = stretch.first; n < stretch.last; ++n) {
+        const Vec2 edge = corners_[n + 1] - corners_[n];
+        const double turn = cross(way, edge);
+        const double along_way = cross(corners_[n] - a, edge) / turn;
+        const double along_edge = cross(corners_[n] - a, way) / turn;
+        if (along_way > 0.0 && along_way < 1.0 && along_edge >= 0.0 && along_edge <= 1.0) {
+            shares.push_back(along_way);
+        }
+    }
+}
+
+std::vector<WayPart> OutlineTree::parts_inside(const Vec2& a, const Vec2& b) const {
+    if (loops_.empty()) {
+        return {{0.0, 1.0}};
+    }
+    std::vector<double> shares{0.0, 1.0};
+    for (const std::size_t loop : loops_) {
+        add_crossings(loop, a, b, shares);
+    }
+    std::ranges::sort(shares);
+    std::vector<WayPart> parts;
+    for (std::size_t n = 1; n < shares.size(); ++n) {
+        const double from = shares[n - 1];
+        const double to = shares[n];
+        if (to - from < shortest_part || !contains(a + 0.5 * (from + to) * (b - a))) {
+            continue;
+        }
+        if (!parts.empty() && from - parts.back().to < shortest_part) {
+            parts.back().to = to;
+        } else {
+            parts.push_back({from, to});
+        }
+    }
+    return parts;
+}
+
+} // namespace millwright::toolpath
