@@ -129,17 +129,31 @@ private:
     SpreadStudy study_;
 };
 
-/// Of a rank that is at case `next` when rank 0 is gone; empty where all of its cases are done.
-std::string lost_with_rank_0(const Ranks& ranks, std::span<const StudyCase> cases, std::size_t next) {
+/// Where a rank is in its cases.
+struct Place {
+    std::atomic<std::size_t> next;   ///< of all cases
+    std::atomic<bool> begun = false; ///< with that one
+};
+
+/// Of a rank that has no case to do and none that may be lost: empty.
+std::string lost_with_rank_0(const Ranks& ranks, std::span<const StudyCase> cases, const Place& at) {
+    const auto step = static_cast<std::size_t>(ranks.size());
+    const std::size_t next = at.next;
     std::string missing;
-    for (std::size_t n = next; n < cases.size(); n += static_cast<std::size_t>(ranks.size())) {
-        missing += (missing.empty() ? "" : ", ") + name_of(cases[n]) + (n == next ? " (begun)" : "");
+    for (std::size_t n = next; n < cases.size(); n += step) {
+        const bool begun = n == next && at.begun;
+        missing += (missing.empty() ? "" : ", ") + name_of(cases[n]) + (begun ? " (begun)" : "");
     }
-    return missing.empty()
+    std::string lost;
+    if (!missing.empty()) {
+        lost += "; without its cases: " + missing;
+    }
+    if (next >= step) {
+        lost += "; its last that is done may not be written: " + name_of(cases[next - step]);
+    }
+    return lost.empty()
                ? std::string()
-               : fmt::format("rank {} was stopped, and rank 0 does not answer; without its cases: {}",
-                             ranks.rank(),
-                             missing);
+               : fmt::format("rank {} was stopped, and rank 0 does not answer{}", ranks.rank(), lost);
 }
 
 } // namespace
@@ -181,17 +195,19 @@ void help_with_study(const Ranks& ranks,
                      const StudyOne& study,
                      const std::function<void(const std::string& lost)>& deserted,
                      const std::stop_token& stop) {
-    std::atomic<std::size_t> next = static_cast<std::size_t>(ranks.rank()); // of this rank's cases
+    Place at{static_cast<std::size_t>(ranks.rank())};
     const auto one = [&](const StudyCase& of, const Progress& progress) {
+        at.begun = true;
         std::vector<StudyRow> rows = study(of, progress);
-        next += static_cast<std::size_t>(ranks.size());
+        at.next += static_cast<std::size_t>(ranks.size());
+        at.begun = false;
         return rows;
     };
     const HelpingWork mine{.own =
                                [&](const std::string&, const Tell& tell, const std::stop_token& own_stop) {
                                    work(ranks, cases, one, tell, own_stop);
                                },
-                           .deserted = [&] { deserted(lost_with_rank_0(ranks, cases, next)); }};
+                           .deserted = [&] { deserted(lost_with_rank_0(ranks, cases, at)); }};
     help(ranks, mine, stop);
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <charconv>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,23 +18,28 @@ namespace {
 
 constexpr int most_threads = 1024; // each has memory set aside
 
+std::optional<int> number_in(const std::string& text) {
+    int threads = 0;
+    const char* const end = text.data() + text.size();
+    const std::from_chars_result read = std::from_chars(text.data(), end, threads);
+    const bool fits = read.ec == std::errc() && read.ptr == end && threads >= 1 && threads <= most_threads;
+    return fits ? std::optional(threads) : std::nullopt;
+}
+
 CLI::Validator number_of_threads() {
-    const auto fault_of = [](std::string& text) {
-        int threads = 0;
-        const char* const end = text.data() + text.size();
-        const std::from_chars_result read = std::from_chars(text.data(), end, threads);
-        const bool fits =
-            read.ec == std::errc() && read.ptr == end && threads >= 1 && threads <= most_threads;
-        return fits ? std::string()
-                    : fmt::format("\"{}\" is no whole number from 1 to {}", text, most_threads);
+    const auto fault_of = [](const std::string& text) {
+        return number_in(text) ? std::string()
+                               : fmt::format("\"{}\" is no whole number from 1 to {}", text, most_threads);
     };
     return {fault_of, ""};
 }
 
 void add_to(CLI::App& command) {
     command
-        .add_option_function<int>(
-            "--threads", set_thread_count, "Compute in so many threads; by default one a core")
+        .add_option_function<std::string>(
+            "--threads",
+            [](const std::string& text) { set_thread_count(number_in(text).value_or(0)); },
+            "Compute in so many threads; by default one a core")
         ->check(number_of_threads())
         ->type_name("N");
 }

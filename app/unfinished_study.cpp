@@ -1,6 +1,7 @@
 #include "app/unfinished_study.h"
 
 #include "app/study_pictures.h"
+#include "core/base/error.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -59,11 +60,30 @@ std::vector<OutputFile> study_tables(const std::vector<StudyRow>& rows) {
 UnfinishedStudy::UnfinishedStudy(const fs::path& out)
     : folder_(out / "unfinished"), earlier_(written_at(folder_ / missing_name)) {}
 
-void UnfinishedStudy::keep(std::span<const StudyCase> cases,
-                           const std::vector<std::vector<StudyRow>>& rows) const {
+std::optional<fs::path> UnfinishedStudy::set_earlier_aside() const {
+    if (!earlier_ || kept()) {
+        return std::nullopt;
+    }
+    fs::path aside;
+    for (int n = 1; aside.empty() || fs::exists(aside); ++n) {
+        aside = folder_.parent_path() / fmt::format("unfinished-{}", n);
+    }
+    std::error_code failure;
+    fs::rename(folder_, aside, failure);
+    if (failure) {
+        throw Error(fmt::format(
+            "an earlier study in {} cannot be set aside: {}", folder_.string(), failure.message()));
+    }
+    return aside;
+}
+
+std::optional<fs::path> UnfinishedStudy::keep(std::span<const StudyCase> cases,
+                                              const std::vector<std::vector<StudyRow>>& rows) const {
+    std::optional<fs::path> aside = set_earlier_aside();
     std::vector<OutputFile> files = study_tables(joined(rows));
     files.push_back({missing_name, missing_text(cases, rows)});
     write_outputs(folder_, files);
+    return aside;
 }
 
 bool UnfinishedStudy::kept() const {
@@ -72,6 +92,9 @@ bool UnfinishedStudy::kept() const {
 }
 
 void UnfinishedStudy::remove(std::span<const StudyCase> cases) const {
+    if (!kept()) {
+        return;
+    }
     std::error_code ignored;
     for (const OutputFile& table : study_tables({})) {
         fs::remove(folder_ / table.name, ignored);

@@ -30,16 +30,20 @@ public:
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
-    /// Writes the tables of the cases that have come, and missing.txt, which names the others, over those of
-    /// an earlier study. `rows` has an element a case, empty for one that did not come. Throws Error.
-    void keep(std::span<const project::StudyCase> cases,
-              const std::vector<std::vector<project::StudyRow>>& rows) const;
+    /// Writes the tables of the cases that have come, and missing.txt, which names the others. `rows` has an
+    /// element a case, empty for one that did not come. The first time what an earlier study left goes to a
+    /// folder beside it, unfinished-1 ..., which is returned. Throws Error.
+    std::optional<std::filesystem::path> keep(std::span<const project::StudyCase> cases,
+                                              const std::vector<std::vector<project::StudyRow>>& rows) const;
     /// Whether keep() was called, on whatever rank that writes into the same folder.
     [[nodiscard]] bool kept() const;
-    /// Takes the tables and the pictures of these cases away, and the folder where nothing else is in it.
+    /// Takes away what was kept, with the pictures of these cases, and the folder where nothing else is in
+    /// it.
     void remove(std::span<const project::StudyCase> cases) const;
 
 private:
+    [[nodiscard]] std::optional<std::filesystem::path> set_earlier_aside() const;
+
     std::filesystem::path folder_;
     std::optional<std::filesystem::file_time_type> earlier_; ///< when an earlier study wrote there
 };

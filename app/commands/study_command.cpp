@@ -152,6 +152,9 @@ public:
             printer_.say(sentence);
         }
     }
+    void say_set_aside(const std::filesystem::path& folder) {
+        printer_.say(fmt::format("what an earlier study left is now in {}", folder.string()));
+    }
     /// A study goes on without what it keeps for the case that it is stopped.
     void say_not_kept(const Error& error) {
         const std::string sentence = to_text(error.diagnostic());
@@ -174,7 +177,9 @@ std::string write_unfinished(const UnfinishedStudy& unfinished,
                              std::span<const StudyCase> cases,
                              const SpreadStudy& found,
                              Teller& teller) {
-    unfinished.keep(cases, found.rows);
+    if (const auto aside = unfinished.keep(cases, found.rows)) {
+        teller.say_set_aside(*aside);
+    }
     const std::string where = unfinished.folder().string();
     teller.say_of_several(fmt::format("the cases that are done are in {}", where));
     write_outputs(unfinished.folder(), study_pictures(joined(found.rows)));
@@ -191,7 +196,9 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
     const StudyNews news{.came =
                              [&](const auto& rows) {
                                  try {
-                                     unfinished.keep(cases, rows);
+                                     if (const auto aside = unfinished.keep(cases, rows)) {
+                                         teller.say_set_aside(*aside);
+                                     }
                                  } catch (const Error& error) {
                                      teller.say_not_kept(error);
                                  }
@@ -199,6 +206,7 @@ int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, 
                          .done = [&](std::span<const StudyRow> found) { teller.show(found); },
                          .lost = [&](const std::string& sentence) { teller.say_of_several(sentence); }};
     const SpreadStudy found = gather_study(ranks, cases, study, news, teller.progress());
+    ranks.let_go(); // nothing that is left to do can be lost with a rank
     teller.finish();
     const std::vector<StudyRow> rows = joined(found.rows);
     const std::ptrdiff_t done =
@@ -229,7 +237,7 @@ std::string left_by_rank_0(const UnfinishedStudy& unfinished) {
     return unfinished.kept()
                ? fmt::format("the cases that were done are in {}, whose missing.txt names the others",
                              unfinished.folder().string())
-               : std::string("rank 0 has written no case");
+               : fmt::format("no case was written to {} that rank 1 can see", unfinished.folder().string());
 }
 
 /// Another rank.

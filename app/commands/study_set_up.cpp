@@ -122,6 +122,7 @@ int set_up(const Options& options) {
         return 0;
     }
     const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
+    ranks.let_go(); // nothing that is left to do can be lost with a rank
     write_outputs(options.out,
                   {{"set-up.csv", project::set_up_csv(study.map)},
                    {"set-up.png", render::to_png(picture_of(study, settings.goal))}},

@@ -77,6 +77,11 @@ std::string mean_sentence(const ErrorSummary& error) {
                : "some moves are out of reach";
 }
 
+std::string iteration_sentence(const ImproverState& state, int iteration) {
+    return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(iteration) + ": " +
+           mean_sentence(state.now);
+}
+
 std::string counted_below(const std::vector<double>& means, double than, const std::string& why) {
     const auto count = std::ranges::count_if(means, [&](double mean) { return mean < than; });
     return count == 0 ? std::string() : std::to_string(count) + " " + why;
@@ -333,14 +338,15 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
         }
         if (!more || solver->iterations() % measured_every(settings_.method) == 0) {
             take(at, solver->nodes(), progress);
+            at.state.note = iteration_sentence(at.state, solver->iterations());
+            progress.report(at.state.done, at.state.note);
         }
     }
     at.state.current = parameters_of(solver->nodes());
     at.state.iteration = at.iterations_before + solver->iterations();
     at.state.norm = solver->norm();
     at.solver = solver->clone();
-    at.state.note = "Round " + std::to_string(at.state.round + 1) + ", iteration " +
-                    std::to_string(solver->iterations()) + ": " + mean_sentence(at.state.now);
+    at.state.note = iteration_sentence(at.state, solver->iterations());
     if (!more) {
         end_round(at, solver->status());
     }

@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/sequencing.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
 #include <fmt/format.h>
@@ -45,7 +45,8 @@ std::optional<std::string> why_out_of_reach(const Workpiece& workpiece,
     const grid::Grid grid = grid::Grid::uniform(settings.nodes, settings.nodes);
     toolpath::Toolpath contacts = toolpath::zigzag(patch, grid, workpiece.direction, workpiece.flipped);
     try {
-        (void)toolpath::sequence(machine, toolpath::on_machine(machine, std::move(contacts)));
+        (void)toolpath::sequence(machine,
+                                 toolpath::with_tool(patch, machine, workpiece.tool, std::move(contacts)));
     } catch (const Error& error) { // as the cost of the place
         return error.diagnostic().message;
     }

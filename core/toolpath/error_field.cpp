@@ -48,7 +48,7 @@ double off_surface(const Cut& cut,
         return touched.distance;
     }
     double clearance = clearance_near(cut.patch, *cutter, pose, uv).distance;
-    if (clearance > touched.distance) { // no body is farther off than a point of it: it lost its way
+    if (clearance > touched.distance) { // farther off than where it was to touch: it may have lost its way
         const double there = clearance_near(cut.patch, *cutter, pose, touched.parameters).distance;
         clearance = std::min(clearance, there);
     }

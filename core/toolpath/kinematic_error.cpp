@@ -5,7 +5,6 @@
 #include "core/geometry/surface_point.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
-#include "core/toolpath/cutter.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/chord_curve.h"
@@ -112,30 +111,20 @@ private:
     bool flipped_;
 };
 
-/// The tool with a cutter, or leaning.
+/// The tool with a cutter, or leaning; on a track that goes on, or back.
 class Body {
 public:
     using Place = ToolPlace;
 
-    Body(const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool)
-        : patch_(patch), machine_(machine), flipped_(flipped), tool_(tool) {}
+    Body(const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool, bool back)
+        : patch_(patch), machine_(machine), flipped_(flipped), tool_(tool), back_(back) {}
 
     [[nodiscard]] Place at(const Vec2& uv, const Vec2& heading) const {
-        return tool_place(patch_, flipped_, tool_, uv, heading);
+        return tool_place(patch_, machine_, flipped_, tool_, uv, back_ ? Vec2(-heading) : heading);
     }
-    [[nodiscard]] std::optional<ToolPose> pose(const Place& place) const {
-        if (place.normal.squaredNorm() < 0.5) {
-            return std::nullopt;
-        }
-        std::optional<ToolPose> pose = pose_on(machine_, {place.contact, place.axis});
-        if (pose && tool_.cutter) {
-            pose->tip = tip_for(*tool_.cutter, place.contact, place.normal, pose->axis);
-        }
-        return pose;
-    }
+    [[nodiscard]] std::optional<ToolPose> pose(const Place& place) const { return place.pose; }
     [[nodiscard]] ToolCurve curve(std::vector<Place> places) const {
-        const bool upright = tool_.lean.upright() && !machine_.rotary_axes().empty();
-        return {std::move(places), bottom_of(tool_), upright};
+        return {std::move(places), bottom_of(tool_)};
     }
 
 private:
@@ -143,15 +132,8 @@ private:
     const MachineModel& machine_;
     bool flipped_;
     const Tool& tool_;
+    bool back_;
 };
-
-/// Calls `work` with the tool as it is to be seen.
-template <class Work>
-auto with_seen(
-    const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool, const Work& work) {
-    return tool.cutter || !tool.lean.upright() ? work(Body(patch, machine, flipped, tool))
-                                               : work(Point(patch, machine, flipped));
-}
 
 template <class Curve>
 grid::MoveError
@@ -215,6 +197,29 @@ private:
     std::vector<typename Seen::Place> places_; // of the raster
 };
 
+/// Of each figure the larger one.
+grid::MoveError worse(const grid::MoveError& a, const grid::MoveError& b) {
+    return {.tip = std::max(a.tip, b.tip),
+            .axis = std::max(a.axis, b.axis),
+            .length = a.length,
+            .off_surface = std::max(a.off_surface, b.off_surface),
+            .param = std::max(a.param, b.param)};
+}
+
+/// Of a tool that leans: each second track is cut backwards, where it leans the other way.
+class BothWays final : public grid::LatticeErrors {
+public:
+    BothWays(std::unique_ptr<grid::LatticeErrors> on, std::unique_ptr<grid::LatticeErrors> back)
+        : on_(std::move(on)), back_(std::move(back)) {}
+
+    [[nodiscard]] grid::MoveError between(int k, int l) const override {
+        return worse(on_->between(k, l), back_->between(k, l));
+    }
+
+private:
+    std::unique_ptr<grid::LatticeErrors> on_, back_;
+};
+
 template <class Seen>
 grid::MoveError move_of(
     const Seen& seen, const MachineModel& machine, const Vec2& a, const Vec2& b, grid::Sampling sampling) {
@@ -238,17 +243,26 @@ KinematicError::KinematicError(
 }
 
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
-    return with_seen(patch_, machine_, flipped_, tool_, [&](const auto& seen) {
-        return move_of(seen, machine_, a, b, sampling);
-    });
+    const auto by = [&](const auto& seen) { return move_of(seen, machine_, a, b, sampling); };
+    if (!tool_.lean.upright()) {
+        return worse(by(Body(patch_, machine_, flipped_, tool_, false)),
+                     by(Body(patch_, machine_, flipped_, tool_, true)));
+    }
+    return tool_.cutter ? by(Body(patch_, machine_, flipped_, tool_, false))
+                        : by(Point(patch_, machine_, flipped_));
 }
 
 std::unique_ptr<grid::LatticeErrors> KinematicError::lattice(std::span<const Vec2> nodes,
                                                              grid::Sampling sampling) const {
-    return with_seen(
-        patch_, machine_, flipped_, tool_, [&](auto seen) -> std::unique_ptr<grid::LatticeErrors> {
-            return std::make_unique<Lattice<decltype(seen)>>(seen, machine_, nodes, sampling);
-        });
+    const auto by = [&](auto seen) -> std::unique_ptr<grid::LatticeErrors> {
+        return std::make_unique<Lattice<decltype(seen)>>(seen, machine_, nodes, sampling);
+    };
+    if (!tool_.lean.upright()) {
+        return std::make_unique<BothWays>(by(Body(patch_, machine_, flipped_, tool_, false)),
+                                          by(Body(patch_, machine_, flipped_, tool_, true)));
+    }
+    return tool_.cutter ? by(Body(patch_, machine_, flipped_, tool_, false))
+                        : by(Point(patch_, machine_, flipped_));
 }
 
 double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection direction) const {

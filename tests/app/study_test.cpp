@@ -14,7 +14,6 @@ namespace millwright::test {
 namespace {
 
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -31,7 +30,7 @@ TEST(StudyCommand, CountsTheFewestPoints) {
     EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
 }
 
-TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndTakesAnUnfinishedStudyAway) {
+TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndSetsAnUnfinishedStudyAside) {
     const ScratchFolder scratch;
     std::filesystem::create_directories(scratch / "out/unfinished");
     for (const char* name :
@@ -56,8 +55,12 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndTakesAnUnfinishedStudy
     EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
     EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
     EXPECT_THAT(ended.err, AllOf(HasSubstr(" 1 case\n"), Not(HasSubstr("rank"))));
-    const std::filesystem::directory_iterator left(scratch / "out/unfinished");
-    EXPECT_THAT(std::vector(begin(left), end(left)), ElementsAre(scratch / "out/unfinished/notes.txt"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out/unfinished"));
+    const std::filesystem::path aside = scratch / "out/unfinished-1";
+    EXPECT_THAT(ended.err, HasSubstr("what an earlier study left is now in " + aside.string()));
+    for (const char* name : {"kinematic-error.csv", "missing.txt", "notes.txt"}) {
+        EXPECT_EQ(content_of(aside / name), "left") << name;
+    }
 }
 
 /// A folder with what an earlier, whole study left.

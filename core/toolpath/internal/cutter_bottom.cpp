@@ -63,18 +63,12 @@ double least_within(const Quadratic& of, double radius) {
             square(x.x()) / (of.bend.x() + more) + square(x.y()) / (of.bend.y() + more); // -|x| d|x| / d more
         more += square(length) / shrinks * (length / radius - 1.0);
     }
-    const Vec2 x = of.level(more);
-    return of.at(radius / x.norm() * x);
+    const Vec2 x = of.level(more); // along the lower axis it is not well known where that has hardly a slope
+    const double y = std::clamp(x.y(), -radius, radius);
+    return of.at({std::copysign(std::sqrt(square(radius) - square(y)), x.x()), y});
 }
 
 } // namespace
-
-Vec3 CutterBottom::lowest(const geometry::ToolPose& pose, const Vec3& normal) const {
-    const Vec3 down = normal.dot(pose.axis) * pose.axis - normal;
-    const double sine = down.norm();
-    constexpr double square_to = 1e-9; // of the length of the normal
-    return sine > square_to * normal.norm() ? Vec3(middle(pose) + disc / sine * down) : middle(pose);
-}
 
 CutterBottom bottom_of(const Tool& tool) {
     return tool.cutter ? CutterBottom{tool.cutter->shape().flat, tool.cutter->shape().corner}
@@ -84,7 +78,8 @@ CutterBottom bottom_of(const Tool& tool) {
 Mat3 bend_of(const geometry::SurfaceDerivatives& at, const Vec3& normal, double away) {
     const double E = at.du.squaredNorm(), F = at.du.dot(at.dv), G = at.dv.squaredNorm();
     const double determinant = E * G - F * F;
-    if (!(determinant > 1e-12 * square(E + G))) {
+    constexpr double parallel = 1e-12; // square of the sine of the tangents' angle
+    if (!(determinant > parallel * square(E + G))) {
         return Mat3::Zero();
     }
     const Vec3 u = (G * at.du - F * at.dv) / determinant; // dual to the tangents
@@ -94,8 +89,9 @@ Mat3 bend_of(const geometry::SurfaceDerivatives& at, const Vec3& normal, double 
                       at.duv.dot(normal) * (shear + shear.transpose()) +
                       at.dvv.dot(normal) * v * v.transpose();
     constexpr double nearly_closed = 0.9; // of the radius of a hollow
-    const double most = bend.norm();
-    const double within = std::min(away, most > 0.0 ? nearly_closed / most : away);
+    const double sum = bend.trace();      // of both curvatures; the third eigenvalue is 0
+    const double most = 0.5 * (sum + std::sqrt(std::max(0.0, 2.0 * bend.squaredNorm() - square(sum))));
+    const double within = most > 0.0 ? std::min(away, nearly_closed / most) : away;
     return within > 0.0 ? Mat3(bend * (Mat3::Identity() - within * bend).inverse()) : bend;
 }
 

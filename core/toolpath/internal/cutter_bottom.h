@@ -14,8 +14,6 @@ struct CutterBottom {
 
     /// Of the disc: as high above the tip as the corner is round.
     [[nodiscard]] Vec3 middle(const geometry::ToolPose& pose) const { return pose.tip + corner * pose.axis; }
-    /// The point of the disc that is lowest over a plane of that normal; the middle where all are alike.
-    [[nodiscard]] Vec3 lowest(const geometry::ToolPose& pose, const Vec3& normal) const;
 };
 
 [[nodiscard]] CutterBottom bottom_of(const Tool& tool);

@@ -1,8 +1,9 @@
 #include "core/toolpath/internal/tool_curve.h"
 
-#include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
+#include "core/toolpath/cutter.h"
+#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/largest_angle.h"
 
 #include <algorithm>
@@ -13,10 +14,10 @@ namespace millwright::toolpath {
 
 namespace {
 
-ChordCurve curve_of(const std::vector<ToolPlace>& places, double away) {
+ChordCurve curve_of(const std::vector<ToolPlace>& places, const CutterBottom& bottom) {
     std::vector<Vec3> points(places.size()), normals(places.size());
     for (std::size_t n = 0; n < places.size(); ++n) {
-        points[n] = places[n].contact + away * places[n].normal;
+        points[n] = places[n].pose ? bottom.middle(*places[n].pose) : places[n].contact;
         normals[n] = places[n].normal;
     }
     return {std::move(points), std::move(normals)};
@@ -46,51 +47,56 @@ Vec3 axis_for(const Lean& lean,
 
 } // namespace
 
-ToolPlace tool_place(
-    const geometry::BezierPatch& patch, bool flipped, const Tool& tool, const Vec2& uv, const Vec2& heading) {
+ToolPlace tool_place(const geometry::BezierPatch& patch,
+                     const kinematics::MachineModel& machine,
+                     bool flipped,
+                     const Tool& tool,
+                     const Vec2& uv,
+                     const Vec2& heading) {
     const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     ToolPlace place;
     place.contact = at.position;
-    if (const auto normal = patch.unit_normal(at)) {
-        const CutterBottom bottom = bottom_of(tool);
-        place.normal = flipped ? Vec3(-*normal) : *normal;
-        place.axis = axis_for(tool.lean, at, place.normal, uv, heading);
-        place.bend = bottom.disc > 0.0 ? bend_of(at, place.normal, bottom.corner) : Mat3::Zero();
+    const auto normal = patch.unit_normal(at);
+    if (!normal) {
+        return place;
+    }
+    const CutterBottom bottom = bottom_of(tool);
+    place.normal = flipped ? Vec3(-*normal) : *normal;
+    place.axis = axis_for(tool.lean, at, place.normal, uv, heading);
+    place.bend = bottom.disc > 0.0 ? bend_of(at, place.normal, bottom.corner) : Mat3::Zero();
+    place.pose = pose_on(machine, {place.contact, place.axis});
+    if (place.pose && tool.cutter) {
+        place.pose->tip = tip_for(*tool.cutter, place.contact, place.normal, place.pose->axis);
     }
     return place;
 }
 
-ToolCurve::ToolCurve(std::vector<ToolPlace> places, const CutterBottom& bottom, bool upright)
-    : places_(std::move(places)), bottom_(bottom), upright_(upright),
-      curve_(curve_of(places_, bottom.corner)), length_(length_along(places_)) {}
-
-Vec3 ToolCurve::normal_at(double t) const {
-    const double chords = static_cast<double>(places_.size() - 1);
-    const auto n = std::min(static_cast<std::size_t>(t * chords), places_.size() - 2);
-    const double inside = t * chords - static_cast<double>(n);
-    return (1.0 - inside) * places_[n].normal + inside * places_[n + 1].normal;
-}
+ToolCurve::ToolCurve(std::vector<ToolPlace> places, const CutterBottom& bottom)
+    : places_(std::move(places)), bottom_(bottom), curve_(curve_of(places_, bottom)),
+      length_(length_along(places_)) {}
 
 ToolCurve::Off ToolCurve::off(const geometry::ToolPose& actual, double t) const {
-    const Vec3 touching = upright_ ? bottom_.middle(actual) : bottom_.lowest(actual, normal_at(t));
-    const ChordCurve::Nearest nearest = curve_.nearest(touching);
+    const Vec3 middle = bottom_.middle(actual);
+    const ChordCurve::Nearest nearest = curve_.nearest(middle);
     const ToolPlace& before = places_[nearest.chord];
     const ToolPlace& after = places_[nearest.chord + 1];
-    const double s = nearest.fraction;
+    const auto between = [&](const auto& a, const auto& b) {
+        return ((1.0 - nearest.fraction) * a + nearest.fraction * b).eval();
+    };
     const double scale = nearest.normal.norm(); // 0 where those of the chord's ends cancel
     const Vec3 normal = scale > 0.0 ? Vec3(nearest.normal / scale) : actual.axis;
-    const double along = (touching - nearest.point).dot(normal);
+    const double along = (middle - nearest.point).dot(normal);
     const double aside = std::max(0.0, nearest.squared - square(along));
-    const double height =
-        bottom_.disc > 0.0 ? least_height(bottom_.middle(actual),
-                                          actual.axis,
-                                          bottom_.disc,
-                                          {nearest.point, normal, (1.0 - s) * before.bend + s * after.bend})
-                           : along;
+    double height = along;
+    if (bottom_.disc > 0.0) {
+        const Vec3 under = between(before.contact, after.contact) + bottom_.corner * normal;
+        height = least_height(
+            middle, actual.axis, bottom_.disc, {under, normal, between(before.bend, after.bend)});
+    }
     return {.tip = std::sqrt(aside + square(height)),
             .off_surface = std::abs(height),
-            .param = (touching - curve_.at(t)).norm(),
-            .axis = (1.0 - s) * before.axis + s * after.axis};
+            .param = (middle - curve_.at(t)).norm(),
+            .axis = between(before.axis, after.axis)};
 }
 
 grid::MoveError move_error(const kinematics::MachineModel& machine,

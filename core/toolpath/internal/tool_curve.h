@@ -1,5 +1,5 @@
-// The surface curve under a move as a tool is to go along it, whose cutter and lean have their say: what the
-// middle of a cutter's bottom keeps to is the surface, its corner's radius away from it.
+// The way of a tool over the surface curve under a move, whose cutter and lean have their say: where the
+// middle of the cutter's bottom is to be, and the surface that its corner's radius away is not to be entered.
 #pragma once
 
 #include "core/grid/error_model.h"
@@ -7,6 +7,7 @@
 #include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/internal/cutter_bottom.h"
 
+#include <optional>
 #include <vector>
 
 namespace millwright::toolpath {
@@ -15,18 +16,23 @@ namespace millwright::toolpath {
 struct ToolPlace {
     Vec3 contact = Vec3::Zero();
     Vec3 normal = Vec3::Zero(); ///< of the surface, on the side of the tool; zero where there is none
-    Vec3 axis = Vec3::Zero();   ///< that the tool is to have
+    Vec3 axis = Vec3::Zero();   ///< along the normal, or leaning from it
     Mat3 bend = Mat3::Zero();   ///< of the surface the corner's radius away (bend_of)
+    std::optional<geometry::ToolPose> pose; ///< of the tool on its machine; nothing where none can be
 };
 
 /// Of `patch` at `uv` on a track that goes along `heading`.
-[[nodiscard]] ToolPlace tool_place(
-    const geometry::BezierPatch& patch, bool flipped, const Tool& tool, const Vec2& uv, const Vec2& heading);
+[[nodiscard]] ToolPlace tool_place(const geometry::BezierPatch& patch,
+                                   const kinematics::MachineModel& machine,
+                                   bool flipped,
+                                   const Tool& tool,
+                                   const Vec2& uv,
+                                   const Vec2& heading);
 
 class ToolCurve {
 public:
-    /// Two places or more. `upright`: the axis is meant to be the normal.
-    ToolCurve(std::vector<ToolPlace> places, const CutterBottom& bottom, bool upright);
+    /// Two places or more.
+    ToolCurve(std::vector<ToolPlace> places, const CutterBottom& bottom);
 
     /// What is off where the tool stands.
     struct Off {
@@ -41,12 +47,9 @@ public:
     [[nodiscard]] double length() const { return length_; } ///< of the surface curve, mm
 
 private:
-    [[nodiscard]] Vec3 normal_at(double t) const;
-
     std::vector<ToolPlace> places_;
     CutterBottom bottom_;
-    bool upright_;
-    ChordCurve curve_; // of the surface the corner's radius away
+    ChordCurve curve_; // of the middle of the bottom
     double length_ = 0.0;
 };
 

@@ -54,6 +54,19 @@ TEST(CutterBottom, LeastHeightOfADiscIsThatOfVeryManyOfItsPoints) {
     }
 }
 
+/// Across a valley both sides of the disc are alike, but for rounding.
+TEST(CutterBottom, LeastHeightInAValleyDoesNotHangOnTheLastBits) {
+    const Mat3 valley = Vec3(0.08, -0.02, 0.0).asDiagonal().toDenseMatrix();
+    for (const double slope : {0.0, 1e-18, -1e-17, 1e-16, 1e-15, 1e-12}) {
+        for (const double away : {0.0, 0.4, -0.4}) {
+            const BentGround ground{Vec3::Zero(), Vec3(slope, 0.0, 1.0).normalized(), valley};
+            const Vec3 middle(0.0, away, 1.0);
+            const double least = least_height(middle, Vec3::UnitZ(), 5.0, ground);
+            EXPECT_NEAR(least, least_by_looking(middle, Vec3::UnitZ(), 5.0, ground), 1e-4) << slope;
+        }
+    }
+}
+
 TEST(CutterBottom, LeastHeightOfAPointIsItsOwn) {
     const BentGround ground{Vec3::Zero(), Vec3::UnitZ(), -0.1 * Vec3(1, 1, 0).asDiagonal().toDenseMatrix()};
     EXPECT_NEAR(least_height({2, 0, 1}, Vec3::UnitZ(), 0.0, ground), 1.0 + 0.05 * 4.0, 1e-12);
@@ -93,17 +106,22 @@ TEST(CutterBottom, BendIsThatOfTheSurfaceFurtherOut) {
         EXPECT_NEAR(inside(k, k), 1.0 / 26.0, 1e-12);
     }
     EXPECT_TRUE(bend_of(at, -Vec3::UnitZ(), 50.0).allFinite()); // a ball that does not fit in
+    at.dvv = {0, 0, 1200};                                      // a saddle: sharp where it is round
+    EXPECT_NEAR(bend_of(at, Vec3::UnitZ(), 2.0)(0, 0), -1.0 / 32.0, 1e-12);
+    EXPECT_NEAR(bend_of(at, -Vec3::UnitZ(), 20.0)(1, 1), -1.0 / 23.0, 1e-12);
 }
 
-TEST(CutterBottom, LowestPointOfADiscIsWhereTheCutterTouches) {
+/// The middle of the bottom of a leaning cutter keeps the same distances from its contact.
+TEST(CutterBottom, MiddleIsWhereTheDiscIs) {
     const Vec3 normal = Vec3(0.2, -0.1, 1.0).normalized();
     const Vec3 axis = Vec3(-0.1, 0.3, 1.0).normalized();
     for (const auto& shape : {test::flat_end, test::bull_nose, test::ball}) {
         const Tool tool{.cutter = test::body(shape)};
-        const geometry::ToolPose pose{{1, 2, 3}, axis};
+        const geometry::ToolPose pose{tip_for(*tool.cutter, {1, 2, 3}, normal, axis), axis};
         const CutterBottom bottom = bottom_of(tool);
-        const Vec3 contact = bottom.lowest(pose, normal) - bottom.corner * normal;
-        EXPECT_LT((contact - (pose.tip + contact_from_tip(*tool.cutter, normal, axis))).norm(), 1e-12);
+        const Vec3 from_contact = bottom.middle(pose) - (Vec3(1, 2, 3) + bottom.corner * normal);
+        EXPECT_NEAR(from_contact.norm(), bottom.disc, 1e-12);
+        EXPECT_NEAR(from_contact.dot(axis), 0.0, 1e-12);
     }
 }
 
