@@ -137,6 +137,10 @@ int set_up(const Options& options) {
                "axis deg");
     print("start", study.search.start);
     print("best", study.search.best);
+    if (settings.goal == SetUpGoal::error) {
+        fmt::print("mean: from the surface curve between the nodes of a move, by which places are compared; "
+                   "axis: the largest on the whole path\n");
+    }
     const bool gains = study.search.best.cost < study.search.start.cost;
     if (!gains) {
         fmt::print("no gain: no better place than the start was found\n");

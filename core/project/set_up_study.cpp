@@ -85,8 +85,11 @@ double for_people(SetUpParameter parameter, double value) {
 }
 
 std::string set_up_csv(const toolpath::SetUpMap& map) {
-    std::string text = fmt::format(
-        "{}_{},{}_{},cost_mm,axis_max_deg\n", name(map.across), unit(map.across), name(map.up), unit(map.up));
+    std::string text = fmt::format("{}_{},{}_{},cost_mm,axis_deg_at_10_times\n",
+                                   name(map.across),
+                                   unit(map.across),
+                                   name(map.up),
+                                   unit(map.up));
     for (std::size_t row = 0; row < map.y.size(); ++row) {
         for (std::size_t column = 0; column < map.x.size(); ++column) {
             const std::size_t place = row * map.x.size() + column;

@@ -105,7 +105,7 @@ int descend(const SetUpCost& cost,
         ++evaluations;
         progress.report(static_cast<double>(evaluations) / settings.descent);
         if (found.cost < best.cost) {
-            best = {place, found.cost, found.axis_max};
+            best = {place, found.cost};
         }
         return std::min(found.cost, out_of_reach);
     };
@@ -156,12 +156,28 @@ SetUpPlace SetUpCost::start() const {
     return place;
 }
 
+kinematics::MachineModel SetUpCost::machine_at(const SetUpPlace& place) const {
+    return machine_.with_workpiece_offset(offset_of(place));
+}
+
+geometry::BezierPatch SetUpCost::patch_at(const SetUpPlace& place) const {
+    const bool is_turned = !exactly_equal(place[3], 0.0);
+    return is_turned ? geometry::BezierPatch(turned(patch_.net(), place[3])) : patch_;
+}
+
+std::optional<double> SetUpCost::axis_on_path(const SetUpPlace& place, const Progress& progress) const {
+    if (goal_ == SetUpGoal::travel || machine_.rotary_axes().empty()) {
+        return std::nullopt;
+    }
+    const KinematicError error(patch_at(place), machine_at(place), flipped_, tool_);
+    const double largest = error.on_path(grid_, direction_, progress).axis_max;
+    return std::isfinite(largest) ? std::optional(largest) : std::nullopt;
+}
+
 PlaceFigures SetUpCost::figures_at(const SetUpPlace& place, const Progress& progress) const {
     progress.check();
-    const kinematics::MachineModel machine = machine_.with_workpiece_offset(offset_of(place));
-    const bool is_turned = !exactly_equal(place[3], 0.0);
-    const geometry::BezierPatch patch =
-        is_turned ? geometry::BezierPatch(turned(patch_.net(), place[3])) : patch_;
+    const kinematics::MachineModel machine = machine_at(place);
+    const geometry::BezierPatch patch = patch_at(place);
     Toolpath contacts =
         zigzag(patch, grid_, direction_, flipped_); // what is wrong with it is so at every place
     try {
@@ -197,7 +213,7 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     check(settings);
     SetUpSearch found;
     const PlaceFigures start = cost.figures_at(cost.start(), progress);
-    found.start = {cost.start(), start.cost, start.axis_max};
+    found.start = {cost.start(), start.cost};
     found.best = found.start;
     found.evaluations = 1;
     const std::vector<SetUpPlace> places = lattice(settings);
@@ -207,7 +223,7 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     const std::vector<PlaceFigures> figures = measured(cost, places, measure, progress.part(0.0, share));
     for (std::size_t n = 0; n < places.size(); ++n) {
         if (figures[n].cost < found.best.cost) {
-            found.best = {places[n], figures[n].cost, figures[n].axis_max};
+            found.best = {places[n], figures[n].cost};
         }
     }
     found.evaluations += static_cast<int>(places.size());
@@ -218,6 +234,9 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     if (!(found.best.cost < (1.0 - rounding) * found.start.cost)) {
         found.best = found.start;
     }
+    const Progress rest = progress.part(1.0, 1.0);
+    found.start.axis_max = cost.axis_on_path(found.start.place, rest);
+    found.best.axis_max = cost.axis_on_path(found.best.place, rest);
     return found;
 }
 

@@ -37,8 +37,9 @@ using SetUpPlace = Eigen::Vector4d;
 /// What is measured of a place.
 struct PlaceFigures {
     double cost = std::numeric_limits<double>::infinity(); ///< mm; infinity where out of reach
-    /// Largest angle of the tool axis to the normal, rad; nothing out of reach, for SetUpGoal::travel, which
-    /// measures no error, and on machines that cannot turn the tool.
+    /// Largest angle of the tool axis to the one wanted, rad, at ten times a move: near a singular point it
+    /// may swing between them. Nothing out of reach, for SetUpGoal::travel, which measures no error, and on
+    /// machines that cannot turn the tool.
     std::optional<double> axis_max = {};
 
     friend bool operator==(const PlaceFigures&, const PlaceFigures&) = default;
@@ -61,10 +62,16 @@ public:
     [[nodiscard]] double at(const SetUpPlace& place, const Progress& progress) const {
         return figures_at(place, progress).cost;
     }
+    /// The largest angle on the whole path, looked for until it is known; nothing where there is none of
+    /// PlaceFigures. Throws Cancelled.
+    [[nodiscard]] std::optional<double> axis_on_path(const SetUpPlace& place, const Progress& progress) const;
     /// As the machine has it, not turned.
     [[nodiscard]] SetUpPlace start() const;
 
 private:
+    [[nodiscard]] kinematics::MachineModel machine_at(const SetUpPlace& place) const;
+    [[nodiscard]] geometry::BezierPatch patch_at(const SetUpPlace& place) const;
+
     geometry::BezierPatch patch_;
     kinematics::MachineModel machine_;
     bool flipped_;
@@ -94,7 +101,7 @@ struct SetUpSearchSettings {
 struct SetUp {
     SetUpPlace place = SetUpPlace::Zero();
     double cost = 0.0;                   ///< mm
-    std::optional<double> axis_max = {}; ///< as in PlaceFigures
+    std::optional<double> axis_max = {}; ///< on the whole path (SetUpCost::axis_on_path)
 };
 
 struct SetUpSearch {

@@ -1,7 +1,11 @@
 #include "core/toolpath/set_up_search.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/toolpath/error_field.h"
 #include "core/toolpath/kinematic_error.h"
+#include "core/toolpath/sequencing.h"
+#include "core/toolpath/zigzag.h"
 #include "tests/support/paths.h"
 
 #include <Eigen/Geometry>
@@ -42,9 +46,16 @@ TEST(SetUpSearch, HalvesTheErrorOfADomeThatStoodFarFromTheAxis) {
         false);
     const auto moves = measure(there, Grid::uniform(20, 20), TrackDirection::along_v, grid::coarse);
     EXPECT_DOUBLE_EQ(grid::summary(moves).mean, found.best.cost);
-    ASSERT_TRUE(found.best.axis_max);
-    EXPECT_DOUBLE_EQ(grid::summary(moves).axis_max, *found.best.axis_max);
-    EXPECT_EQ(found.start.axis_max, cost.figures_at(found.start.place, {}).axis_max);
+    ASSERT_TRUE(found.best.axis_max && found.start.axis_max);
+    const Toolpath path = zigzag(test::patch("dome"), Grid::uniform(20, 20), TrackDirection::along_v, false);
+    const auto machine =
+        test::machine("rotary-tilt-listing").with_workpiece_offset(offset_of(found.best.place));
+    const ErrorField field =
+        error_field(test::patch("dome"), machine, path, sequence(machine, path), {4095}, {});
+    EXPECT_NEAR(summary(field, Distance::closest, MoveKind::track).axis_max,
+                *found.best.axis_max,
+                from_degrees(2e-3));
+    EXPECT_GT(*found.start.axis_max, *cost.figures_at(found.start.place, {}).axis_max);
 }
 
 TEST(SetUpSearch, NoAxisDeviationWhereNoneIsMeasuredOrTheToolCannotTurn) {
