@@ -6,6 +6,7 @@
 #include "core/exchange/internal/cad_contents.h"
 #include "core/exchange/internal/cad_faces.h"
 #include "core/exchange/internal/cad_frames.h"
+#include "core/exchange/internal/cad_lost_faces.h"
 #include "core/exchange/internal/cad_reading.h"
 #include "core/exchange/internal/cad_text.h"
 #include "core/exchange/internal/file_kind.h"
@@ -152,10 +153,14 @@ CadModel read_by(Reader reader, const std::filesystem::path& file, const Progres
     reader.TransferRoots(indicator->Start());
     progress.check();
     const TopoDS_Shape shape = reader.OneShape();
+    const std::string lost = lost_faces(reader);
     if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
-        refuse_without_face(shape, *reader.Model(), file);
+        refuse_without_face(shape, *reader.Model(), lost, file);
     }
     CadModel model = faces_of(shape, file, progress.part(shapes_made, 1.0));
+    if (!lost.empty()) {
+        model.left_out.push_back(lost);
+    }
     model.unit = unit_of(reader);
     return model;
 }

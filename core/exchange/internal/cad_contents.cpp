@@ -111,7 +111,11 @@ void expect_not_too_many(int faces, const std::filesystem::path& file) {
 
 void refuse_without_face(const TopoDS_Shape& shape,
                          const Interface_InterfaceModel& model,
+                         const std::string& lost,
                          const std::filesystem::path& file) {
+    if (!lost.empty()) {
+        throw Error(lost, file, "the file is damaged there: write it once more");
+    }
     const ModelCounts counts = counts_of(model);
     std::vector<std::string> parts = shape.IsNull() ? std::vector<std::string>{} : parts_of(shape);
     const bool without_shape = parts.empty();

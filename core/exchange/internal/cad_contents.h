@@ -5,15 +5,18 @@
 #include <TopoDS_Shape.hxx>
 
 #include <filesystem>
+#include <string>
 
 namespace millwright::exchange {
 
 /// Throws Error about `file` if there are more than can be read: before they are made, which takes its time.
 void expect_not_too_many(int faces, const std::filesystem::path& file);
 
-/// Throws Error about `file`: it has no face. `shape` may be null, where nothing of the model became one.
+/// Throws Error about `file`: it has no face. `shape` may be null, where nothing of the model became one;
+/// `lost` tells of faces that are in the file all the same (lost_faces).
 [[noreturn]] void refuse_without_face(const TopoDS_Shape& shape,
                                       const Interface_InterfaceModel& model,
+                                      const std::string& lost,
                                       const std::filesystem::path& file);
 
 } // namespace millwright::exchange

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <regex>
 #include <string>
 #include <string_view>
 
@@ -112,6 +113,33 @@ Surface field_of_domes(int side) {
         }
     }
     return Surface(std::move(patches));
+}
+
+/// Of the faces from `first` on the surface is one that the file does not have.
+std::string with_broken_faces(const std::string& text, int first) {
+    const std::regex face("(ADVANCED_FACE\\('[^']*',\\([^)]*\\)),#[0-9]+");
+    std::string broken;
+    auto rest = text.cbegin();
+    int count = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), face); at != std::sregex_iterator(); ++at) {
+        broken.append(rest, (*at)[0].first);
+        broken += count++ < first ? at->str() : at->str(1) + ",#9999999";
+        rest = (*at)[0].second;
+    }
+    return broken.append(rest, text.cend());
+}
+
+TEST_F(CadFile, FacesThatTheLibraryLeavesOutAreNamed) {
+    write_step(field_of_domes(2), folder_ / "domes.step", {});
+    const std::string text = read_file(folder_ / "domes.step");
+    const CadModel model = read_text(with_broken_faces(text, 3), "broken.step");
+    EXPECT_EQ(model.faces.size(), 3u);
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_THAT(model.left_out.front(),
+                HasSubstr("1 of 4 faces of the file could not be made by Open CASCADE (#"));
+    EXPECT_THAT(refusal(with_broken_faces(text, 0), "all.step"),
+                HasSubstr("4 of 4 faces of the file could not"));
+    EXPECT_TRUE(read_text(with_broken_faces(text, 4), "whole.step").left_out.empty());
 }
 
 // Given one by one, each face costs the library a look at all that came before, and makes a part of its own.
