@@ -34,14 +34,18 @@ int reshape(const Options& options) {
     project::Project project = open_project(options.project).project;
     project::SurfaceInput& surface = project.surface;
     const int patch = options.patch.value_or(surface.machined_patch);
+    const bool had_region = !project.grid.elliptic.region.everywhere();
     if (!options.degree.empty()) {
         surface = project::with_degrees(surface, patch, options.degree[0], options.degree[1]);
     }
     if (options.split_u) {
-        surface = project::with_split(surface, patch, Parameter::u, *options.split_u);
+        project = project::with_split(std::move(project), patch, Parameter::u, *options.split_u);
     }
     if (options.split_v) {
-        surface = project::with_split(surface, patch, Parameter::v, *options.split_v);
+        project = project::with_split(std::move(project), patch, Parameter::v, *options.split_v);
+    }
+    if (had_region && project.grid.elliptic.region.everywhere()) {
+        fmt::print("note: the region of adaptation lies on the other part: the grid adapts everywhere\n");
     }
     project::write_project(project, options.out);
     for (std::size_t n = 0; n < surface.patches.size(); ++n) {

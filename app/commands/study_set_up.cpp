@@ -139,7 +139,7 @@ int set_up(const Options& options) {
     print("best", study.search.best);
     if (settings.goal == SetUpGoal::error) {
         fmt::print("mean: from the surface curve between the nodes of a move, by which places are compared; "
-                   "axis: the largest on the whole path\n");
+                   "axis: the largest on the finished part\n");
     }
     const bool gains = study.search.best.cost < study.search.start.cost;
     if (!gains) {

@@ -40,6 +40,60 @@ std::optional<Trim> trim_in(const Trim& trim, Parameter parameter, double from, 
     return geometry::trim_in_square(loops, Vec2::Zero());
 }
 
+/// The part [from, to] of a parameter.
+struct Part {
+    Parameter parameter;
+    double from, to;
+
+    [[nodiscard]] int axis() const { return parameter == Parameter::u ? 0 : 1; }
+    [[nodiscard]] double length() const { return to - from; }
+};
+
+grid::Field field_on(const grid::Field& whole, const Part& part) {
+    grid::Field field = whole;
+    for (int i = 0; i < field.rows; ++i) {
+        for (int j = 0; j < field.columns; ++j) {
+            Vec2 place = whole.place(i, j);
+            place[part.axis()] = part.from + place[part.axis()] * part.length();
+            field.values[field.index(i, j)] = whole.at(place);
+        }
+    }
+    return field;
+}
+
+/// What of a polygon lies on the side of `limit` where `sign` * (its coordinate - limit) <= 0 (Sutherland and
+/// Hodgman, Reentrant polygon clipping, 1974; by the even-odd rule it may cross itself).
+std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis, double limit, double sign) {
+    std::vector<Vec2> left;
+    for (std::size_t n = 0; n < polygon.size(); ++n) {
+        const Vec2& a = polygon[n];
+        const Vec2& b = polygon[(n + 1) % polygon.size()];
+        const double beyond_a = sign * (a[axis] - limit), beyond_b = sign * (b[axis] - limit);
+        if (beyond_a <= 0.0) {
+            left.push_back(a);
+        }
+        if ((beyond_a < 0.0 && beyond_b > 0.0) || (beyond_a > 0.0 && beyond_b < 0.0)) {
+            left.emplace_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
+        }
+    }
+    return left;
+}
+
+/// Only its outline changes.
+grid::Region region_on(grid::Region region, const Part& part) {
+    std::vector<Vec2> outline = clipped(region.outline, part.axis(), part.to, 1.0);
+    outline = clipped(outline, part.axis(), part.from, -1.0);
+    for (Vec2& corner : outline) {
+        corner[part.axis()] = std::clamp((corner[part.axis()] - part.from) / part.length(), 0.0, 1.0);
+    }
+    if (std::ssize(outline) > grid::most_corners) {
+        throw Error(
+            fmt::format("the outline of the region would have more than {} corners", grid::most_corners));
+    }
+    region.outline = std::ssize(outline) < grid::fewest_corners ? std::vector<Vec2>() : std::move(outline);
+    return region;
+}
+
 } // namespace
 
 SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int degree_v) {
@@ -88,6 +142,22 @@ SurfaceInput with_split(SurfaceInput surface, int patch, Parameter parameter, do
     }
     surface.preset.clear();
     return surface;
+}
+
+Project with_split(Project project, int patch, Parameter parameter, double at) {
+    const bool machined = patch == project.surface.machined_patch;
+    const Trim trim = project.surface.trim(patch);
+    project.surface = with_split(std::move(project.surface), patch, parameter, at);
+    if (machined) {
+        const bool first = trim_in(trim, parameter, 0.0, at).has_value();
+        const Part part = first ? Part{parameter, 0.0, at} : Part{parameter, at, 1.0};
+        EllipticInput& elliptic = project.grid.elliptic;
+        if (elliptic.painted) {
+            elliptic.painted = field_on(*elliptic.painted, part);
+        }
+        elliptic.region = region_on(std::move(elliptic.region), part);
+    }
+    return project;
 }
 
 } // namespace millwright::project

@@ -20,4 +20,9 @@ inline constexpr double narrowest_split = 0.01;
 [[nodiscard]] SurfaceInput
 with_split(SurfaceInput surface, int patch, geometry::Parameter parameter, double at);
 
+/// The same of a whole project: what was painted on the machined patch, and the outline of the region, stay
+/// where they are in space. A region that lies on the part alone that is no longer machined is gone, which
+/// is everywhere. Throws Error also where the outline would have more than grid::most_corners.
+[[nodiscard]] Project with_split(Project project, int patch, geometry::Parameter parameter, double at);
+
 } // namespace millwright::project

@@ -85,7 +85,7 @@ double for_people(SetUpParameter parameter, double value) {
 }
 
 std::string set_up_csv(const toolpath::SetUpMap& map) {
-    std::string text = fmt::format("{}_{},{}_{},cost_mm,axis_deg_at_10_times\n",
+    std::string text = fmt::format("{}_{},{}_{},cost_mm,axis_deg_to_curve\n",
                                    name(map.across),
                                    unit(map.across),
                                    name(map.up),

@@ -37,9 +37,10 @@ using SetUpPlace = Eigen::Vector4d;
 /// What is measured of a place.
 struct PlaceFigures {
     double cost = std::numeric_limits<double>::infinity(); ///< mm; infinity where out of reach
-    /// Largest angle of the tool axis to the one wanted, rad, at ten times a move: near a singular point it
-    /// may swing between them. Nothing out of reach, for SetUpGoal::travel, which measures no error, and on
-    /// machines that cannot turn the tool.
+    /// Largest angle of the tool axis to the one wanted at the nearest point of the surface curve, rad, at
+    /// ten times a move (MoveError): a tip that leaves that curve is over ground that faces another way.
+    /// Nothing out of reach, for SetUpGoal::travel, which measures no error, and on machines that cannot turn
+    /// the tool.
     std::optional<double> axis_max = {};
 
     friend bool operator==(const PlaceFigures&, const PlaceFigures&) = default;

@@ -207,8 +207,7 @@ TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {
     EXPECT_THAT(ended.out, HasSubstr("\nstart "));
     EXPECT_THAT(ended.out, HasSubstr("\nbest "));
     EXPECT_THAT(ended.out, HasSubstr(" mean mm  axis deg\n"));
-    EXPECT_THAT(content_of(scratch / "out/set-up.csv"),
-                StartsWith("a_mm,c_mm,cost_mm,axis_deg_at_10_times\n"));
+    EXPECT_THAT(content_of(scratch / "out/set-up.csv"), StartsWith("a_mm,c_mm,cost_mm,axis_deg_to_curve\n"));
     EXPECT_THAT(content_of(scratch / "out/set-up.png"), StartsWith("\x89PNG"));
     const auto json = nlohmann::json::parse(content_of(accepted));
     EXPECT_TRUE(json.at("machine").contains("workpiece_offset"));

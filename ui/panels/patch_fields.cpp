@@ -65,7 +65,7 @@ void PatchFields::draw_split(Ui& ui, ActionQueue& ask, int patch) {
         const std::string tip = fmt::format("Two patches that meet at {} = {:.4g}", name, split_at_);
         if (ui.button(id, fmt::format("Split at {}", name), {}, {{}, widgets::Rank::normal, -1.0F, tip})) {
             reshape(ask, "Split the patch", [patch, parameter, at = split_at_](project::Project& draft) {
-                draft.surface = project::with_split(draft.surface, patch, parameter, at);
+                draft = project::with_split(std::move(draft), patch, parameter, at);
             });
         }
     };

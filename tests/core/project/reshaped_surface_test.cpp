@@ -55,6 +55,29 @@ TEST(ReshapedSurface, OutlinesAreSplitToo) {
     EXPECT_TRUE(cut.trim(1).everything());
 }
 
+/// The place in the whole patch stays, whatever the parameters of the half are.
+TEST(ReshapedSurface, PaintAndRegionStayWhereTheyAreInSpace) {
+    Project project = project_from_preset("dome");
+    grid::Field painted = grid::Field::constant(41, 41, 0.0);
+    for (int j = 0; j < 41; ++j) {
+        painted.values[painted.index(12, j)] = 1.0; // u = 0.3
+    }
+    project.grid.elliptic.painted = painted;
+    project.grid.elliptic.region.outline = {{0.2, 0.2}, {0.8, 0.2}, {0.8, 0.6}, {0.2, 0.6}};
+    const Project half = with_split(project, 0, Parameter::u, 0.5);
+    EXPECT_NEAR(half.grid.elliptic.painted->at({0.6, 0.4}), 1.0, 1e-9);
+    EXPECT_NEAR(half.grid.elliptic.painted->at({0.3, 0.4}), 0.0, 1e-9);
+    const std::vector<Vec2> outline{{0.4, 0.2}, {1.0, 0.2}, {1.0, 0.6}, {0.4, 0.6}};
+    EXPECT_EQ(half.grid.elliptic.region.outline, outline);
+    EXPECT_EQ(half.grid.elliptic.region.border_mm, project.grid.elliptic.region.border_mm);
+    EXPECT_TRUE(with_split(project, 0, Parameter::u, 0.15).grid.elliptic.region.everywhere());
+
+    project.surface.patches.push_back(project.surface.patches.front());
+    const Project other = with_split(project, 1, Parameter::v, 0.5);
+    EXPECT_EQ(other.grid.elliptic, project.grid.elliptic) << "of a patch that is not machined";
+    EXPECT_THROW((void)with_split(project, 7, Parameter::v, 0.5), Error);
+}
+
 TEST(ReshapedSurface, HigherDegreesKeepTheShape) {
     const SurfaceInput before = two_patches();
     const int degree = before.patches[1].rows - 1;

@@ -96,7 +96,7 @@ TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {
     map.costs = {1.0, 2.0, 3.0, std::numeric_limits<double>::infinity()};
     map.axis_max = {0.5235987755982988, 0.0, std::nullopt, std::nullopt};
     EXPECT_EQ(set_up_csv(map),
-              "turn_deg,c_mm,cost_mm,axis_deg_at_10_times\n"
+              "turn_deg,c_mm,cost_mm,axis_deg_to_curve\n"
               "0.0000,10.0000,1.000000,30.0000\n90.0000,10.0000,2.000000,0.0000\n"
               "0.0000,20.0000,3.000000,\n90.0000,20.0000,,\n");
 }
