@@ -16,12 +16,12 @@ namespace {
 constexpr std::array others{
     GridMethod::tracks, GridMethod::redistribution, GridMethod::harmonic, GridMethod::elliptic};
 
-/// Not worse than `uniform` also in the mean over the length, and its tracks not much farther apart.
+/// Not worse than `uniform`, and its tracks not much farther apart.
 bool keeps_promise(const Evaluation& found,
                    const Evaluation& uniform,
                    const Workpiece& workpiece,
                    double gap) {
-    return !is_worse(found, uniform, workpiece.machine) && found.closest.lmean <= uniform.closest.lmean &&
+    return !is_worse(found, uniform, workpiece.machine) &&
            found.track_gap.value_or(0.0) <= gap * uniform.track_gap.value_or(0.0);
 }
 

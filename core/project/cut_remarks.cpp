@@ -88,13 +88,20 @@ std::string why_higher(const Project& project, const Plan& plan) {
 }
 
 std::string why_not_kept(const Project& project, const Evaluation& path) {
-    const bool asked = project.toolpath.strategy == StrategyInput::fewest_points &&
-                       project.tool.cutter != toolpath::CutterKind::point;
-    if (!asked || path.closest.max <= project.toolpath.tolerance_mm) {
+    constexpr double sampling = 1.001; // of the moves that were chosen among
+    const bool asked = project.toolpath.strategy == StrategyInput::fewest_points;
+    if (!asked || path.closest.max <= sampling * project.toolpath.tolerance_mm) {
         return {};
     }
+    if (project.tool.cutter == toolpath::CutterKind::point) {
+        return fmt::format(
+            "the path does not keep the tolerance of {} mm: {} mm at worst, where it follows other "
+            "branches than each move by itself",
+            shortest(project.toolpath.tolerance_mm),
+            fixed(path.closest.max, 4));
+    }
     return fmt::format(
-        "the tip keeps the tolerance of {} mm, this cutter does not: {} mm at worst. Where it does "
+        "this cutter does not keep the tolerance of {} mm: {} mm at worst. Where it does "
         "not fit, or cuts into its sides, more points do not help: another or a smaller cutter does",
         shortest(project.toolpath.tolerance_mm),
         fixed(path.closest.max, 4));

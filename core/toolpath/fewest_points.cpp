@@ -27,12 +27,15 @@ std::vector<grid::Track> tracks_of(const Covering& of) {
     return tracks;
 }
 
-/// On a lattice, and where that is too coarse on one four times as fine.
-std::optional<grid::PlacedTrack>
-placed(const KinematicError& model, const grid::Track& track, double tolerance, const Progress& progress) {
+/// On a lattice, and where that is too coarse on one four times as fine, `finer` times.
+std::optional<grid::PlacedTrack> placed(const KinematicError& model,
+                                        const grid::Track& track,
+                                        double tolerance,
+                                        int finer,
+                                        const Progress& progress) {
     grid::FewestNodesSettings settings;
     settings.lattice = 800;
-    for (int finer = 0; finer < 3; ++finer) {
+    for (int n = 0; n <= finer; ++n) {
         if (auto found = grid::fewest_nodes(model, track, 0.0, 1.0, {.tip = tolerance}, settings, progress)) {
             return found;
         }
@@ -40,6 +43,24 @@ placed(const KinematicError& model, const grid::Track& track, double tolerance, 
     }
     return std::nullopt;
 }
+
+/// How moves are judged: as those of the tool, and where no number of points helps, as the cutter does not
+/// fit, as those of its tip.
+struct Models {
+    KinematicError tool, tip;
+    bool has_cutter;
+
+    [[nodiscard]] std::optional<grid::PlacedTrack>
+    placed(const grid::Track& track, double tolerance, const Progress& progress) const {
+        constexpr int finer = 2;
+        if (has_cutter) {
+            if (auto found = toolpath::placed(tool, track, tolerance, 0, progress)) {
+                return found;
+            }
+        }
+        return toolpath::placed(tip, track, tolerance, finer, progress);
+    }
+};
 
 void add(Toolpath& path, const Covering& of, const grid::PlacedTrack& placed, int track) {
     const auto count = static_cast<int>(placed.places.size());
@@ -60,14 +81,16 @@ FewestPoints::FewestPoints(double tolerance) : tolerance_(tolerance) {
 }
 
 Toolpath FewestPoints::contacts(const Covering& of, const Progress& progress) const {
-    const KinematicError model(of.patch, of.machine, of.flipped);
+    const Models models{{of.patch, of.machine, of.flipped, of.tool},
+                        {of.patch, of.machine, of.flipped, Tool{.lean = of.tool.lean}},
+                        of.tool.cutter.has_value()};
     const std::vector<grid::Track> tracks = tracks_of(of);
     std::vector<std::optional<grid::PlacedTrack>> found(tracks.size());
     std::atomic<int> done = 0;
     const Progress unreported = progress.part(0.0, 0.0);
     parallel_for(std::ssize(tracks), 1, [&](std::ptrdiff_t job) {
         const auto n = static_cast<std::size_t>(job);
-        found[n] = placed(model, tracks[n], tolerance_, unreported);
+        found[n] = models.placed(tracks[n], tolerance_, unreported);
         progress.report(static_cast<double>(++done) / static_cast<double>(tracks.size()));
     });
     Toolpath path;

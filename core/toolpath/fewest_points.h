@@ -7,9 +7,10 @@
 namespace millwright::toolpath {
 
 /// As many tracks as the grid has, at equal steps of the parameter across them; the points of each by
-/// grid::fewest_nodes. The moves inside the tracks are judged as a point along the normal, by the distance of
-/// the true tip from the surface curve between the points, so that the distance from the surface is not
-/// larger. A point's origin is its track and its number there.
+/// grid::fewest_nodes. The moves inside the tracks are judged by KinematicError of the tool: by the surface
+/// curve between the points, from which the true tip is not nearer than from the surface, and by the bottom
+/// of a cutter. A track on which the cutter does not fit is judged by its tip, leaning as the tool does. A
+/// point's origin is its track and its number there.
 class FewestPoints final : public Strategy {
 public:
     /// `tolerance` in mm, above 0.

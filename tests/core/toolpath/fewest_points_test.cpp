@@ -1,9 +1,13 @@
 #include "core/toolpath/fewest_points.h"
 
 #include "core/toolpath/error_field.h"
+#include "core/toolpath/tool_poses.h"
+#include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace millwright::toolpath {
 namespace {
@@ -16,12 +20,14 @@ struct Found {
     double farthest = 0.0; ///< from the surface, inside tracks
 };
 
-Found covered(const char* preset, double tolerance) {
+Found covered(const char* preset, double tolerance, const Tool& tool = {}) {
     const auto patch = test::patch(preset);
     const auto machine = test::machine("ac-table");
-    const Tool point;
-    Found found{FewestPoints(tolerance).contacts(
-        {patch, machine, point, Grid::uniform(5, 5), TrackDirection::along_u}, {})};
+    Found found{with_tool(patch,
+                          machine,
+                          tool,
+                          FewestPoints(tolerance).contacts(
+                              {patch, machine, tool, Grid::uniform(5, 5), TrackDirection::along_u}, {}))};
     const ErrorField field = error_field(patch, machine, found.path, sequence(machine, found.path), {60}, {});
     found.farthest = summary(field, Distance::closest, MoveKind::track).max;
     return found;
@@ -37,6 +43,27 @@ TEST(FewestPoints, StayWithinTheToleranceOnTheWholePath) {
         EXPECT_GT(found.path.points.size(), before);
         before = found.path.points.size();
     }
+}
+
+/// A tool that leans turns the machine another way.
+TEST(FewestPoints, StayWithinTheToleranceOfTheToolAndItsLean) {
+    const Lean leaning{.lead = from_degrees(8.0)};
+    const std::array tools{Tool{.lean = leaning}, Tool{.cutter = test::body(test::ball), .lean = leaning}};
+    for (const Tool& tool : tools) {
+        for (const double tolerance : {0.5, 0.1}) {
+            const Found found = covered("dome", tolerance, tool);
+            EXPECT_LE(found.farthest, tolerance * 1.1) << "cutter " << tool.cutter.has_value();
+            EXPECT_GT(found.farthest, 0.3 * tolerance);
+        }
+    }
+}
+
+/// A flat end bites into the hollows of the dome at the points themselves.
+TEST(FewestPoints, OfACutterThatDoesNotFitAreThoseOfItsTip) {
+    const Tool flat{.cutter = test::body(test::flat_end)};
+    const Found found = covered("dome", 0.5, flat);
+    EXPECT_GT(found.farthest, 0.5);
+    EXPECT_LT(found.path.points.size(), 2 * covered("dome", 0.5).path.points.size());
 }
 
 TEST(FewestPoints, OfAPlaneAreTheEndsOfItsTracks) {
