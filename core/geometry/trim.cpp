@@ -1,5 +1,7 @@
 #include "core/geometry/trim.h"
 
+#include "core/base/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -70,6 +72,9 @@ std::vector<double> crossings(const Trim& trim, const Vec2& a, const Vec2& b) {
         for (std::size_t n = 0; n < loop.size(); ++n) {
             const Vec2 edge = next_corner(loop, n) - loop[n];
             const double turn = cross(way, edge);
+            if (exactly_equal(turn, 0.0)) {
+                continue; // they are parallel
+            }
             const double along_way = cross(loop[n] - a, edge) / turn;
             const double along_edge = cross(loop[n] - a, way) / turn;
             if (along_way > 0.0 && along_way < 1.0 && along_edge >= 0.0 && along_edge <= 1.0) {

@@ -1,5 +1,7 @@
 #include "core/toolpath/outline_tree.h"
 
+#include "core/base/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,6 +112,9 @@ void OutlineTree::add_crossings(std::size_t number,
     for (std::size_t n = stretch.first; n < stretch.last; ++n) {
         const Vec2 edge = corners_[n + 1] - corners_[n];
         const double turn = cross(way, edge);
+        if (exactly_equal(turn, 0.0)) {
+            continue; // they are parallel
+        }
         const double along_way = cross(corners_[n] - a, edge) / turn;
         const double along_edge = cross(corners_[n] - a, way) / turn;
         if (along_way > 0.0 && along_way < 1.0 && along_edge >= 0.0 && along_edge <= 1.0) {
