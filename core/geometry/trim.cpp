@@ -1,6 +1,6 @@
 #include "core/geometry/trim.h"
 
-#include "core/base/numbers.h"
+#include "core/geometry/outline_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,8 @@ namespace {
 
 using Loop = Trim::Loop;
 
-/// How far from the border of the patch a place is asked about: loops may run along the border there and
-/// back.
-constexpr double beside_border = 1e-7;
-constexpr double shortest_part = 1e-6;
-
 const Vec2& next_corner(const Loop& loop, std::size_t n) {
     return loop[n + 1 == loop.size() ? 0 : n + 1];
-}
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Of what the loop goes around, counterclockwise above zero.
@@ -66,23 +57,14 @@ Loop in_unit_square(Loop loop) {
 
 /// Where the way from `a` to `b` crosses an edge, as shares of it.
 std::vector<double> crossings(const Trim& trim, const Vec2& a, const Vec2& b) {
-    std::vector<double> shares{0.0, 1.0};
-    const Vec2 way = b - a;
+    std::vector<double> shares;
     for (const Loop& loop : trim.loops) {
         for (std::size_t n = 0; n < loop.size(); ++n) {
-            const Vec2 edge = next_corner(loop, n) - loop[n];
-            const double turn = cross(way, edge);
-            if (exactly_equal(turn, 0.0)) {
-                continue; // they are parallel
-            }
-            const double along_way = cross(loop[n] - a, edge) / turn;
-            const double along_edge = cross(loop[n] - a, way) / turn;
-            if (along_way > 0.0 && along_way < 1.0 && along_edge >= 0.0 && along_edge <= 1.0) {
-                shares.push_back(along_way);
+            if (const auto share = crossing(a, b - a, loop[n], next_corner(loop, n))) {
+                shares.push_back(*share);
             }
         }
     }
-    std::ranges::sort(shares);
     return shares;
 }
 
@@ -92,16 +74,11 @@ bool Trim::contains(const Vec2& uv) const {
     if (everything()) {
         return true;
     }
-    const Vec2 at = uv.cwiseMax(beside_border).cwiseMin(1.0 - beside_border);
+    const Vec2 at = off_the_border(uv);
     bool odd = false;
     for (const Loop& loop : loops) {
         for (std::size_t n = 0; n < loop.size(); ++n) {
-            const Vec2& a = loop[n];
-            const Vec2& b = next_corner(loop, n);
-            if ((a.y() > at.y()) != (b.y() > at.y()) &&
-                at.x() < a.x() + (at.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-                odd = !odd;
-            }
+            odd = odd != crosses_ray(loop[n], next_corner(loop, n), at);
         }
     }
     return odd;
@@ -111,21 +88,8 @@ std::vector<WayPart> parts_inside(const Trim& trim, const Vec2& a, const Vec2& b
     if (trim.everything()) {
         return {{0.0, 1.0}};
     }
-    std::vector<WayPart> parts;
-    const std::vector<double> shares = crossings(trim, a, b);
-    for (std::size_t n = 1; n < shares.size(); ++n) {
-        const double from = shares[n - 1];
-        const double to = shares[n];
-        if (to - from < shortest_part || !trim.contains(a + 0.5 * (from + to) * (b - a))) {
-            continue;
-        }
-        if (!parts.empty() && from - parts.back().to < shortest_part) {
-            parts.back().to = to;
-        } else {
-            parts.push_back({from, to});
-        }
-    }
-    return parts;
+    return parts_between(crossings(trim, a, b),
+                         [&](double share) { return trim.contains(a + share * (b - a)); });
 }
 
 std::optional<Trim> trim_in_square(const std::vector<Loop>& loops, const Vec2& corner) {

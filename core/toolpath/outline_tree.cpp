@@ -1,26 +1,21 @@
 #include "core/toolpath/outline_tree.h"
 
-#include "core/base/numbers.h"
+#include "core/geometry/outline_edges.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace millwright::toolpath {
 
 namespace {
 
+using geometry::cross;
 using geometry::WayPart;
 
 constexpr std::size_t few_edges = 4; // looked at one by one
-// Those of core/geometry/trim.cpp, whose answers these are.
-constexpr double beside_border = 1e-7;
-constexpr double shortest_part = 1e-6;
 /// Of the patch's side: what is nearer to a box is not decided by the box, but as the single edges have it.
 constexpr double rounding = 1e-9;
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Whether the way from `a` to `b` may come into the box.
 bool may_meet(const Vec2& low, const Vec2& high, const Vec2& a, const Vec2& b) {
@@ -61,7 +56,7 @@ void OutlineTree::add(std::size_t first, std::size_t last) {
 }
 
 bool OutlineTree::contains(const Vec2& uv) const {
-    const Vec2 at = uv.cwiseMax(beside_border).cwiseMin(1.0 - beside_border);
+    const Vec2 at = geometry::off_the_border(uv);
     bool odd = loops_.empty();
     for (const std::size_t loop : loops_) {
         odd = odd != odd_on_right(loop, at);
@@ -85,12 +80,7 @@ bool OutlineTree::odd_on_right(std::size_t number, const Vec2& at) const {
     }
     bool odd = false;
     for (std::size_t n = stretch.first; n < stretch.last; ++n) {
-        const Vec2& a = corners_[n];
-        const Vec2& b = corners_[n + 1];
-        if (above(n) != above(n + 1) &&
-            at.x() < a.x() + (at.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-            odd = !odd;
-        }
+        odd = odd != geometry::crosses_ray(corners_[n], corners_[n + 1], at);
     }
     return odd;
 }
@@ -108,17 +98,9 @@ void OutlineTree::add_crossings(std::size_t number,
         add_crossings(stretch.second, a, b, shares);
         return;
     }
-    const Vec2 way = b - a;
     for (std::size_t n = stretch.first; n < stretch.last; ++n) {
-        const Vec2 edge = corners_[n + 1] - corners_[n];
-        const double turn = cross(way, edge);
-        if (exactly_equal(turn, 0.0)) {
-            continue; // they are parallel
-        }
-        const double along_way = cross(corners_[n] - a, edge) / turn;
-        const double along_edge = cross(corners_[n] - a, way) / turn;
-        if (along_way > 0.0 && along_way < 1.0 && along_edge >= 0.0 && along_edge <= 1.0) {
-            shares.push_back(along_way);
+        if (const auto share = geometry::crossing(a, b - a, corners_[n], corners_[n + 1])) {
+            shares.push_back(*share);
         }
     }
 }
@@ -127,25 +109,12 @@ std::vector<WayPart> OutlineTree::parts_inside(const Vec2& a, const Vec2& b) con
     if (loops_.empty()) {
         return {{0.0, 1.0}};
     }
-    std::vector<double> shares{0.0, 1.0};
+    std::vector<double> shares;
     for (const std::size_t loop : loops_) {
         add_crossings(loop, a, b, shares);
     }
-    std::ranges::sort(shares);
-    std::vector<WayPart> parts;
-    for (std::size_t n = 1; n < shares.size(); ++n) {
-        const double from = shares[n - 1];
-        const double to = shares[n];
-        if (to - from < shortest_part || !contains(a + 0.5 * (from + to) * (b - a))) {
-            continue;
-        }
-        if (!parts.empty() && from - parts.back().to < shortest_part) {
-            parts.back().to = to;
-        } else {
-            parts.push_back({from, to});
-        }
-    }
-    return parts;
+    return geometry::parts_between(std::move(shares),
+                                   [&](double share) { return contains(a + share * (b - a)); });
 }
 
 } // namespace millwright::toolpath

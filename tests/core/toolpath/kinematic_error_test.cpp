@@ -97,39 +97,24 @@ TEST(KinematicError, OfALeaningToolIsTheWorseOfBothWays) {
     EXPECT_NEAR(on.axis, back.axis, 1e-6);
 }
 
-TEST(KinematicError, OfALatticeOfACutterEqualsThatOfSingleMoves) {
-    const Tool tool{.cutter = test::body(test::bull_nose), .lean = {.lead = from_degrees(5.0)}};
-    const KinematicError error(test::patch("dome"), test::machine("ac-table"), false, tool);
-    std::vector<Vec2> nodes;
-    for (int k = 0; k <= 40; ++k) {
-        nodes.emplace_back(0.3, k / 40.0);
-    }
-    const auto lattice = error.lattice(nodes, {10, 16});
-    for (const auto& [k, l] : {std::pair{0, 4}, {3, 7}, {10, 18}, {36, 40}}) {
-        const auto pair = lattice->between(k, l);
-        const auto single =
-            error.move(nodes[static_cast<std::size_t>(k)], nodes[static_cast<std::size_t>(l)], {10, 16});
-        EXPECT_NEAR(pair.tip, single.tip, 1e-9);
-        EXPECT_NEAR(pair.off_surface, single.off_surface, 1e-9);
-        EXPECT_NEAR(pair.axis, single.axis, 1e-9);
-        EXPECT_NEAR(pair.length, single.length, 1e-9);
-    }
-}
-
 TEST(KinematicError, OfALatticeEqualsThatOfSingleMoves) {
-    const auto error = test::dome_error();
+    const Tool bull{.cutter = test::body(test::bull_nose), .lean = {.lead = from_degrees(5.0)}};
     std::vector<Vec2> nodes;
     for (int k = 0; k <= 40; ++k) {
         nodes.emplace_back(0.3, k / 40.0);
     }
-    const auto lattice = error.lattice(nodes, {10, 16});
-    for (const auto& [k, l] : {std::pair{0, 4}, {3, 7}, {10, 18}, {36, 40}, {20, 24}}) {
-        const auto pair = lattice->between(k, l);
-        const auto single =
-            error.move(nodes[static_cast<std::size_t>(k)], nodes[static_cast<std::size_t>(l)], {10, 16});
-        EXPECT_NEAR(pair.tip, single.tip, 1e-9);
-        EXPECT_NEAR(pair.axis, single.axis, 1e-9);
-        EXPECT_NEAR(pair.length, single.length, 1e-9);
+    for (const Tool& tool : {Tool{}, bull}) {
+        const KinematicError error(test::patch("dome"), test::machine("rotary-tilt-listing"), false, tool);
+        const auto lattice = error.lattice(nodes, {10, 16});
+        for (const auto& [k, l] : {std::pair{0, 4}, {3, 7}, {10, 18}, {36, 40}, {20, 24}}) {
+            const auto pair = lattice->between(k, l);
+            const auto single =
+                error.move(nodes[static_cast<std::size_t>(k)], nodes[static_cast<std::size_t>(l)], {10, 16});
+            EXPECT_NEAR(pair.tip, single.tip, 1e-9);
+            EXPECT_NEAR(pair.off_surface, single.off_surface, 1e-9);
+            EXPECT_NEAR(pair.axis, single.axis, 1e-9);
+            EXPECT_NEAR(pair.length, single.length, 1e-9);
+        }
     }
 }
 
