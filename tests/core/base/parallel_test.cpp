@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -50,6 +52,38 @@ TEST_P(ParallelFor, RethrowsTheExceptionOfTheLowestChunk) {
 TEST_P(ParallelFor, AnEmptyLoopCallsNothing) {
     parallel_for(0, 8, [](std::ptrdiff_t) { FAIL(); });
     EXPECT_THROW(parallel_for(10, 0, [](std::ptrdiff_t) {}), Defect);
+}
+
+TEST_P(ParallelFor, ALoopInsideALoopVisitsEveryIndexOnce) {
+    std::vector<int> visits(64 * 64, 0);
+    parallel_for(64, 1, [&](std::ptrdiff_t outer) {
+        parallel_for(
+            64, 4, [&](std::ptrdiff_t inner) { ++visits[static_cast<std::size_t>(64 * outer + inner)]; });
+    });
+    EXPECT_EQ(visits, std::vector<int>(64 * 64, 1));
+}
+
+// What a whole study has: hundreds of thousands of loops.
+TEST_P(ParallelFor, TakesNoMoreMemoryTheOftenerItIsCalled) {
+    const auto loops = [](int count) {
+        std::atomic<int> sum = 0;
+        for (int n = 0; n < count; ++n) {
+            parallel_for(8, 1, [&](std::ptrdiff_t) { ++sum; });
+        }
+        return sum.load();
+    };
+    const auto resident_kb = [] {
+        std::ifstream status("/proc/self/statm");
+        std::ptrdiff_t all = 0, resident = 0;
+        status >> all >> resident;
+        return 4 * resident;
+    };
+    EXPECT_EQ(loops(500), 4000);
+    const std::ptrdiff_t before = resident_kb();
+    ASSERT_GT(before, 0);
+    EXPECT_EQ(loops(4000), 32000);
+    constexpr std::ptrdiff_t noise_kb = 8000;
+    EXPECT_LT(resident_kb() - before, noise_kb);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, ::testing::Values(1, 2, 7));
