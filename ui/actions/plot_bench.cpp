@@ -98,6 +98,12 @@ void PlotBench::play_table() {
     table_->play(choice, *now->strokes, model);
 }
 
+std::optional<Vec3> PlotBench::table_tip() const {
+    const TableView now = table_->view();
+    return now.status.state == machine::PlayState::playing ? std::optional(now.status.position)
+                                                           : std::nullopt;
+}
+
 namespace {
 
 /// The name with the ending in the folder, with a number behind it where that is taken.

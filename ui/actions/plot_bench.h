@@ -56,6 +56,8 @@ public:
     [[nodiscard]] const TableChoice& table_choice() const { return table_choice_; }
     [[nodiscard]] TablePlayer& table() { return *table_; }
     [[nodiscard]] const TablePlayer& table() const { return *table_; }
+    /// Where the tool of the table is that is played to, mm; nothing while none is.
+    [[nodiscard]] std::optional<Vec3> table_tip() const;
     /// Of a path that is too long to get its program by itself.
     void make_program() { worker_.request_program(); }
     /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.

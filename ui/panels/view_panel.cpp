@@ -147,6 +147,7 @@ viewport::Scene scene_of(const Workbench& now) {
     const bool plots = now.session.workspace == Workspace::plot;
     if (plots && !now.plot.file().empty()) {
         scene.plot = now.plot.latest();
+        scene.table_tip = now.plot.table_tip();
     }
     if (now.in_file()) {
         scene.opened = now.opened;

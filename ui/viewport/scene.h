@@ -143,9 +143,10 @@ struct Scene {
     std::shared_ptr<const project::OpenedProgram> opened = nullptr;   ///< in place of everything above
     std::optional<ProgramMoment> opened_now = std::nullopt;
     std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
-    bool against_light = false;                                ///< the finished plot as light goes through
-    std::optional<ArmScene> arm = std::nullopt;                ///< in place of everything else
-    SurfaceTool surface_tool = {};                             ///< not of the picture itself
+    std::optional<Vec3> table_tip = std::nullopt; ///< mm, of a table that is played to: there the tool is
+    bool against_light = false;                   ///< the finished plot as light goes through
+    std::optional<ArmScene> arm = std::nullopt;   ///< in place of everything else
+    SurfaceTool surface_tool = {};                ///< not of the picture itself
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     geometry::NetSymmetry symmetry = {};  ///< of dragging them; not of the picture itself

@@ -23,9 +23,11 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().status.points > 3; }));
     EXPECT_TRUE(bench.person.sees("lower/read_out/X"));
     EXPECT_TRUE(bench.person.sees("lower/histogram"));
+    EXPECT_TRUE(bench.plot().table_tip());
     bench.person.keep("plot-table");
     bench.person.click("emergency/machine_emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    EXPECT_FALSE(bench.plot().table_tip());
     const auto stopped = bench.plot().table().view();
     EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);

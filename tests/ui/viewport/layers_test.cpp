@@ -390,6 +390,35 @@ TEST_F(LayersTest, TheToolStandsOnItsTip) {
     EXPECT_EQ(with.at(below.x, below.y), without.at(below.x, below.y));
 }
 
+TEST_F(LayersTest, TheToolOfATableStandsWhereTheTableIsAndNotWhereTheProgramIsPlayed) {
+    gcode::PathChunker chunker;
+    chunker.add({Vec3(0, 0, 0), 0, gcode::PathKind::start}, 0.0);
+    chunker.add({Vec3(100, 80, 0), 0, gcode::PathKind::feed}, 0.0);
+    const gcode::PreviewPath path{{chunker.take_rest()}};
+    auto plot = std::make_shared<project::PlotResult>();
+    plot->cuts.push_back({1, path});
+    auto program = std::make_shared<project::OpenedProgram>();
+    program->path = path;
+    Scene scene = only({}, {.surface = false, .tool = true, .floor = false, .origin = false});
+    scene.plot = plot;
+    scene.opened = program;
+    const render::View view = look_at(scene);
+    const Vec3 table(20.0, 60.0, 0.0), played(80.0, 20.0, 0.0);
+    const auto changes_above = [&](const Picture& a, const Picture& b, const Vec3& tip) {
+        const Spot at = spot(view, tip + Vec3(0.0, 0.0, 4.0));
+        return a.at(at.x, at.y) != b.at(at.x, at.y);
+    };
+    const Picture without = picture(scene, view);
+    scene.opened_now = ProgramMoment{.place = {}, .tip = played};
+    const Picture by_program = picture(scene, view);
+    scene.table_tip = table;
+    const Picture by_table = picture(scene, view);
+    EXPECT_TRUE(changes_above(without, by_program, played));
+    EXPECT_FALSE(changes_above(without, by_program, table));
+    EXPECT_TRUE(changes_above(without, by_table, table));
+    EXPECT_FALSE(changes_above(without, by_table, played));
+}
+
 TEST_F(LayersTest, TheMachineStandsWhereItsAxesAre) {
     Scene scene = test::scene_of(test::two_bell, ViewKind::machine);
     scene.now = test::half_way(scene);

@@ -1,10 +1,11 @@
 // A plot or picture that is to be cut: what each pen cuts in its colour, travel in the air thinly, and the
-// plate as it will look, lit or against the light.
+// plate as it will look, lit or against the light; and the tool of a table that its points are played to.
 
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
 #include "ui/viewport/internal/path_buffers.h"
+#include "ui/viewport/internal/tool_mark.h"
 #include "ui/viewport/pen_colors.h"
 
 #include <glm/geometric.hpp>
@@ -76,6 +77,7 @@ public:
             look_.reset();
             return;
         }
+        tool_.prepare();
         cuts_.resize(scene.plot->cuts.size());
         for (std::size_t n = 0; n < cuts_.size(); ++n) {
             unfinished_ = !cuts_[n].follow(scene.plot->cuts[n].path.chunks) || unfinished_;
@@ -113,6 +115,9 @@ public:
         if (scene.layers.toolpath && !(rows && scene.layers.surface && look_)) {
             draw_paths(scene, canvas);
         }
+        if (scene.layers.tool && scene.table_tip) {
+            tool_.draw(canvas, *scene.table_tip, Vec3::UnitZ());
+        }
     }
 
 private:
@@ -147,6 +152,7 @@ private:
     PathBuffers air_;
     std::shared_ptr<const HeightField> look_;
     render::MeshBuffer mesh_;
+    ToolMark tool_;
     bool unfinished_ = false;
 };
 

@@ -5,10 +5,7 @@
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
 #include "ui/viewport/internal/path_buffers.h"
-#include "ui/viewport/internal/solids.h"
-
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/geometric.hpp>
+#include "ui/viewport/internal/tool_mark.h"
 
 #include <algorithm>
 
@@ -16,7 +13,6 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr double tool_share = 0.025; // radius of the tool to that of the path
 constexpr float rapid_opacity = 0.55F;
 constexpr float current_width_px = 3.0F;
 
@@ -36,9 +32,7 @@ public:
             path_.clear();
             return;
         }
-        if (!tool_) {
-            tool_.emplace(tool_solid());
-        }
+        tool_.prepare();
         unfinished_ = !path_.follow(scene.opened->path.chunks);
         if (scene.opened_now != at_) {
             at_ = scene.opened_now;
@@ -69,8 +63,8 @@ public:
         if (scene.opened_now) {
             draw_thick(canvas, current_, canvas.colors.selected);
             const bool has_its_own = scene.layers.machine && scene.opened->machine;
-            if (scene.layers.tool && !has_its_own) {
-                draw_tool(*scene.opened_now, canvas);
+            if (scene.layers.tool && !has_its_own && !scene.table_tip) {
+                tool_.draw(canvas, scene.opened_now->tip, scene.opened_now->axis);
             }
         }
     }
@@ -107,19 +101,10 @@ private:
                     canvas.view);
     }
 
-    void draw_tool(const ProgramMoment& now, const Canvas& canvas) const {
-        Frame placed = Frame::Identity();
-        placed.linear() = frame_along(now.axis);
-        placed.translation() = now.tip;
-        const auto size = static_cast<float>(tool_share * radius(canvas.content));
-        const glm::mat4 model = canvas.s_T_w * glm::mat4(render::to_glm(placed));
-        tool_->draw(canvas, glm::scale(model, glm::vec3(size)), canvas.colors.tool);
-    }
-
     PathBuffers path_;
     std::optional<ProgramMoment> at_;
     render::LineBuffer current_; ///< the step at `at_`
-    std::optional<SolidBuffers> tool_;
+    ToolMark tool_;
     bool unfinished_ = false;
 };
 
