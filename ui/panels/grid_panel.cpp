@@ -6,6 +6,7 @@
 #include "core/grid/expression_weight.h"
 #include "core/project/cut_remarks.h"
 #include "core/project/grids.h"
+#include "core/project/left_out.h"
 #include "core/project/strategy_path.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/link_text.h"
@@ -124,6 +125,9 @@ widgets::Rank rank_of(const Workbench& now, GridMethod method) {
 void draw_note(Ui& ui, const Workbench& now) {
     for (const std::string& note : no_gain_notes(now)) {
         ui.note(note);
+    }
+    if (const std::string left_out = project::left_out_sentence(now.project); !left_out.empty()) {
+        ui.note(left_out);
     }
     if (!project::follows_nodes(now.project.toolpath.strategy)) {
         return;
