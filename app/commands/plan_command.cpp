@@ -8,6 +8,7 @@
 #include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "core/project/grids.h"
+#include "core/project/left_out.h"
 #include "core/project/report.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
@@ -132,12 +133,17 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
             print_figures(id, *evaluation);
         } else if (plan.failure(method)) {
             fmt::print("{:<10} failed\n", id);
+        } else if (project::is_left_out(project, method)) {
+            fmt::print("{:<10} left out\n", id);
         }
     }
     if (project::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
     print_notes(plan);
+    if (const std::string left_out = project::left_out_sentence(project); !left_out.empty()) {
+        fmt::print("{}\n", left_out);
+    }
     print_links(plan);
     const project::Evaluation& chosen = *plan.program_path(project);
     if (project.toolpath.strategy != project::StrategyInput::zigzag) {

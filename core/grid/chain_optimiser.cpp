@@ -6,6 +6,7 @@
 #include "core/grid/grid_promise.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,30 @@ double length_of(const std::vector<MoveError>& moves) {
 /// Smaller is better: neither the worst move nor the mean is bought at any price of the other.
 double score(const ErrorSummary& s) {
     return s.max * s.mean;
+}
+
+/// After which of `links` the best grid was the one that reached `best`; the later ones brought nothing more.
+std::string found_by(const std::vector<ImproverLink>& links, const ErrorSummary& best) {
+    const auto link = std::ranges::find_if(
+        links, [&](const ImproverLink& l) { return exactly_equal(score(l.of_best), score(best)); });
+    return link == links.end() ? std::string()
+                               : fmt::format("The best grid of the link \"{}\" is kept", link->name);
+}
+
+/// Why the start stands after `links`, each reason once; whether links were taken until their paths as they
+/// are run were seen.
+std::string none_taken(const std::vector<ImproverLink>& links, bool worse_as_run) {
+    std::vector<std::string> reasons;
+    for (auto link = links.begin() + 1; link != links.end(); ++link) { // behind the start's own
+        const std::string why = link->refused.empty() ? "no better than the start" : link->refused;
+        if (!(worse_as_run && link->refused.empty()) && std::ranges::count(reasons, why) == 0) {
+            reasons.push_back(why);
+        }
+    }
+    if (worse_as_run) {
+        reasons.emplace_back("a path that is worse than the start's as it is run");
+    }
+    return fmt::format("No link was taken, the start is kept: {}", fmt::join(reasons, "; "));
 }
 
 } // namespace
@@ -274,13 +299,16 @@ void ChainOptimiser::begin_descent(const Progress& progress) {
 void ChainOptimiser::finish(const Progress& progress) {
     const Grid start = bests_.front().grid;
     const GridPromise promise(model_, start, direction_, progress);
+    const bool better_by_move = bests_.size() > 1;
     while (bests_.size() > 1 && !promise.kept_by(bests_.back().grid, progress)) {
         bests_.pop_back();
     }
     descent_.reset();
     state_.best = bests_.back().grid;
     state_.of_best = bests_.back().reached;
-    state_.status = bests_.size() > 1 ? ImproverStatus::converged : ImproverStatus::no_gain;
+    const bool gained = bests_.size() > 1;
+    state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
+    state_.note = gained ? found_by(state_.links, state_.of_best) : none_taken(state_.links, better_by_move);
     state_.current = state_.best.array();
     state_.now = state_.of_best;
     state_.done = 1.0;

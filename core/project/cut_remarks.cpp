@@ -121,7 +121,11 @@ std::string sequencing_remark(const Project& project, const Plan& plan) {
     if (!sequenced || has_own_path(project) || !path || !plan.uniform || keeps_grid(*path, *plan.uniform)) {
         return {};
     }
-    const bool turns = !plan.workpiece->machine.rotary_axes().empty();
+    const kinematics::MachineModel& machine = plan.workpiece->machine;
+    if (!is_worse(*path, *plan.uniform, machine)) { // a larger mean by length may be the grid's own
+        return {};
+    }
+    const bool turns = !machine.rotary_axes().empty();
     const std::string figures = larger_figures(path->closest, plan.uniform->closest, turns);
     return figures.empty()
                ? std::string()

@@ -10,6 +10,7 @@
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
+#include "core/project/left_out.h"
 #include "core/project/planned_time.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
@@ -244,7 +245,9 @@ std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
         methods.insert(compared_methods.begin(), compared_methods.end());
     }
     for (const GridMethod method : methods) {
-        if (const std::string sentence = memory_sentence(method, project.grid); !sentence.empty()) {
+        const std::string sentence =
+            is_left_out(project, method) ? std::string() : memory_sentence(method, project.grid);
+        if (!sentence.empty()) {
             sentences.push_back(with_full_stop(sentence));
         }
     }
@@ -276,7 +279,8 @@ Plan make_plan(const Project& project, const Folders& folders, const Progress& p
     const auto improve = [&](GridMethod method, const Progress& part) {
         if (method == program_grid(project)) {
             make(method, part);
-        } else if (scope == Scope::everything && std::ranges::count(compared_methods, method) > 0) {
+        } else if (scope == Scope::everything && std::ranges::count(compared_methods, method) > 0 &&
+                   !is_left_out(project, method)) {
             try {
                 make(method, part);
             } catch (const Error& fault) { // its own: the program needs it not

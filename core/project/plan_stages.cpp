@@ -4,6 +4,7 @@
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
 #include "core/project/internal/failure.h"
+#include "core/project/left_out.h"
 #include "core/project/strategy_path.h"
 
 #include <algorithm>
@@ -321,9 +322,12 @@ void PlanStages::compare(const Progress& progress) {
             if (method == GridMethod::elliptic) {
                 add_weight(part.part(0.0, 0.0));
             }
-            improve(method, Effort::full, part);
+            if (!is_left_out(project(), method)) {
+                improve(method, Effort::full, part);
+            }
         });
-        if (now_.plan.failure(method) && !held(method).exact) {
+        const bool none = now_.plan.failure(method) || is_left_out(project(), method);
+        if (none && !held(method).exact) {
             hold(method, {}); // one that was carried over must not be taken for this project's
         }
     }

@@ -7,6 +7,7 @@
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/tool_json.h"
+#include "core/project/left_out.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "core/project/tool_settings.h"
@@ -135,6 +136,9 @@ Json all_errors(const Project& project, const Plan& plan) {
             json[std::string(names[static_cast<std::size_t>(method)])] = errors(plan, method);
         } else if (const auto& failure = plan.failure(method)) {
             json[std::string(names[static_cast<std::size_t>(method)])] = {{"failed", to_text(*failure)}};
+        } else if (is_left_out(project, method)) {
+            json[std::string(names[static_cast<std::size_t>(method)])] = {
+                {"left_out", left_out_sentence(project)}};
         }
     }
     if (has_own_path(project)) {
@@ -239,8 +243,9 @@ Json program(const Plan& plan) {
 } // namespace
 
 std::string report_text(const Project& project, const Plan& plan) {
-    const bool compared = std::ranges::all_of(
-        compared_methods, [&](GridMethod method) { return plan.evaluation(method) || plan.failure(method); });
+    const bool compared = std::ranges::all_of(compared_methods, [&](GridMethod method) {
+        return plan.evaluation(method) || plan.failure(method) || is_left_out(project, method);
+    });
     expects(plan.uniform && compared && plan.program && plan.listing && plan.trajectory,
             "a plan is complete before it is reported");
     const Evaluation& chosen = *plan.program_path(project);

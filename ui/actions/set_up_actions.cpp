@@ -1,5 +1,8 @@
+#include "core/base/numbers.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
+
+#include <optional>
 
 namespace millwright::actions {
 
@@ -16,14 +19,26 @@ Permission can_search(const Workbench& now) {
                : Permission::refused("There is no part on a machine yet. " + now.failure());
 }
 
+/// The part is where the map is marked, and a turn of it is none.
+bool stands_there(const Workbench& now) {
+    const toolpath::SetUpPlace place = now.set_up_place();
+    std::optional<Vec3> stands = now.project.machine.workpiece_offset;
+    if (!stands && now.plan && now.plan->plan.workpiece) {
+        stands = now.plan->plan.workpiece->machine.description().workpiece_offset;
+    }
+    const double turn = place[static_cast<Eigen::Index>(toolpath::SetUpParameter::turn)];
+    return stands == toolpath::offset_of(place) && exactly_equal(turn, 0.0);
+}
+
 Permission can_accept(const Workbench& now) {
     if (!now.set_up || !now.set_up->study) {
         return Permission::refused("No place has been searched for.");
     }
-    return project::same_but_for_place(now.set_up->project, now.project)
-               ? Permission{}
-               : Permission::refused(
-                     "Part, machine or tracks are others than those that the place was searched for.");
+    if (!project::same_but_for_place(now.set_up->project, now.project)) {
+        return Permission::refused(
+            "Part, machine or tracks are others than those that the place was searched for.");
+    }
+    return stands_there(now) ? Permission::refused("The part stands there already.") : Permission{};
 }
 
 } // namespace

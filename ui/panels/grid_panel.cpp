@@ -6,9 +6,11 @@
 #include "core/grid/expression_weight.h"
 #include "core/project/cut_remarks.h"
 #include "core/project/grids.h"
+#include "core/project/left_out.h"
 #include "core/project/strategy_path.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/link_text.h"
+#include "ui/panels/no_gain_notes.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/strategy_fields.h"
 #include "ui/panels/surface_tool.h"
@@ -121,6 +123,12 @@ widgets::Rank rank_of(const Workbench& now, GridMethod method) {
 
 /// Below the buttons, none of which moves when a plan is finished while a hand goes to it.
 void draw_note(Ui& ui, const Workbench& now) {
+    for (const std::string& note : no_gain_notes(now)) {
+        ui.note(note);
+    }
+    if (const std::string left_out = project::left_out_sentence(now.project); !left_out.empty()) {
+        ui.note(left_out);
+    }
     if (!project::follows_nodes(now.project.toolpath.strategy)) {
         return;
     }

@@ -1,6 +1,7 @@
 #include "ui/panels/outline_rows.h"
 
 #include "core/base/text.h"
+#include "core/project/left_out.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
@@ -34,7 +35,7 @@ std::string error_of(const Workbench& now, GridMethod method) {
         return "as uniform";
     }
     if (!evaluation) {
-        return "...";
+        return project::is_left_out(now.project, method) ? "left out" : "...";
     }
     return mean_text(*evaluation);
 }

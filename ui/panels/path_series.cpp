@@ -5,6 +5,7 @@
 #include "core/project/settings.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/beside.h"
+#include "ui/panels/view_panel.h"
 
 #include <algorithm>
 #include <limits>
@@ -52,7 +53,7 @@ std::optional<PlottedPath> compared_path(const actions::Workbench& now) {
 
 std::vector<PlottedPath> plotted_paths(const actions::Workbench& now) {
     const auto shown = now.shown();
-    if (!shown || now.in_file() || now.session.workspace == actions::Workspace::plot) {
+    if (!shown || now.in_file() || shows_import(now) || now.session.workspace == actions::Workspace::plot) {
         return {};
     }
     std::vector<PlottedPath> paths;

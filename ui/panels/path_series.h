@@ -24,8 +24,8 @@ struct PlottedPath {
     std::string name;
 };
 /// The path on screen comes last; before it what stands beside it, else that over the uniform grid, where it
-/// is another one. Empty where no path of the project is on screen: none is there yet, or a G-code file or a
-/// plot is.
+/// is another one. Empty where no path of the project is on screen: none is there yet, or a G-code file, a
+/// plot or a surface that is being imported is.
 [[nodiscard]] std::vector<PlottedPath> plotted_paths(const actions::Workbench& now);
 
 /// Length of the path of `evaluation` up to `fraction` of `move`, mm; 0 before the path.

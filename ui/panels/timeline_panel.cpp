@@ -1,6 +1,7 @@
 #include "ui/panels/timeline_panel.h"
 
 #include "ui/panels/internal/lines.h"
+#include "ui/panels/view_panel.h"
 #include "ui/widgets/timeline.h"
 
 #include <algorithm>
@@ -126,8 +127,9 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     widgets::TimelineView view;
     const std::array<widgets::TimelineSeries, 2> series{
         {{"error", "mm", series_.error, 0}, {"feed", "mm/min", series_.feed_mm_per_min, 0}}};
-    if (!trajectory_) {
-        view.permission = widgets::Permission::refused("There is no program yet.");
+    if (!trajectory_ || shows_import(now)) {
+        view.permission = widgets::Permission::refused(
+            trajectory_ ? "What is being imported has no program yet." : "There is no program yet.");
         (void)widgets::timeline(ui, "timeline", view);
         return;
     }

@@ -106,11 +106,6 @@ bool shows_the_project(const Workbench& now) {
            *now.plan->plan.surface == project::surface_of(now.project.surface);
 }
 
-/// Once it is read.
-bool shows_import(const Workbench& now) {
-    return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
-}
-
 /// While the file is on the bench; afterwards its faces only stand there.
 void choose_face(int number, const Workbench& now, ActionQueue& ask) {
     if (shows_import(now)) {
@@ -130,6 +125,10 @@ void show_import(const Workbench& now, viewport::Scene& scene) {
 }
 
 } // namespace
+
+bool shows_import(const Workbench& now) {
+    return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
+}
 
 viewport::Scene scene_of(const Workbench& now) {
     viewport::Scene scene;

@@ -39,6 +39,9 @@ private:
 /// What the view shows of the workbench.
 [[nodiscard]] viewport::Scene scene_of(const Workbench& now);
 
+/// A surface that is being imported stands there in place of the project's, once it is read.
+[[nodiscard]] bool shows_import(const Workbench& now);
+
 /// Turns what was done in the view into requests.
 void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& ask);
 

@@ -94,13 +94,17 @@ void picture(Ui& ui, std::string_view id, Point size, std::uintptr_t texture) {
     }
 }
 
-void label_at(Ui& ui, Point at, std::string_view text, Colour colour) {
+Rect label_box(const Ui& ui, Point at, std::string_view text) {
     const ImFont* font = ui.look().fonts.small;
     const float width = text_width(font, text) + ui.px(10.0F);
     const float height = font->FontSize + ui.px(4.0F);
-    const Rect box{std::round(at.x - 0.5F * width), std::round(at.y - 0.5F * height), width, height};
+    return {std::round(at.x - 0.5F * width), std::round(at.y - 0.5F * height), width, height};
+}
+
+void label_at(Ui& ui, Point at, std::string_view text, Colour colour) {
+    const Rect box = label_box(ui, at, text);
     fill(box, faded(ui.colours().pane, 0.8), ui.px(3.0F));
-    draw_text(ui, font, box, colour, text, Align::centre);
+    draw_text(ui, ui.look().fonts.small, box, colour, text, Align::centre);
 }
 
 } // namespace millwright::widgets

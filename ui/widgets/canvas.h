@@ -39,6 +39,9 @@ Canvas canvas(Ui& ui, std::string_view id, const Rect& place, std::uintptr_t tex
 /// A picture that is only looked at, such as a preview; first row on top.
 void picture(Ui& ui, std::string_view id, Point size, std::uintptr_t texture);
 
+/// The ground of words whose middle is `at`, in the window.
+[[nodiscard]] Rect label_box(const Ui& ui, Point at, std::string_view text);
+
 /// Words over a canvas, on a ground that keeps them readable; `at` is their middle, in the window.
 void label_at(Ui& ui, Point at, std::string_view text, Colour colour);
 

@@ -83,6 +83,27 @@ TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
     EXPECT_LT(state.of_best.mean, 0.9 * state.start.mean);
 }
 
+TEST(ChainOptimiser, EndsWithTheNameOfTheLinkWhoseGridIsKept) {
+    const SpikeErrorModel model({.width = 0.02});
+    ChainSettings settings = small();
+    settings.later_descents = 0; // so that the descents end before they begin
+    ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, settings);
+    const ImproverState state = run(chain, {});
+    ASSERT_EQ(state.links.back().name, "all nodes at once, exponent 2");
+    ASSERT_LT(state.links.back().of_best.max, state.links[2].of_best.max);
+    EXPECT_EQ(state.note, "The best grid of the link \"all nodes at once, exponent 2\" is kept");
+}
+
+TEST(ChainOptimiser, SaysThatNoLinkWasTakenAndWhy) {
+    const SpikeErrorModel model({.width = 0.02});
+    ChainSettings settings = small();
+    settings.least_jacobian = 1.0; // which only the uniform grid has
+    ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, settings);
+    const ImproverState state = run(chain, {});
+    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    EXPECT_EQ(state.note, "No link was taken, the start is kept: a cell that nearly folds");
+}
+
 TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const test::RandomErrorModel model(seed, true);

@@ -1,6 +1,7 @@
 #include "core/project/cut_study.h"
 
 #include "core/base/error.h"
+#include "core/base/files.h"
 #include "core/project/assets.h"
 #include "core/project/cut_remarks.h"
 #include "core/project/tool_settings.h"
@@ -12,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
+#include <string>
 
 namespace millwright::project {
 namespace {
@@ -136,6 +139,34 @@ TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
     const auto report = nlohmann::json::parse(cut_report_text(project, bent));
     EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
     EXPECT_EQ(report.at("scallop_mm").at("why_higher"), why_higher(project, bent));
+}
+
+std::set<std::string> members_of(const nlohmann::json& json) {
+    std::set<std::string> found;
+    for (const auto& [name, value] : json.items()) {
+        if (json.is_object()) {
+            found.insert(name);
+        }
+        if (value.is_structured()) {
+            found.merge(members_of(value));
+        }
+    }
+    return found;
+}
+
+TEST(CutStudy, EveryMemberOfItsFileIsInTheReference) {
+    Project project = plane(5, 11);
+    project.surface = project_from_preset("two-bell").surface; // where the ball gouges
+    ToolInput tool = ball;
+    tool.diameter_mm = 60.0;
+    const Plan plan = studied(project, tool);
+    project.tool = tool;
+    const auto report = nlohmann::json::parse(cut_report_text(project, plan));
+    ASSERT_FALSE(report.at("bites").empty() || report.at("local_gouges").empty());
+    const std::string page = read_file("docs/reference/cutter.md");
+    for (const std::string& member : members_of(report)) {
+        EXPECT_THAT(page, testing::HasSubstr("`" + member + "`"));
+    }
 }
 
 TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/project/left_out.h"
 #include "core/project/project_file.h"
 #include "core/project/report.h"
 
@@ -151,12 +152,34 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
     EXPECT_GT(*free, 1'000'000U);
 }
 
+TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
+    Project project = sample("dome", 500);
+    project.grid.method = GridMethod::uniform;
+    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
+    EXPECT_EQ(left_out_sentence(project), "");
+    project.grid.nu = 501;
+    const std::string why = left_out_sentence(project);
+    EXPECT_EQ(
+        why,
+        "Not made to compare with, since 501 x 500 nodes are more than 250,000: Elliptic, Track optimiser.");
+    EXPECT_TRUE(memory_sentences(project, Scope::everything).empty());
+    const Plan plan = make_plan(project, folders, Progress());
+    EXPECT_FALSE(plan.elliptic || plan.optimised);
+    EXPECT_TRUE(plan.trajectory);
+    const auto report = nlohmann::json::parse(report_text(project, plan));
+    for (const char* grid : {"adapted", "optimised"}) {
+        EXPECT_EQ(report.at("error").at(grid).at("left_out"), why);
+    }
+    project.grid.method = GridMethod::elliptic;
+    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
+}
+
 TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
-    Project project = sample("dome", 1000);
+    Project project = sample("dome", 500);
     project.grid.method = GridMethod::harmonic;
     EXPECT_THAT(
         memory_sentences(project, Scope::program),
-        testing::ElementsAre(testing::MatchesRegex("The harmonic map of 1000 x 1000 nodes takes at most "
+        testing::ElementsAre(testing::MatchesRegex("The harmonic map of 500 x 500 nodes takes at most "
                                                    "[0-9]+ MB\\.")));
     EXPECT_EQ(memory_sentences(project, Scope::everything).size(), 2U);
     project.grid.method = GridMethod::tracks;

@@ -201,6 +201,23 @@ TEST(StrategyPath, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
     EXPECT_THAT(path_remarks(project, plan), testing::ElementsAre(HasSubstr("use the uniform grid.")));
 }
 
+/// Its goal may change no branch at all; a mean by length that is larger is then the grid's own.
+TEST(StrategyPath, ASequencingThatMakesNoFigureOfThePromiseWorseIsNotBlamed) {
+    Project project = project_from_preset("two-bell");
+    project.grid.nu = project.grid.nv = 8;
+    project.grid.method = GridMethod::tracks;
+    project.sequencing.goal = toolpath::SequencingGoal::travel;
+    Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    ASSERT_NEAR(plan.unsequenced->axes.rotary_travel, plan.optimised->axes.rotary_travel, 1e-9);
+    Evaluation longer = *plan.optimised;
+    longer.closest.lmean = 1.1 * plan.uniform->closest.lmean;
+    plan.optimised = std::make_shared<const Evaluation>(longer);
+    EXPECT_EQ(sequencing_remark(project, plan), "");
+    longer.closest.mean = 1.1 * plan.uniform->closest.mean;
+    plan.optimised = std::make_shared<const Evaluation>(longer);
+    EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("mean by length"));
+}
+
 TEST(StrategyPath, CancelStopsItAtOnce) {
     Project project = sample(StrategyInput::fewest_points, 60);
     project.toolpath.tolerance_mm = 0.002;

@@ -90,6 +90,19 @@ TEST_F(Import, AMeshIsFittedLookedAtTakenAndUndone) {
     EXPECT_FALSE(person_.sees("view/deviation_legend"));
 }
 
+TEST_F(Import, OfTheProjectsPathNothingIsPlottedBesideWhatIsLookedAt) {
+    EXPECT_TRUE(person_.sees("lower/error"));
+    drop(written("sine.stl", surface_in("assets/projects/sine.json")));
+    EXPECT_FALSE(person_.sees("lower/error"));
+    EXPECT_EQ(person_.refusal("timeline/timeline/play"), "What is being imported has no program yet.");
+    person_.keep("import-no-path");
+    person_.press_key(render::Key::f4); // where the project is on screen
+    EXPECT_TRUE(person_.sees("lower/error"));
+    person_.press_key(render::Key::f2);
+    person_.click("inspector/import/import_give_up");
+    EXPECT_TRUE(person_.sees("lower/error"));
+}
+
 TEST_F(Import, TheDialogListsTheFilesThatCanBeRead) {
     (void)written("dome.ply", surface_in(dome));
     (void)written("notes.txt", std::string("nothing"));

@@ -55,6 +55,21 @@ TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
     EXPECT_FALSE(row(now, "uniform").so_far);
 }
 
+TEST_F(Outline, GridsOfVeryManyNodesAreLeftOutUnlessTheProgramUsesThem) {
+    change([](project::Project& p) {
+        p.grid.nu = 501;
+        p.grid.nv = 500;
+        p.grid.method = GridMethod::uniform;
+    });
+    const actions::Workbench now = person_.workshop().look();
+    EXPECT_TRUE(now.program());
+    EXPECT_EQ(row(now, "elliptic").detail, "left out");
+    EXPECT_EQ(row(now, "tracks").detail, "left out");
+    EXPECT_NE(row(now, "uniform").detail, "left out");
+    EXPECT_FALSE(row(now, "uniform").so_far);
+    person_.keep("outline-left-out");
+}
+
 TEST_F(Outline, WhatStandsInForANewGridIsMarkedWhileThatIsMadeAndWhereItWasCancelled) {
     person_.workshop().edit("Bend the part",
                             [](project::Project& p) {

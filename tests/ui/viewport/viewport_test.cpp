@@ -39,6 +39,31 @@ TEST_F(ViewportTest, FitsItsContentAtFirst) {
     }
 }
 
+// The words of a gouge covered those of the singular point where the tool gouges.
+TEST_F(ViewportTest, LabelsOfOnePlaceDoNotCoverEachOther) {
+    show(ViewKind::design, test::two_bell);
+    ASSERT_FALSE(scene.singular_points.empty());
+    scene.layers = {.singular_points = true, .gouges = true, .origin = false};
+    scene.singular_points.resize(1);
+    const Vec3 place = scene.singular_points.front().position;
+    project::CutStudy study;
+    for (const bool by_holder : {false, true}) {
+        study.bites.push_back({7, 9, by_holder, {.depth = 0.25, .uv = {0.5, 0.5}, .position = place}});
+    }
+    scene.cut = std::make_shared<const project::CutStudy>(study);
+    frame();
+    std::vector<widgets::Rect> words;
+    for (int n = 0; n < 3; ++n) {
+        const auto at = ui().place("view/label_" + std::to_string(n));
+        ASSERT_TRUE(at) << n;
+        for (const widgets::Rect& other : words) {
+            EXPECT_TRUE(at->y >= other.bottom() || at->bottom() <= other.y) << n;
+        }
+        words.push_back(*at);
+    }
+    test::keep(picture(), "labels-of-one-place");
+}
+
 gcode::PreviewPath line(const Vec3& from, const Vec3& to) {
     gcode::PathChunker chunker;
     chunker.add({from, 0, gcode::PathKind::start}, 0.0);

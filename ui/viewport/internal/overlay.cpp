@@ -27,6 +27,7 @@ using widgets::Rect;
 constexpr float margin = 14.0F;
 constexpr float label_ground = 6.0F; // beyond a label's text
 constexpr float label_above = 23.0F;
+constexpr float label_space = 2.0F; // between labels that stand above each other
 constexpr float legend_width = 92.0F;
 constexpr float legend_height = 250.0F;
 constexpr float least_legend_height = 110.0F;
@@ -37,6 +38,7 @@ constexpr float lying_height = 34.0F;
 constexpr float lying_width = 250.0F;
 constexpr float least_lying_width = 120.0F;
 constexpr float beside_scale_bar = 168.0F;
+constexpr int label_rows = 5;         // above a place and below it
 constexpr double behind_share = 0.02; // of the content's radius: how far behind the surface counts as hidden
 constexpr double bar_px = 150.0;      // the scale bar is at most this long
 
@@ -77,6 +79,32 @@ Point inside(const widgets::Ui& ui, const Rect& rect, Point at, const std::strin
     const float half = 0.5F * text_width(ui, text) + ui.px(label_ground);
     at.x = std::max(std::min(at.x, rect.right() - half), rect.x + half);
     return at;
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+    return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+/// The middle of words of `place`, above it or below it, as near as `taken` and the picture leave room.
+std::optional<Point> free_place(const widgets::Ui& ui,
+                                const Rect& picture,
+                                Point place,
+                                const std::string& text,
+                                std::span<const Rect> taken) {
+    const float row = widgets::label_box(ui, place, text).h + ui.px(label_space);
+    for (int n = 0; n < label_rows; ++n) {
+        const float away = ui.px(label_above) + static_cast<float>(n) * row;
+        for (const float y : {place.y - away, place.y + away}) {
+            const Point at = inside(ui, picture, {place.x, y}, text);
+            const auto covers = [box = widgets::label_box(ui, at, text)](const Rect& other) {
+                return overlap(box, other);
+            };
+            if (picture.contains(at) && std::ranges::none_of(taken, covers)) {
+                return at;
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 /// "20 mm", "0.5 mm", "2 m".
@@ -209,22 +237,22 @@ visible_labels(const SceneView& view, const Scene& scene, const SurfacePicker& p
     return labels;
 }
 
-void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels) {
+std::vector<Rect> draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels) {
+    std::vector<Rect> taken;
     for (const Label& label : labels) {
         const auto seen = render::project(pane.view, label.position);
         if (!seen) {
             continue;
         }
-        Point at = in_window(pane, seen->pixel);
+        const Point place = in_window(pane, seen->pixel);
         if (label.mark) {
-            draw_centred(ui, at, label.text, to_colour(label.color));
-            continue;
-        }
-        at.y -= ui.px(label_above);
-        if (pane.rect.contains(at)) {
-            widgets::label_at(ui, inside(ui, pane.rect, at, label.text), label.text, to_colour(label.color));
+            draw_centred(ui, place, label.text, to_colour(label.color));
+        } else if (const auto at = free_place(ui, pane.rect, place, label.text, taken)) {
+            widgets::label_at(ui, *at, label.text, to_colour(label.color));
+            taken.push_back(widgets::label_box(ui, *at, label.text));
         }
     }
+    return taken;
 }
 
 void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) {

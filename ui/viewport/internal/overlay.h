@@ -28,7 +28,9 @@ struct Pane {
 [[nodiscard]] std::vector<Label>
 visible_labels(const SceneView& view, const Scene& scene, const SurfacePicker& picker, const Pane& pane);
 
-void draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels);
+/// Words stand above their places, or below them or further away where they would cover others; those that
+/// find no room are left out. Returns the grounds of the words.
+std::vector<widgets::Rect> draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels);
 
 /// A round length at `point` (scene), at the lower left.
 void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point);

@@ -202,7 +202,10 @@ void ViewPane::paint(const Frame3D& frame, const render::View& view, render::Edg
 
 void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     const std::vector<Label> labels = visible_labels(frame.view, frame.scene, frame.picker, pane);
-    draw_labels(frame.ui, pane, labels);
+    int drawn = 0;
+    for (const widgets::Rect& words : draw_labels(frame.ui, pane, labels)) {
+        frame.ui.record("label_" + std::to_string(drawn++), words);
+    }
     draw_surface_tool(frame.ui, pane, frame.scene, frame.picker, hand_.surface());
     draw_hint(frame.ui, pane, frame.scene, hand_);
     if (hand_.box()) {
