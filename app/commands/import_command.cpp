@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace millwright::app {
 
@@ -101,7 +102,16 @@ ordered_json model_json(const exchange::CadModel& model) {
     for (const exchange::CadFace& face : model.faces) {
         faces.push_back(face_json(face));
     }
-    return {{"unit", model.unit}, {"faces", std::move(faces)}, {"left_out", model.left_out}};
+    return {{"unit", model.unit},
+            {"faces", std::move(faces)},
+            {"left_out", model.left_out},
+            {"notes", model.notes}};
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "note: {}\n", note);
+    }
 }
 
 void print_model(const ordered_json& model) {
@@ -128,34 +138,47 @@ void print_model(const ordered_json& model) {
     fmt::print("unit of the file: {}\n", model["unit"].get<std::string>());
 }
 
+ordered_json mesh_json(const exchange::MeshFile& read) {
+    Box3 box;
+    for (const Vec3& point : read.mesh.points) {
+        box.extend(point);
+    }
+    const Vec3 size = box.sizes();
+    return {{"points", read.mesh.points.size()},
+            {"triangles", read.mesh.triangles.size()},
+            {"without_area", read.without_area},
+            {"size_mm", {size.x(), size.y(), size.z()}},
+            {"notes", read.notes}};
+}
+
+void print_mesh(const ordered_json& mesh) {
+    const auto size = [&](int axis) { return fixed(mesh["size_mm"][axis].get<double>(), 3); };
+    fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
+               mesh["points"].get<std::size_t>(),
+               mesh["triangles"].get<std::size_t>(),
+               mesh["without_area"].get<int>(),
+               size(0),
+               size(1),
+               size(2));
+}
+
 int tell_of(const Options& options) {
     WatchedWork work;
     ordered_json told;
     if (exchange::is_mesh_file(options.file)) {
         const exchange::MeshFile read =
             exchange::read_mesh(options.file, options.mm_per_unit.value_or(1.0), work.progress());
-        Box3 box;
-        for (const Vec3& point : read.mesh.points) {
-            box.extend(point);
-        }
-        const Vec3 size = box.sizes();
-        told = {{"points", read.mesh.points.size()},
-                {"triangles", read.mesh.triangles.size()},
-                {"without_area", read.without_area},
-                {"size_mm", {size.x(), size.y(), size.z()}}};
+        told = mesh_json(read);
         work.finish();
+        print_notes(read.notes);
         if (!options.json) {
-            fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
-                       read.mesh.points.size(),
-                       read.mesh.triangles.size(),
-                       read.without_area,
-                       fixed(size.x(), 3),
-                       fixed(size.y(), 3),
-                       fixed(size.z(), 3));
+            print_mesh(told);
         }
     } else {
-        told = model_json(exchange::read_cad(options.file, work.progress()));
+        const exchange::CadModel model = exchange::read_cad(options.file, work.progress());
+        told = model_json(model);
         work.finish();
+        print_notes(model.notes);
         if (!options.json) {
             print_model(told);
         }
@@ -194,9 +217,7 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
 }
 
 void print_imported(const project::ImportedSurface& imported, const Options& options) {
-    for (const std::string& note : imported.notes) {
-        fmt::print(stderr, "note: {}\n", note);
-    }
+    print_notes(imported.notes);
     if (options.json) {
         fmt::print("{}\n", imported_json(imported).dump(2));
         return;

@@ -59,6 +59,7 @@ TriangleMesh scaled(TriangleMesh mesh, double factor) {
 ImportedSurface
 import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
+    imported.notes = read.notes;
     if (read.without_area > 0) {
         imported.notes.push_back(
             fmt::format("{} triangles have no area and are left out", read.without_area));
@@ -204,8 +205,9 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         imported = import_mesh(*source.mesh, choice, progress);
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
-        imported.notes.insert(
-            imported.notes.end(), source.model->left_out.begin(), source.model->left_out.end());
+        const exchange::CadModel& model = *source.model;
+        imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
+        imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());
     }
     check_reach(imported, source.file);
     return imported;

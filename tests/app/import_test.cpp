@@ -1,9 +1,12 @@
 #include "tests/app/scratch_files.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -92,6 +95,22 @@ TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {
     const Ended mesh = run({"import", exported("dome.ply", "1"), "--unit", "inch", "--json"});
     ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
     EXPECT_NEAR(json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
+}
+
+// The last triangles of the file were left out without a word.
+TEST_F(ImportCommand, TrianglesBehindThoseThatAMeshCountsAreTold) {
+    std::string bytes = content_of(exported("dome.stl"));
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + 80, sizeof count);
+    count -= 3;
+    std::memcpy(bytes.data() + 80, &count, sizeof count);
+    const std::string mesh = written("counted.stl", bytes);
+    const auto sentence = fmt::format(
+        "150 bytes behind the {} triangles that the header counts are not read: room for 3 more", count);
+    EXPECT_THAT(run({"import", mesh}).err, HasSubstr("note: " + sentence));
+    const Ended ended = run({"import", mesh, "--out", path("counted.json"), "--json"});
+    EXPECT_THAT(ended.err, HasSubstr("note: " + sentence));
+    EXPECT_THAT(json::parse(ended.out).at("notes")[0], HasSubstr(sentence));
 }
 
 // A control point was told of, and no file.
