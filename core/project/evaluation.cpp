@@ -53,7 +53,7 @@ toolpath::Toolpath contacts_of(const Workpiece& workpiece,
                                const toolpath::StrategySettings& strategy,
                                const Progress& progress) {
     if (strategy.kind == toolpath::StrategyKind::zigzag && !workpiece.trim.everything()) {
-        const toolpath::OutlineTree outline(workpiece.trim);
+        const geometry::OutlineTree outline(workpiece.trim);
         return toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped, &outline);
     }
     const toolpath::Covering all{

@@ -120,7 +120,7 @@ TEST(TrimmedPath, NodesWithoutANormalAreNoHarmWhereNothingIsCut) {
     EXPECT_THROW((void)zigzag(patch, grid, TrackDirection::along_u, false), Error);
     const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
                      {{0.625, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.625, 1.0}}}}; // through nodes
-    const OutlineTree outline(ends);
+    const geometry::OutlineTree outline(ends);
     for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
         const Toolpath path = trimmed(patch, ends, zigzag(patch, grid, direction, false, &outline), false);
         for (const PathPoint& point : path.points) {
