@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::app {
@@ -97,15 +98,25 @@ ordered_json face_json(const exchange::CadFace& face) {
         {"size_mm", {size.x(), size.y(), size.z()}}};
 }
 
+/// The notes of a file, and one if all of it is so small that the unit is doubtful.
+std::vector<std::string> with_doubt(std::vector<std::string> notes, const Box3& box, double mm_per_unit) {
+    if (std::string doubt = project::doubt_of_size(box.sizes().maxCoeff(), mm_per_unit); !doubt.empty()) {
+        notes.push_back(std::move(doubt));
+    }
+    return notes;
+}
+
 ordered_json model_json(const exchange::CadModel& model) {
     ordered_json faces = ordered_json::array();
+    Box3 box;
     for (const exchange::CadFace& face : model.faces) {
         faces.push_back(face_json(face));
+        box.extend(face.box);
     }
     return {{"unit", model.unit},
             {"faces", std::move(faces)},
             {"left_out", model.left_out},
-            {"notes", model.notes}};
+            {"notes", with_doubt(model.notes, box, 1.0)}};
 }
 
 void print_notes(const std::vector<std::string>& notes) {
@@ -138,7 +149,7 @@ void print_model(const ordered_json& model) {
     fmt::print("unit of the file: {}\n", model["unit"].get<std::string>());
 }
 
-ordered_json mesh_json(const exchange::MeshFile& read) {
+ordered_json mesh_json(const exchange::MeshFile& read, double mm_per_unit) {
     Box3 box;
     for (const Vec3& point : read.mesh.points) {
         box.extend(point);
@@ -148,7 +159,7 @@ ordered_json mesh_json(const exchange::MeshFile& read) {
             {"triangles", read.mesh.triangles.size()},
             {"without_area", read.without_area},
             {"size_mm", {size.x(), size.y(), size.z()}},
-            {"notes", read.notes}};
+            {"notes", with_doubt(read.notes, box, mm_per_unit)}};
 }
 
 void print_mesh(const ordered_json& mesh) {
@@ -164,27 +175,19 @@ void print_mesh(const ordered_json& mesh) {
 
 int tell_of(const Options& options) {
     WatchedWork work;
-    ordered_json told;
-    if (exchange::is_mesh_file(options.file)) {
-        const exchange::MeshFile read =
-            exchange::read_mesh(options.file, options.mm_per_unit.value_or(1.0), work.progress());
-        told = mesh_json(read);
-        work.finish();
-        print_notes(read.notes);
-        if (!options.json) {
-            print_mesh(told);
-        }
-    } else {
-        const exchange::CadModel model = exchange::read_cad(options.file, work.progress());
-        told = model_json(model);
-        work.finish();
-        print_notes(model.notes);
-        if (!options.json) {
-            print_model(told);
-        }
-    }
+    const bool is_mesh = exchange::is_mesh_file(options.file);
+    const double unit = options.mm_per_unit.value_or(1.0);
+    const ordered_json told = is_mesh
+                                  ? mesh_json(exchange::read_mesh(options.file, unit, work.progress()), unit)
+                                  : model_json(exchange::read_cad(options.file, work.progress()));
+    work.finish();
+    print_notes(told["notes"].get<std::vector<std::string>>());
     if (options.json) {
         fmt::print("{}\n", told.dump(2));
+    } else if (is_mesh) {
+        print_mesh(told);
+    } else {
+        print_model(told);
     }
     return 0;
 }

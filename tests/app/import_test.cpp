@@ -124,6 +124,26 @@ TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
 }
 
+// They were fitted to noise, and cut.
+TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
+    const std::string plate = "v 0 0 0\nv 8e-3 0 0\nv 8e-3 5e-3 0\nv 0 5e-3 0\nf 1 2 3 4\n";
+    const std::string mesh = written("metres.obj", plate);
+    const auto doubt =
+        HasSubstr("note: all of it is only 0.008 mm large: is the unit right? In inches it would be "
+                  "0.203 mm large, in metres 8 mm");
+    EXPECT_THAT(run({"import", mesh}).err, doubt);
+    EXPECT_THAT(run({"import", mesh, "--out", path("p.json")}).err, doubt);
+    EXPECT_THAT(run({"import", mesh, "--out", path("m.json"), "--unit", "m"}).err,
+                ::testing::Not(HasSubstr("unit")));
+    const std::string small =
+        written("small.obj", "v 0 0 0\nv 5e-6 0 0\nv 5e-6 5e-6 0\nv 0 5e-6 0\nf 1 2 3 4\n");
+    const Ended ended = run({"import", small, "--out", path("s.json")});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("small.obj: the mesh is 5e-06 mm large, less than 0.001 mm (is the unit right?"));
+    EXPECT_FALSE(std::filesystem::exists(path("s.json")));
+}
+
 TEST_F(ImportCommand, SaysWhatIsWrong) {
     const auto refusal = [&](const std::vector<std::string>& arguments) {
         const Ended ended = run(arguments);
