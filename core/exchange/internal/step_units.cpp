@@ -5,6 +5,7 @@
 #include <Interface_Check.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_ConversionBasedUnitAndLengthUnit.hxx>
+#include <StepBasic_LengthMeasureWithUnit.hxx>
 #include <StepBasic_MeasureValueMember.hxx>
 #include <StepBasic_MeasureWithUnit.hxx>
 #include <StepBasic_NamedUnit.hxx>
@@ -87,7 +88,7 @@ private:
             const Handle(StepBasic_MeasureValueMember) value = new StepBasic_MeasureValueMember;
             value->SetName("LENGTH_MEASURE");
             value->SetReal(factor);
-            const Handle(StepBasic_MeasureWithUnit) whole = new StepBasic_MeasureWithUnit;
+            const Handle(StepBasic_LengthMeasureWithUnit) whole = new StepBasic_LengthMeasureWithUnit;
             whole->Init(value, measure->UnitComponent());
             unit->SetConversionFactor(whole);
         }

@@ -182,6 +182,7 @@ TEST_F(CadFile, AUnitThatIsConvertedInSeveralStepsIsTaken) {
         "#9005 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) );";
     const CadModel model = read_text(dome_in(conversion("HAND", "4.", inch)), "hand.step");
     EXPECT_NEAR(width(model), 80.0 * 4.0 * 25.4, 1e-6);
+    EXPECT_EQ(model.unit, "hand");
     EXPECT_THAT(model.notes, ::testing::IsEmpty());
     const std::string circle =
         "#9003 = ( CONVERSION_BASED_UNIT('INCH',#9002) LENGTH_UNIT() NAMED_UNIT(#9001) );";
