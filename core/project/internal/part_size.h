@@ -15,7 +15,7 @@ inline constexpr double smallest_part_mm = 1e-3;
 [[nodiscard]] double size_of(const std::vector<Vec3>& points);
 
 /// That something `size_mm` large is smaller than `smallest_part_mm`: "is 5e-06 mm large, less than 0.001
-/// mm". Empty if it is not.
+/// mm". Empty if it is not, and for 0: that no normal is there tells more of what is a point.
 [[nodiscard]] std::string fault_of_size(double size_mm);
 
 /// "is the unit right? In inches it would be 1.27 mm large, in metres 50 mm"

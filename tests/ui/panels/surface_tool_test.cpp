@@ -164,7 +164,7 @@ TEST_F(SurfaceTools, AnOutlineWithoutAreaIsToldAndItsCornersStay) {
     person_.wait_idle();
     EXPECT_TRUE(region().everywhere());
     EXPECT_EQ(person_.workshop().session().surface_tool.draft, line);
-    EXPECT_TRUE(person_.sees("notices/0"));
+    EXPECT_TRUE(person_.sees("notices/1"));
     person_.keep("grid-outline-in-a-line");
 }
 
