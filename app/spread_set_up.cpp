@@ -55,11 +55,13 @@ std::string name_of(const SetUpPlace& place) {
                        fixed(to_degrees(place[3]), 1));
 }
 
+/// "from (0.0, ...) to (40.0, ...)"
+std::string range_of(std::span<const SetUpPlace> places, const std::vector<std::size_t>& some) {
+    return fmt::format("from {} to {}", name_of(places[some.front()]), name_of(places[some.back()]));
+}
+
 std::string without_places(std::span<const SetUpPlace> places, const std::vector<std::size_t>& without) {
-    return fmt::format("without {} of its places: from {} to {}",
-                       without.size(),
-                       name_of(places[without.front()]),
-                       name_of(places[without.back()]));
+    return fmt::format("without {} of its places: {}", without.size(), range_of(places, without));
 }
 
 /// What has come of one request.
@@ -152,20 +154,41 @@ public:
     /// What is lost with rank 0, as a sentence.
     [[nodiscard]] std::string lost() const {
         const std::scoped_lock lock(turn_);
-        std::vector<std::size_t> without;
-        for (std::size_t n = next_; n < places_.size(); n += static_cast<std::size_t>(ranks_.size())) {
-            without.push_back(n);
-        }
-        return fmt::format("rank {} was stopped, and rank 0 does not answer{}",
-                           ranks_.rank(),
-                           without.empty() ? "" : "; " + without_places(places_, without));
+        return fmt::format(
+            "rank {} was stopped, and rank 0 does not answer; {}", ranks_.rank(), share_lost());
     }
 
 private:
+    /// Of this rank's places those from one of them on.
+    [[nodiscard]] std::vector<std::size_t> from(std::size_t first) const {
+        std::vector<std::size_t> found;
+        for (std::size_t n = first; n < places_.size(); n += static_cast<std::size_t>(ranks_.size())) {
+            found.push_back(n);
+        }
+        return found;
+    }
+    /// What it measured went to rank 0, which keeps it in memory alone.
+    [[nodiscard]] std::string share_lost() const {
+        if (places_.empty()) {
+            return "it had not been asked for any place yet";
+        }
+        if (const std::vector<std::size_t> without = from(next_); !without.empty()) {
+            return without_places(places_, without);
+        }
+        const std::vector<std::size_t> own = from(static_cast<std::size_t>(ranks_.rank()));
+        return own.empty()
+                   ? fmt::format("none of the {} places was its own", places_.size())
+                   : fmt::format(
+                         "it had measured all of its {} places, which are lost with rank 0, as is what that "
+                         "does alone after them: {}",
+                         own.size(),
+                         range_of(places_, own));
+    }
+
     const Ranks& ranks_;
-    mutable std::mutex turn_; ///< guards what follows
-    std::vector<SetUpPlace> places_;
-    std::size_t next_ = 0; ///< of this rank's places
+    mutable std::mutex turn_;        ///< guards what follows
+    std::vector<SetUpPlace> places_; ///< of the last request
+    std::size_t next_ = 0;           ///< of this rank's places
 };
 
 } // namespace

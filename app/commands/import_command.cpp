@@ -21,6 +21,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::app {
 
@@ -96,12 +98,31 @@ ordered_json face_json(const exchange::CadFace& face) {
         {"size_mm", {size.x(), size.y(), size.z()}}};
 }
 
+/// The notes of a file, and one if all of it is so small that the unit is doubtful.
+std::vector<std::string> with_doubt(std::vector<std::string> notes, const Box3& box, double mm_per_unit) {
+    if (std::string doubt = project::doubt_of_size(box.sizes().maxCoeff(), mm_per_unit); !doubt.empty()) {
+        notes.push_back(std::move(doubt));
+    }
+    return notes;
+}
+
 ordered_json model_json(const exchange::CadModel& model) {
     ordered_json faces = ordered_json::array();
+    Box3 box;
     for (const exchange::CadFace& face : model.faces) {
         faces.push_back(face_json(face));
+        box.extend(face.box);
     }
-    return {{"unit", model.unit}, {"faces", std::move(faces)}, {"left_out", model.left_out}};
+    return {{"unit", model.unit},
+            {"faces", std::move(faces)},
+            {"left_out", model.left_out},
+            {"notes", with_doubt(model.notes, box, 1.0)}};
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "note: {}\n", note);
+    }
 }
 
 void print_model(const ordered_json& model) {
@@ -128,40 +149,45 @@ void print_model(const ordered_json& model) {
     fmt::print("unit of the file: {}\n", model["unit"].get<std::string>());
 }
 
+ordered_json mesh_json(const exchange::MeshFile& read, double mm_per_unit) {
+    Box3 box;
+    for (const Vec3& point : read.mesh.points) {
+        box.extend(point);
+    }
+    const Vec3 size = box.sizes();
+    return {{"points", read.mesh.points.size()},
+            {"triangles", read.mesh.triangles.size()},
+            {"without_area", read.without_area},
+            {"size_mm", {size.x(), size.y(), size.z()}},
+            {"notes", with_doubt(read.notes, box, mm_per_unit)}};
+}
+
+void print_mesh(const ordered_json& mesh) {
+    const auto size = [&](int axis) { return fixed(mesh["size_mm"][axis].get<double>(), 3); };
+    fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
+               mesh["points"].get<std::size_t>(),
+               mesh["triangles"].get<std::size_t>(),
+               mesh["without_area"].get<int>(),
+               size(0),
+               size(1),
+               size(2));
+}
+
 int tell_of(const Options& options) {
     WatchedWork work;
-    ordered_json told;
-    if (exchange::is_mesh_file(options.file)) {
-        const exchange::MeshFile read =
-            exchange::read_mesh(options.file, options.mm_per_unit.value_or(1.0), work.progress());
-        Box3 box;
-        for (const Vec3& point : read.mesh.points) {
-            box.extend(point);
-        }
-        const Vec3 size = box.sizes();
-        told = {{"points", read.mesh.points.size()},
-                {"triangles", read.mesh.triangles.size()},
-                {"without_area", read.without_area},
-                {"size_mm", {size.x(), size.y(), size.z()}}};
-        work.finish();
-        if (!options.json) {
-            fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
-                       read.mesh.points.size(),
-                       read.mesh.triangles.size(),
-                       read.without_area,
-                       fixed(size.x(), 3),
-                       fixed(size.y(), 3),
-                       fixed(size.z(), 3));
-        }
-    } else {
-        told = model_json(exchange::read_cad(options.file, work.progress()));
-        work.finish();
-        if (!options.json) {
-            print_model(told);
-        }
-    }
+    const bool is_mesh = exchange::is_mesh_file(options.file);
+    const double unit = options.mm_per_unit.value_or(1.0);
+    const ordered_json told = is_mesh
+                                  ? mesh_json(exchange::read_mesh(options.file, unit, work.progress()), unit)
+                                  : model_json(exchange::read_cad(options.file, work.progress()));
+    work.finish();
+    print_notes(told["notes"].get<std::vector<std::string>>());
     if (options.json) {
         fmt::print("{}\n", told.dump(2));
+    } else if (is_mesh) {
+        print_mesh(told);
+    } else {
+        print_model(told);
     }
     return 0;
 }
@@ -194,9 +220,7 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
 }
 
 void print_imported(const project::ImportedSurface& imported, const Options& options) {
-    for (const std::string& note : imported.notes) {
-        fmt::print(stderr, "note: {}\n", note);
-    }
+    print_notes(imported.notes);
     if (options.json) {
         fmt::print("{}\n", imported_json(imported).dump(2));
         return;

@@ -40,6 +40,7 @@ struct CadFace {
 struct CadModel {
     std::vector<CadFace> faces;
     std::vector<std::string> left_out; ///< why a face is not among them, a sentence each
+    std::vector<std::string> notes;    ///< what is taken in place of what is not understood, a sentence each
     std::string unit;                  ///< of length in the file, as far as it tells: "mm", "inch", ...
 };
 

@@ -11,6 +11,7 @@
 #include "core/exchange/internal/cad_text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/occt.h"
+#include "core/exchange/internal/step_units.h"
 #include "core/exchange/internal/told_text.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
@@ -46,6 +47,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace millwright::exchange {
 
@@ -121,7 +123,9 @@ constexpr double text_read = 0.15;
 constexpr double model_read = 0.22;
 constexpr double shapes_made = 0.65;
 
-void load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
+/// What there is to say of it.
+std::vector<std::string>
+load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
     const std::string text = read_file(file);
     const int faces = checked_step_text(text, file, progress.part(0.0, text_looked_through));
     expect_not_too_many(faces, file);
@@ -132,21 +136,24 @@ void load(STEPControl_Reader& reader, const std::filesystem::path& file, const P
     if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone) {
         refuse_damaged(text, file);
     }
+    return settled_units(*reader.StepModel(), text, file);
 }
 
-void load(IGESControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
+std::vector<std::string>
+load(IGESControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
     const std::string text = read_file(file);
     check_iges_text(text, file, progress.part(0.0, text_looked_through));
     progress.report(text_looked_through, "reading the file");
     if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
         refuse_damaged(text, file);
     }
+    return {};
 }
 
 template <typename Reader>
 CadModel read_by(Reader reader, const std::filesystem::path& file, const Progress& progress) {
     progress.report(0.0, "reading the file");
-    load(reader, file, progress);
+    std::vector<std::string> notes = load(reader, file, progress);
     progress.check();
     progress.report(model_read, "making shapes");
     const Handle(OcctProgress) indicator = new OcctProgress(progress.part(model_read, shapes_made));
@@ -161,6 +168,7 @@ CadModel read_by(Reader reader, const std::filesystem::path& file, const Progres
     if (!lost.empty()) {
         model.left_out.push_back(lost);
     }
+    model.notes = std::move(notes);
     model.unit = unit_of(reader);
     return model;
 }

@@ -90,7 +90,9 @@ MeshFile parse_mesh(std::string_view bytes,
         read_ply(bytes, soup, progress);
     }
     progress.report(0.6, "joining points");
+    std::vector<std::string> notes = soup.notes();
     MeshFile result = joined(std::move(soup).take());
+    result.notes = std::move(notes);
     progress.check();
     if (result.mesh.triangles.empty()) {
         throw Error("the file has no triangle with an area", file);

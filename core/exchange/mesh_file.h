@@ -5,7 +5,9 @@
 #include "core/exchange/triangle_mesh.h"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::exchange {
 
@@ -14,6 +16,7 @@ inline constexpr int most_mesh_triangles = 5'000'000;
 struct MeshFile {
     TriangleMesh mesh;
     int without_area = 0; ///< triangles of the file that are left out: two corners in one place, or in a line
+    std::vector<std::string> notes; ///< what else of the file is not read, a sentence each
 };
 
 /// Whether the name ends like that of a mesh that can be read, in any case.

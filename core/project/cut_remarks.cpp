@@ -138,10 +138,23 @@ std::string sequencing_remark(const Project& project, const Plan& plan) {
                              figures);
 }
 
+std::string weight_remark(const EllipticInput& input) {
+    const grid::MixSettings& mix = input.mix;
+    const bool pulls = mix.error > 0.0 || mix.curvature > 0.0 || mix.painted > 0.0 || mix.expression > 0.0;
+    return input.weight == WeightSource::mixed && !pulls
+               ? "all shares of the mixed weight are 0 (grid/elliptic/mix): it is the same everywhere, and "
+                 "the "
+                 "grid adapts to nothing"
+               : std::string();
+}
+
 std::vector<std::string> path_remarks(const Project& project, const Plan& plan) {
     const auto& path = plan.program_path(project);
+    const GridMethod method = program_grid(project);
+    const bool weighs = method == GridMethod::elliptic || method == GridMethod::harmonic;
     std::vector<std::string> remarks;
-    for (std::string remark : {path ? why_not_kept(project, *path) : std::string(),
+    for (std::string remark : {weighs ? weight_remark(project.grid.elliptic) : std::string(),
+                               path ? why_not_kept(project, *path) : std::string(),
                                crossing_remark(project, plan),
                                sequencing_remark(project, plan)}) {
         if (!remark.empty()) {

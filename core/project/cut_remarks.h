@@ -35,6 +35,10 @@ namespace millwright::project {
 /// way or adds points, of which the grid does not know; empty if in none.
 [[nodiscard]] std::string sequencing_remark(const Project& project, const Plan& plan);
 
+/// That no reason of a mixed weight has a share, so that it pulls nowhere; empty if one has, or if the weight
+/// is another one.
+[[nodiscard]] std::string weight_remark(const EllipticInput& input);
+
 /// All of these that there are of the program of `plan` but why_higher(), as sentences.
 [[nodiscard]] std::vector<std::string> path_remarks(const Project& project, const Plan& plan);
 

@@ -1,5 +1,6 @@
 #include "core/project/internal/elliptic_json.h"
 
+#include "core/project/internal/region_area.h"
 #include "core/project/settings.h"
 
 namespace millwright::project {
@@ -60,6 +61,9 @@ grid::Region region_of(const JsonValue& value) {
     if ((count > 0 && count < grid::fewest_corners) || count > grid::most_corners) {
         outline.fail(fmt::format(
             "an outline has {} to {} corners, [u, v] each", grid::fewest_corners, grid::most_corners));
+    }
+    if (!region.everywhere() && !encloses_area(region.outline)) {
+        outline.fail("the outline encloses no area", "leave the region out to adapt everywhere");
     }
     return region;
 }

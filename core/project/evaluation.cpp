@@ -1,10 +1,10 @@
 #include "core/project/evaluation.h"
 
+#include "core/geometry/outline_tree.h"
 #include "core/project/planned_time.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/trimmed_path.h"
 #include "core/toolpath/turning_over.h"
-#include "core/toolpath/zigzag.h"
 
 #include <algorithm>
 #include <array>
@@ -47,17 +47,19 @@ fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progre
     return best;
 }
 
-/// Before it is trimmed. Nodes of a zigzag that are never cut need no normal.
+/// Before it is trimmed.
 toolpath::Toolpath contacts_of(const Workpiece& workpiece,
                                const grid::Grid& grid,
                                const toolpath::StrategySettings& strategy,
                                const Progress& progress) {
-    if (strategy.kind == toolpath::StrategyKind::zigzag && !workpiece.trim.everything()) {
-        const toolpath::OutlineTree outline(workpiece.trim);
-        return toolpath::zigzag(workpiece.patch, grid, workpiece.direction, workpiece.flipped, &outline);
-    }
-    const toolpath::Covering all{
-        workpiece.patch, workpiece.machine, workpiece.tool, grid, workpiece.direction, workpiece.flipped};
+    const geometry::OutlineTree outline(workpiece.trim);
+    const toolpath::Covering all{workpiece.patch,
+                                 workpiece.machine,
+                                 workpiece.tool,
+                                 grid,
+                                 workpiece.direction,
+                                 workpiece.flipped,
+                                 workpiece.trim.everything() ? nullptr : &outline};
     return toolpath::make_strategy(strategy)->contacts(all, progress);
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/closest_point.h"
+#include "core/project/internal/part_size.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ TriangleMesh scaled(TriangleMesh mesh, double factor) {
 ImportedSurface
 import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
+    imported.notes = read.notes;
     if (read.without_area > 0) {
         imported.notes.push_back(
             fmt::format("{} triangles have no area and are left out", read.without_area));
@@ -146,6 +148,29 @@ const CadFace& chosen_face(const exchange::CadModel& model, const std::filesyste
     return *found;
 }
 
+/// Before it is fitted, which makes noise of it.
+void check_size(const exchange::TriangleMesh& mesh, double mm_per_unit, const std::filesystem::path& file) {
+    const double size = mm_per_unit * size_of(mesh.points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        throw Error("the mesh " + fault, file, question_of_unit(size / mm_per_unit));
+    }
+}
+
+/// Throws Error about what is too small, and tells what hardly anyone cuts.
+void look_at_size(ImportedSurface& imported, double mm_per_unit, const std::filesystem::path& file) {
+    std::vector<Vec3> points;
+    for (const geometry::ControlNet& net : imported.surface.patches) {
+        points.insert(points.end(), net.points.begin(), net.points.end());
+    }
+    const double size = size_of(points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        throw Error("the surface " + fault, file, question_of_unit(size / mm_per_unit));
+    }
+    if (std::string doubt = doubt_of_size(size, mm_per_unit); !doubt.empty()) {
+        imported.notes.push_back(std::move(doubt));
+    }
+}
+
 void check_reach(const ImportedSurface& imported, const std::filesystem::path& file) {
     for (const geometry::ControlNet& net : imported.surface.patches) {
         for (const Vec3& point : net.points) {
@@ -179,6 +204,14 @@ bool is_importable(const std::filesystem::path& file) {
     return exchange::is_mesh_file(file) || exchange::is_cad_file(file);
 }
 
+std::string doubt_of_size(double size_mm, double mm_per_unit) {
+    constexpr double doubtful_mm = 1.0;
+    return size_mm < doubtful_mm ? fmt::format("all of it is only {:.3g} mm large: {}",
+                                               size_mm,
+                                               question_of_unit(size_mm / mm_per_unit))
+                                 : std::string();
+}
+
 ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
     return choice.degrees ? fitted_face(face, choice, progress) : face_as_it_is(face);
 }
@@ -201,13 +234,16 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
     ImportedSurface imported;
     if (source.mesh) {
         check_reach(source.mesh->mesh, choice.mm_per_unit, source.file);
+        check_size(source.mesh->mesh, choice.mm_per_unit, source.file);
         imported = import_mesh(*source.mesh, choice, progress);
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
-        imported.notes.insert(
-            imported.notes.end(), source.model->left_out.begin(), source.model->left_out.end());
+        const exchange::CadModel& model = *source.model;
+        imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
+        imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());
     }
     check_reach(imported, source.file);
+    look_at_size(imported, source.mesh ? choice.mm_per_unit : 1.0, source.file);
     return imported;
 }
 

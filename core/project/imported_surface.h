@@ -48,11 +48,14 @@ struct ImportedSurface {
 /// Whether the name ends like that of a file that can be imported.
 [[nodiscard]] bool is_importable(const std::filesystem::path& file);
 
+/// Of something so small that its unit is doubtful, a sentence with its size in others; else empty.
+[[nodiscard]] std::string doubt_of_size(double size_mm, double mm_per_unit);
+
 /// Throws Error, naming the file, for one that cannot be read; Cancelled.
 [[nodiscard]] ImportSource read_source(const std::filesystem::path& file, const Progress& progress);
 
-/// Throws Error, naming the file, for no choice among several faces, a face or a side that there is not, and
-/// for control points beyond `farthest_point_mm`; Cancelled.
+/// Throws Error, naming the file, for no choice among several faces, a face or a side that there is not, for
+/// control points beyond `farthest_point_mm` and for what is smaller than 0.001 mm; Cancelled.
 [[nodiscard]] ImportedSurface
 import_of(const ImportSource& source, const ImportChoice& choice, const Progress& progress);
 

@@ -1,6 +1,8 @@
 #include "core/project/project.h"
 
 #include "core/geometry/presets.h"
+#include "core/project/internal/part_size.h"
+#include "core/project/internal/region_area.h"
 #include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
 #include "core/project/taught_points.h"
@@ -76,6 +78,19 @@ void check_trims(Faults& faults, const SurfaceInput& surface) {
     }
 }
 
+/// Of what is machined alone: beside it a patch may be as narrow as the program that made it liked.
+void check_size(Faults& faults, const SurfaceInput& surface) {
+    const int patch = surface.machined_patch;
+    if (patch < 0 || patch >= std::ssize(surface.patches)) {
+        return;
+    }
+    const double size = size_of(surface.patches[static_cast<std::size_t>(patch)].points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        faults.push_back(
+            fmt::format("surface/patches[{}]: the part {}; {}", patch, fault, question_of_unit(size)));
+    }
+}
+
 void check_surface(Faults& faults, const SurfaceInput& surface) {
     const auto count = static_cast<int>(surface.patches.size());
     if (count == 0) {
@@ -86,6 +101,7 @@ void check_surface(Faults& faults, const SurfaceInput& surface) {
             faults, fmt::format("surface/patches[{}]", n), surface.patches[static_cast<std::size_t>(n)]);
     }
     check_trims(faults, surface);
+    check_size(faults, surface);
     if (surface.machined_patch < 0 || surface.machined_patch >= std::max(count, 1)) {
         faults.push_back(fmt::format("surface/machined_patch: there is no patch {} among {}, counted from 0",
                                      surface.machined_patch,
@@ -180,6 +196,9 @@ void check_weight(Faults& faults, const EllipticInput& input) {
         faults.push_back(fmt::format("grid/elliptic/region: {} to {} corners with u and v from 0 to 1",
                                      grid::fewest_corners,
                                      grid::most_corners));
+    }
+    if (can_be_drawn(input.region) && !input.region.everywhere() && !encloses_area(input.region.outline)) {
+        faults.emplace_back("grid/elliptic/region: the outline encloses no area");
     }
     if (input.solver == grid::EllipticMethod::harmonic) {
         faults.emplace_back("grid/elliptic/solver: the harmonic map is a method of its own");

@@ -7,6 +7,7 @@
 #include "core/project/internal/arm_json.h"
 #include "core/project/internal/elliptic_json.h"
 #include "core/project/internal/json_text.h"
+#include "core/project/internal/part_size.h"
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
 #include "core/project/internal/tool_json.h"
@@ -106,6 +107,13 @@ void read_preset(const JsonValue& value, SurfaceInput& surface) {
     }
 }
 
+void expect_size(const JsonValue& machined, const SurfaceInput& surface) {
+    const double size = size_of(surface.patches[static_cast<std::size_t>(surface.machined_patch)].points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        machined.fail("the part " + fault, question_of_unit(size));
+    }
+}
+
 SurfaceInput surface(const JsonValue& value) {
     value.expect_only({"preset", "patches", "machined_patch", "flipped"});
     SurfaceInput result;
@@ -127,6 +135,9 @@ SurfaceInput surface(const JsonValue& value) {
     }
     if (const auto machined = value.find("machined_patch")) {
         result.machined_patch = machined->integer(0, static_cast<int>(result.patches.size()) - 1);
+    }
+    if (const auto patches = value.find("patches")) {
+        expect_size(patches->items()[static_cast<std::size_t>(result.machined_patch)], result);
     }
     read_flag(value, "flipped", result.flipped);
     return result;

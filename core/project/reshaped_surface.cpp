@@ -1,6 +1,7 @@
 #include "core/project/reshaped_surface.h"
 
 #include "core/base/error.h"
+#include "core/project/internal/region_area.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +91,8 @@ grid::Region region_on(grid::Region region, const Part& part) {
         throw Error(
             fmt::format("the outline of the region would have more than {} corners", grid::most_corners));
     }
-    region.outline = std::ssize(outline) < grid::fewest_corners ? std::vector<Vec2>() : std::move(outline);
+    const bool anything = std::ssize(outline) >= grid::fewest_corners && encloses_area(outline);
+    region.outline = anything ? std::move(outline) : std::vector<Vec2>();
     return region;
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/parallel.h"
 #include "core/toolpath/internal/contact_point.h"
 #include "core/toolpath/internal/groove_track.h"
+#include "core/toolpath/trimmed_path.h"
 
 #include <fmt/format.h>
 
@@ -141,8 +142,9 @@ private:
         Ridge ridge{.share = shares_[column]};
         for (int look = 0; look < 2; ++look) {
             const double across = mix(groove_.across(column), next.across(column), ridge.share);
-            const PathPoint point =
-                contact_point(of_.patch, uv_of(of_.direction, next.along(column), across), of_.flipped);
+            const Vec2 uv =
+                place_with_normal(of_.patch, of_.outline, uv_of(of_.direction, next.along(column), across));
+            const PathPoint point = contact_point(of_.patch, uv, of_.flipped);
             ridge = ridge_from(ridge.share,
                                groove_.height(point.contact, point.normal, column),
                                next.height(point.contact, point.normal, column));
@@ -222,8 +224,11 @@ private:
         const int step = from < to ? 1 : -1;
         for (int node = from; node != to + step; node += step) {
             const double along = static_cast<double>(node) / static_cast<double>(std::ssize(track) - 1);
-            PathPoint point = contact_point(
-                of_.patch, uv_of(of_.direction, along, track[static_cast<std::size_t>(node)]), of_.flipped);
+            PathPoint point =
+                point_to_trim(of_.patch,
+                              of_.outline,
+                              uv_of(of_.direction, along, track[static_cast<std::size_t>(node)]),
+                              of_.flipped);
             point.origin = origin_at(of_.direction, track_, points_++, point.origin.uv);
             point.reached_by = node != from           ? MoveKind::track
                                : path_.points.empty() ? MoveKind::start

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -27,16 +28,42 @@ std::vector<grid::Track> tracks_of(const Covering& of) {
     return tracks;
 }
 
+/// A piece of a track, from one place to another: what is cut of it.
+struct Piece {
+    std::size_t track = 0;
+    double from = 0.0, to = 1.0;
+};
+
+std::vector<Piece> pieces_of(const Covering& of, const std::vector<grid::Track>& tracks) {
+    std::vector<Piece> pieces;
+    for (std::size_t n = 0; n < tracks.size(); ++n) {
+        if (of.outline == nullptr) {
+            pieces.push_back({n, 0.0, 1.0});
+            continue;
+        }
+        for (const auto& [from, to] : of.outline->parts_inside(tracks[n].at(0.0), tracks[n].at(1.0))) {
+            pieces.push_back({n, from, to});
+        }
+    }
+    return pieces;
+}
+
 /// On a lattice, and where that is too coarse on one four times as fine, `finer` times.
 std::optional<grid::PlacedTrack> placed(const KinematicError& model,
                                         const grid::Track& track,
+                                        const Piece& piece,
                                         double tolerance,
                                         int finer,
                                         const Progress& progress) {
+    constexpr double of_a_track = 800.0;
+    constexpr double fewest = 40.0;
+    const double length = piece.to - piece.from;
     grid::FewestNodesSettings settings;
-    settings.lattice = 800;
+    settings.lattice = static_cast<int>(std::ceil(std::max(of_a_track * length, fewest)));
+    settings.longest_move = std::min(1.0, settings.longest_move / length);
     for (int n = 0; n <= finer; ++n) {
-        if (auto found = grid::fewest_nodes(model, track, 0.0, 1.0, {.tip = tolerance}, settings, progress)) {
+        if (auto found = grid::fewest_nodes(
+                model, track, piece.from, piece.to, {.tip = tolerance}, settings, progress)) {
             return found;
         }
         settings.lattice *= 4;
@@ -51,27 +78,60 @@ struct Models {
     bool has_cutter;
 
     [[nodiscard]] std::optional<grid::PlacedTrack>
-    placed(const grid::Track& track, double tolerance, const Progress& progress) const {
+    placed(const grid::Track& track, const Piece& piece, double tolerance, const Progress& progress) const {
         constexpr int finer = 2;
         if (has_cutter) {
-            if (auto found = toolpath::placed(tool, track, tolerance, 0, progress)) {
+            if (auto found = toolpath::placed(tool, track, piece, tolerance, 0, progress)) {
                 return found;
             }
         }
-        return toolpath::placed(tip, track, tolerance, finer, progress);
+        return toolpath::placed(tip, track, piece, tolerance, finer, progress);
     }
 };
 
-void add(Toolpath& path, const Covering& of, const grid::PlacedTrack& placed, int track) {
-    const auto count = static_cast<int>(placed.places.size());
-    const bool backwards = track % 2 == 1;
-    for (int k = 0; k < count; ++k) {
-        const auto place = static_cast<std::size_t>(backwards ? count - 1 - k : k);
-        PathPoint point = contact_point(of.patch, placed.track.at(placed.places[place]), of.flipped);
-        point.origin = origin_at(of.direction, track, k, point.origin.uv);
-        point.reached_by = k > 0 ? MoveKind::track : track > 0 ? MoveKind::cross : MoveKind::start;
-        path.points.push_back(point);
+/// The pieces of one track, to or fro, numbered through.
+class Writer {
+public:
+    explicit Writer(const Covering& of) : of_(of) { path_.direction = of.direction; }
+
+    void add(std::vector<grid::PlacedTrack> pieces, std::size_t track) {
+        const bool backwards = track % 2 == 1;
+        int number = 0;
+        bool fresh = true;
+        if (backwards) {
+            std::ranges::reverse(pieces);
+        }
+        for (grid::PlacedTrack& piece : pieces) {
+            if (backwards) {
+                std::ranges::reverse(piece.places);
+            }
+            for (std::size_t k = 0; k < piece.places.size(); ++k) {
+                PathPoint point = contact_point(of_.patch, piece.track.at(piece.places[k]), of_.flipped);
+                point.origin = origin_at(of_.direction, static_cast<int>(track), number++, point.origin.uv);
+                point.reached_by = path_.points.empty() ? MoveKind::start
+                                   : k > 0              ? MoveKind::track
+                                   : fresh              ? MoveKind::cross
+                                                        : MoveKind::over;
+                fresh = false;
+                path_.points.push_back(point);
+            }
+        }
     }
+    [[nodiscard]] Toolpath take() && { return std::move(path_); }
+
+private:
+    const Covering& of_;
+    Toolpath path_;
+};
+
+[[noreturn]] void refuse(const grid::Track& track, double tolerance) {
+    throw Error(fmt::format("no points keep the track at {} = {:.6g} within {:.6g} mm",
+                            track.direction == grid::TrackDirection::along_v ? "u" : "v",
+                            track.across,
+                            tolerance),
+                {},
+                "it leads through a singular point of the machine, or out of its reach: allow more, or "
+                "put the part elsewhere");
 }
 
 } // namespace
@@ -85,30 +145,28 @@ Toolpath FewestPoints::contacts(const Covering& of, const Progress& progress) co
                         {of.patch, of.machine, of.flipped, Tool{.lean = of.tool.lean}},
                         of.tool.cutter.has_value()};
     const std::vector<grid::Track> tracks = tracks_of(of);
-    std::vector<std::optional<grid::PlacedTrack>> found(tracks.size());
+    const std::vector<Piece> pieces = pieces_of(of, tracks);
+    std::vector<std::optional<grid::PlacedTrack>> found(pieces.size());
     std::atomic<int> done = 0;
     const Progress unreported = progress.part(0.0, 0.0);
-    parallel_for(std::ssize(tracks), 1, [&](std::ptrdiff_t job) {
+    parallel_for(std::ssize(pieces), 1, [&](std::ptrdiff_t job) {
         const auto n = static_cast<std::size_t>(job);
-        found[n] = models.placed(tracks[n], tolerance_, unreported);
-        progress.report(static_cast<double>(++done) / static_cast<double>(tracks.size()));
+        found[n] = models.placed(tracks[pieces[n].track], pieces[n], tolerance_, unreported);
+        progress.report(static_cast<double>(++done) / static_cast<double>(pieces.size()));
     });
-    Toolpath path;
-    path.direction = of.direction;
-    for (std::size_t n = 0; n < tracks.size(); ++n) {
-        if (!found[n]) {
-            throw Error(
-                fmt::format("no points keep the track at {} = {:.6g} within {:.6g} mm",
-                            of.direction == grid::TrackDirection::along_v ? "u" : "v",
-                            tracks[n].across,
-                            tolerance_),
-                {},
-                "it leads through a singular point of the machine, or out of its reach: allow more, or "
-                "put the part elsewhere");
+    Writer path(of);
+    std::size_t next = 0;
+    for (std::size_t track = 0; track < tracks.size(); ++track) {
+        std::vector<grid::PlacedTrack> placed;
+        for (; next < pieces.size() && pieces[next].track == track; ++next) {
+            if (!found[next]) {
+                refuse(tracks[track], tolerance_);
+            }
+            placed.push_back(*std::move(found[next]));
         }
-        add(path, of, *found[n], static_cast<int>(n));
+        path.add(std::move(placed), track);
     }
-    return path;
+    return std::move(path).take();
 }
 
 } // namespace millwright::toolpath

@@ -103,7 +103,8 @@ int descend(const SetUpCost& cost,
         std::copy(at.begin(), at.end(), place.begin());
         const PlaceFigures found = cost.figures_at(place, Progress());
         ++evaluations;
-        progress.report(static_cast<double>(evaluations) / settings.descent);
+        progress.report(static_cast<double>(evaluations) / settings.descent,
+                        "Going downhill from the best place");
         if (found.cost < best.cost) {
             best = {place, found.cost};
         }

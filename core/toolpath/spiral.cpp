@@ -1,7 +1,7 @@
 #include "core/toolpath/spiral.h"
 
 #include "core/base/error.h"
-#include "core/toolpath/internal/contact_point.h"
+#include "core/toolpath/trimmed_path.h"
 
 #include <utility>
 
@@ -55,7 +55,7 @@ Toolpath Spiral::contacts(const Covering& of, const Progress& progress) const {
     Toolpath path;
     path.direction = of.direction;
     for (const auto& [i, j] : spiral_order(of.grid.nu(), of.grid.nv(), of.direction)) {
-        PathPoint point = contact_point(of.patch, of.grid.node(i, j), of.flipped);
+        PathPoint point = point_to_trim(of.patch, of.outline, of.grid.node(i, j), of.flipped);
         point.origin.i = i;
         point.origin.j = j;
         point.reached_by = path.points.empty() ? MoveKind::start : MoveKind::track;

@@ -13,7 +13,7 @@ namespace {
 class Zigzag final : public Strategy {
 public:
     [[nodiscard]] Toolpath contacts(const Covering& of, const Progress& progress) const override {
-        Toolpath path = zigzag(of.patch, of.grid, of.direction, of.flipped);
+        Toolpath path = zigzag(of.patch, of.grid, of.direction, of.flipped, of.outline);
         progress.report(1.0);
         return path;
     }

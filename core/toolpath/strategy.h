@@ -5,6 +5,7 @@
 
 #include "core/base/progress.h"
 #include "core/geometry/bezier_patch.h"
+#include "core/geometry/outline_tree.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/tool.h"
@@ -22,6 +23,9 @@ struct Covering {
     const grid::Grid& grid; ///< nodes, or how many tracks and points there may be
     grid::TrackDirection direction = grid::TrackDirection::along_v;
     bool flipped = false; ///< the tool is on the side against S_u x S_v
+    /// What is cut of the patch, null: all. Outside of it the surface needs no normal: what a strategy has
+    /// there goes away with trimmed().
+    const geometry::OutlineTree* outline = nullptr;
 };
 
 class Strategy {
@@ -29,8 +33,8 @@ public:
     virtual ~Strategy() = default;
 
     /// The points that are touched, in their order, as the path of a point along the normal: with_tool makes
-    /// the tool's path of it. Throws Error where the surface has no normal or cannot be covered like this,
-    /// and Cancelled.
+    /// the tool's path of it. A point outside of the outline may have no normal, 0. Throws Error where the
+    /// surface has none inside or cannot be covered like this, and Cancelled.
     [[nodiscard]] virtual Toolpath contacts(const Covering& of, const Progress& progress) const = 0;
 };
 

@@ -83,7 +83,7 @@ private:
     }
 
     const geometry::BezierPatch& patch_;
-    OutlineTree outline_;
+    geometry::OutlineTree outline_;
     const Toolpath& whole_;
     bool flipped_;
     Toolpath kept_;
@@ -92,8 +92,10 @@ private:
 
 } // namespace
 
-PathPoint
-point_to_trim(const geometry::BezierPatch& patch, const OutlineTree* outline, const Vec2& uv, bool flipped) {
+PathPoint point_to_trim(const geometry::BezierPatch& patch,
+                        const geometry::OutlineTree* outline,
+                        const Vec2& uv,
+                        bool flipped) {
     if (outline == nullptr || outline->contains(uv)) {
         return contact_point(patch, uv, flipped);
     }

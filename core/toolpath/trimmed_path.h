@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
+#include "core/geometry/outline_tree.h"
 #include "core/geometry/trim.h"
-#include "core/toolpath/outline_tree.h"
 #include "core/toolpath/toolpath.h"
 
 namespace millwright::toolpath {
@@ -12,8 +12,10 @@ namespace millwright::toolpath {
 /// What is touched at `uv`, along the normal on the side of the tool, for a path that is still to be trimmed.
 /// Outside of `outline` (null: everything is cut) the surface needs no normal: the point has none, 0. Throws
 /// Error where there is none else.
-[[nodiscard]] PathPoint
-point_to_trim(const geometry::BezierPatch& patch, const OutlineTree* outline, const Vec2& uv, bool flipped);
+[[nodiscard]] PathPoint point_to_trim(const geometry::BezierPatch& patch,
+                                      const geometry::OutlineTree* outline,
+                                      const Vec2& uv,
+                                      bool flipped);
 
 /// `contacts` as a strategy gives it, before the tool. Points are added where tracks cross the outline. A
 /// link stays one (`MoveKind::cross`) only between two ends of tracks that are kept and where its straight

@@ -1,7 +1,7 @@
 #include "core/toolpath/turning_over.h"
 
 #include "core/base/error.h"
-#include "core/toolpath/outline_tree.h"
+#include "core/geometry/outline_tree.h"
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ void refuse_turning_over(const geometry::BezierPatch& patch,
                          const geometry::Trim& trim,
                          const grid::Grid& grid,
                          const Toolpath& contacts) {
-    const OutlineTree outline(trim);
+    const geometry::OutlineTree outline(trim);
     const auto look = [&](const Vec2& a, const Vec2& b) {
         for (const auto& [from, to] : outline.parts_inside(a, b)) {
             const Vec2 begin = a + from * (b - a), end = a + to * (b - a);

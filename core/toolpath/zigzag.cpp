@@ -8,7 +8,7 @@ Toolpath zigzag(const geometry::BezierPatch& patch,
                 const grid::Grid& grid,
                 grid::TrackDirection direction,
                 bool flipped,
-                const OutlineTree* outline) {
+                const geometry::OutlineTree* outline) {
     Toolpath toolpath;
     toolpath.direction = direction;
     const int tracks = grid.track_count(direction);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
-#include "core/toolpath/outline_tree.h"
+#include "core/geometry/outline_tree.h"
 #include "core/toolpath/toolpath.h"
 
 namespace millwright::toolpath {
@@ -15,6 +15,6 @@ namespace millwright::toolpath {
                               const grid::Grid& grid,
                               grid::TrackDirection direction,
                               bool flipped,
-                              const OutlineTree* outline = nullptr);
+                              const geometry::OutlineTree* outline = nullptr);
 
 } // namespace millwright::toolpath

@@ -73,6 +73,13 @@ TEST_F(BadInput, WrongTypes) {
     EXPECT_THAT(failure_with("\"name\"", "\"nama\""), HasSubstr("the field \"nama\" is not known here"));
 }
 
+TEST_F(BadInput, ARegionInALine) {
+    EXPECT_THAT(failure_with("\"adaptation\": 100",
+                             "\"region\": {\"outline\": [[0, 0], [0.5, 0.5], [1, 1]]}, \"adaptation\": 100"),
+                AllOf(StartsWith(place() + ":"),
+                      HasSubstr("grid/elliptic/region/outline: the outline encloses no area")));
+}
+
 TEST_F(BadInput, NumbersThatAreNone) {
     EXPECT_THAT(failure_with("[10, 10, 1]", "[NaN, 10, 1]"), HasSubstr("not valid JSON near"));
     EXPECT_THAT(failure_with("[10, 10, 1]", "[1e999, 10, 1]"), HasSubstr("too large"));

@@ -1,9 +1,12 @@
 #include "tests/app/scratch_files.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -94,6 +97,22 @@ TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {
     EXPECT_NEAR(json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
 }
 
+// The last triangles of the file were left out without a word.
+TEST_F(ImportCommand, TrianglesBehindThoseThatAMeshCountsAreTold) {
+    std::string bytes = content_of(exported("dome.stl"));
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + 80, sizeof count);
+    count -= 3;
+    std::memcpy(bytes.data() + 80, &count, sizeof count);
+    const std::string mesh = written("counted.stl", bytes);
+    const auto sentence = fmt::format(
+        "150 bytes behind the {} triangles that the header counts are not read: room for 3 more", count);
+    EXPECT_THAT(run({"import", mesh}).err, HasSubstr("note: " + sentence));
+    const Ended ended = run({"import", mesh, "--out", path("counted.json"), "--json"});
+    EXPECT_THAT(ended.err, HasSubstr("note: " + sentence));
+    EXPECT_THAT(json::parse(ended.out).at("notes")[0], HasSubstr(sentence));
+}
+
 // A control point was told of, and no file.
 TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
     const std::string mesh =
@@ -103,6 +122,26 @@ TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
     EXPECT_THAT(ended.err,
                 HasSubstr("big.obj: a point of the mesh is 200000 mm from the origin, more than 100000 mm"));
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
+}
+
+// They were fitted to noise, and cut.
+TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
+    const std::string plate = "v 0 0 0\nv 8e-3 0 0\nv 8e-3 5e-3 0\nv 0 5e-3 0\nf 1 2 3 4\n";
+    const std::string mesh = written("metres.obj", plate);
+    const auto doubt =
+        HasSubstr("note: all of it is only 0.008 mm large: is the unit right? In inches it would be "
+                  "0.203 mm large, in metres 8 mm");
+    EXPECT_THAT(run({"import", mesh}).err, doubt);
+    EXPECT_THAT(run({"import", mesh, "--out", path("p.json")}).err, doubt);
+    EXPECT_THAT(run({"import", mesh, "--out", path("m.json"), "--unit", "m"}).err,
+                ::testing::Not(HasSubstr("unit")));
+    const std::string small =
+        written("small.obj", "v 0 0 0\nv 5e-6 0 0\nv 5e-6 5e-6 0\nv 0 5e-6 0\nf 1 2 3 4\n");
+    const Ended ended = run({"import", small, "--out", path("s.json")});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("small.obj: the mesh is 5e-06 mm large, less than 0.001 mm (is the unit right?"));
+    EXPECT_FALSE(std::filesystem::exists(path("s.json")));
 }
 
 TEST_F(ImportCommand, SaysWhatIsWrong) {

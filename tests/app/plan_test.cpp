@@ -35,6 +35,21 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     }
 }
 
+// The elliptic grid stayed uniform, unsaid.
+TEST(PlanCommand, WarnsOfAMixWithoutAnyShare) {
+    const ScratchFolder scratch;
+    const std::string mix = R"("mix": {"error": 0, "combination": "sum"}, "weight": "mixed")";
+    std::string text = content_of(small_project(scratch.path(), "dome", "\"weight\": \"error\"", mix));
+    const std::size_t method = text.find("\"method\": \"");
+    text.replace(method, text.find(',', method) - method, "\"method\": \"elliptic\"");
+    write_content(scratch / "mixed.json", text);
+    const Ended ended = run({"plan", scratch / "mixed.json", "--out", scratch / "out"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: All shares of the mixed weight are 0 (grid/elliptic/mix)"));
+    EXPECT_THAT(content_of(scratch / "out" / "report.json"),
+                HasSubstr("All shares of the mixed weight are 0"));
+}
+
 TEST(PlanCommand, LeavesNoEmptyFolderWhereItFails) {
     const ScratchFolder scratch;
     const fs::path project =

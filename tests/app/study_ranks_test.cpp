@@ -172,6 +172,23 @@ TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLost) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
 
+// No place was named: this rank had measured all of its own.
+TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLostOnItsWayDownhill) {
+    std::vector<std::string> words = set_up(folder_ / "out", "9");
+    words.back() = "60"; // nodes: each step of the way takes its time
+    Program program(words, {}, two_ranks);
+    program.wait_for_error_text("Going downhill from the best place");
+    kill_rank(program, 0);
+    const Ended ended = program.end();
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(
+        ended.err,
+        AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; it had measured all of its "),
+              HasSubstr(" places, which are lost with rank 0, as is what that does alone after them: from ("),
+              HasSubstr("; nothing is written\n")));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
+}
+
 TEST_F(StudyOnRanks, WhatIsWrongEndsAllOfThem) {
     const Ended none = Program(set_up("/proc/no-such-folder", "9"), {}, two_ranks).end();
     EXPECT_NE(none.exit_code, 0);

@@ -35,11 +35,12 @@ std::string fault_of_expression(std::string_view text) {
     return fault ? fmt::format("Character {}: {}", fault->place.column, fault->message) : std::string();
 }
 
-void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
+void draw_mix(Ui& ui, ActionQueue& ask, const project::EllipticInput& input) {
     const auto section = ui.section("mix", "Mixed weight");
     if (!section) {
         return;
     }
+    const grid::MixSettings& mix = input.mix;
     choice_field<grid::Combination>(
         ui,
         ask,
@@ -53,6 +54,9 @@ void draw_mix(Ui& ui, ActionQueue& ask, const grid::MixSettings& mix) {
         ui, ask, project::mix_numbers(), mix, [](Project& p) -> grid::MixSettings& {
             return p.grid.elliptic.mix;
         });
+    if (const std::string remark = project::weight_remark(input); !remark.empty()) {
+        (void)widgets::banner(ui, "no_share", {widgets::Severity::warning, as_sentence(remark), {}});
+    }
 }
 
 /// What of its name tells a link from those before it: "exponent 16".
@@ -323,7 +327,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         input.weight,
         [](Project& p, project::WeightSource w) { p.grid.elliptic.weight = w; });
     if (input.weight == project::WeightSource::mixed) {
-        draw_mix(ui, ask, input.mix);
+        draw_mix(ui, ask, input);
     }
     const bool has_formula = input.weight == project::WeightSource::expression ||
                              (input.weight == project::WeightSource::mixed && input.mix.expression > 0.0);

@@ -192,9 +192,13 @@ void obey(const viewport::CloseOutline&, const Workbench& now, ActionQueue& ask)
     if (std::ssize(draft) < grid::fewest_corners) {
         return;
     }
-    ask.edit("Draw the region of adaptation",
-             [outline = draft](Project& p) { p.grid.elliptic.region.outline = outline; });
-    ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+    const auto close = [outline = draft](Project& p) { p.grid.elliptic.region.outline = outline; };
+    ask.edit("Draw the region of adaptation", close);
+    Project drawn = now.project;
+    close(drawn);
+    if (faults_of(drawn).empty()) { // else it is told why not, and the corners stay
+        ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+    }
 }
 
 void obey(const viewport::DropOutline&, ActionQueue& ask) {

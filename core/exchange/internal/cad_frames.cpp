@@ -209,6 +209,7 @@ std::string packed(const CadModel& model) {
     Packer to;
     to.put_text(model.unit);
     to.put_each(model.left_out, [&](const std::string& reason) { to.put_text(reason); });
+    to.put_each(model.notes, [&](const std::string& note) { to.put_text(note); });
     to.put_each(model.faces, [&](const CadFace& face) { put_face(to, face); });
     return std::move(to).take();
 }
@@ -218,6 +219,7 @@ CadModel unpacked(std::string_view bytes) {
     CadModel model;
     model.unit = from.get_text();
     model.left_out = from.get_each(sizeof(std::uint64_t), [&] { return from.get_text(); });
+    model.notes = from.get_each(sizeof(std::uint64_t), [&] { return from.get_text(); });
     model.faces = from.get_each(3 * sizeof(int), [&] { return get_face(from); });
     from.expect_end();
     return model;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace millwright::exchange {
@@ -153,6 +154,24 @@ public:
         }
         return next_as<double>();
     }
+    /// What is left behind the last number, a sentence; none where that is white space.
+    [[nodiscard]] std::string left_over_text() {
+        if (order_ != Order::text) {
+            return bytes_.find_first_not_of(" \t\r\n") == std::string_view::npos
+                       ? ""
+                       : fmt::format("{} bytes behind the elements that the head counts are not read",
+                                     bytes_.size());
+        }
+        while (words_ == nullptr || word_ == words_->size()) {
+            words_ = lines_.next();
+            word_ = 0;
+            if (words_ == nullptr) {
+                return "";
+            }
+        }
+        return fmt::format("what follows the elements that the head counts, from line {} on, is not read",
+                           lines_.number());
+    }
     /// 0 in a binary file.
     [[nodiscard]] int line() const { return order_ == Order::text ? lines_.number() : 0; }
 
@@ -248,6 +267,9 @@ void read_ply(std::string_view bytes, Soup& soup, const Progress& progress) {
             soup.fail(fmt::format("the element {} has no property", element.name.substr(0, 40)));
         }
         read_element(element, numbers, soup, progress);
+    }
+    if (std::string left_over = numbers.left_over_text(); !left_over.empty()) {
+        soup.note(std::move(left_over));
     }
 }
 

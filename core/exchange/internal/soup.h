@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::exchange {
 
@@ -20,6 +22,10 @@ public:
     /// A face of three or more corners, cut into triangles by its ears where it has more.
     void add_face(std::span<const int> corners, int line = 0);
 
+    /// What of the file is not read, a sentence.
+    void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
     [[nodiscard]] TriangleMesh take() && { return std::move(mesh_); }
     [[noreturn]] void fail(std::string message, int line = 0, std::string hint = {}) const;
 
@@ -27,6 +33,7 @@ private:
     std::filesystem::path file_;
     double unit_;
     TriangleMesh mesh_;
+    std::vector<std::string> notes_;
 };
 
 } // namespace millwright::exchange

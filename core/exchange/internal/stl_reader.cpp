@@ -1,5 +1,6 @@
 #include "core/exchange/internal/mesh_readers.h"
 #include "core/exchange/internal/word_lines.h"
+#include "core/exchange/mesh_file.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
 namespace millwright::exchange {
 
@@ -23,6 +25,14 @@ template <typename Value> Value value_at(std::string_view bytes, std::size_t pla
     return value;
 }
 
+/// Of a file that holds more than its header counts.
+std::string left_over_text(std::uint32_t count, std::uint64_t bytes) {
+    return fmt::format("{} bytes behind the {} that the header counts are not read: room for {} more",
+                       bytes,
+                       count == 1 ? "triangle" : fmt::format("{} triangles", count),
+                       bytes / facet_size);
+}
+
 void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
     if (bytes.size() < head_size) {
         soup.fail(
@@ -32,6 +42,9 @@ void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
     const std::uint64_t wanted = head_size + std::uint64_t{count} * facet_size;
     if (bytes.size() < wanted) {
         soup.fail(fmt::format("{} triangles take {} bytes, the file has {}", count, wanted, bytes.size()));
+    }
+    if (bytes.size() > wanted) {
+        soup.note(left_over_text(count, bytes.size() - wanted));
     }
     for (std::uint32_t n = 0; n < count; ++n) {
         if (n % between_checks == 0) {
@@ -84,14 +97,13 @@ void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
     }
 }
 
-/// A binary file may begin with the word solid, too; its length tells.
+/// A binary file may begin with the word solid, too. The count of one that is read has a byte of 0, as no
+/// text has: 2^24 triangles are too many.
 bool is_text(std::string_view bytes) {
+    static_assert(most_mesh_triangles < 1 << 24);
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    if (start == std::string_view::npos || !bytes.substr(start).starts_with("solid")) {
-        return false;
-    }
-    return bytes.size() < head_size ||
-           bytes.size() != head_size + std::uint64_t{value_at<std::uint32_t>(bytes, 80)} * facet_size;
+    return start != std::string_view::npos && bytes.substr(start).starts_with("solid") &&
+           bytes.substr(0, head_size).find('\0') == std::string_view::npos;
 }
 
 } // namespace

@@ -24,4 +24,22 @@ PathPoint contact_point(const geometry::BezierPatch& patch, const Vec2& uv, bool
     return point;
 }
 
+Vec2 place_with_normal(const geometry::BezierPatch& patch,
+                       const geometry::OutlineTree* outline,
+                       const Vec2& uv) {
+    if (outline == nullptr || patch.unit_normal(uv.x(), uv.y()) || outline->contains(uv)) {
+        return uv;
+    }
+    constexpr double least = 1e-6, most = 1e-2; // of the patch's side
+    for (double off = least; off <= most; off *= 10.0) {
+        for (const Vec2& way : {Vec2(1, 1), Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)}) {
+            const Vec2 beside = (uv + off * way).cwiseMax(0.0).cwiseMin(1.0);
+            if (patch.unit_normal(beside.x(), beside.y())) {
+                return beside;
+            }
+        }
+    }
+    return uv;
+}
+
 } // namespace millwright::toolpath

@@ -65,7 +65,7 @@ GrooveTrack::column_at(const Covering& of, const Across& nodes, std::size_t n, i
     column.along = std::min(1.0, static_cast<double>(n) * step);
     column.across = mix(
         nodes[from], nodes[from + 1], static_cast<double>(n - from * each) / static_cast<double>(per_node));
-    const Vec2 uv = uv_of(of.direction, column.along, column.across);
+    const Vec2 uv = place_with_normal(of.patch, of.outline, uv_of(of.direction, column.along, column.across));
     const geometry::SurfaceDerivatives d = of.patch.derivatives(uv.x(), uv.y());
     const bool along_v = of.direction == grid::TrackDirection::along_v;
     const Vec3& s_along = along_v ? d.dv : d.du;
@@ -142,7 +142,7 @@ double GrooveTrack::height(const Vec3& point, const Vec3& normal, std::size_t co
 
 double GrooveTrack::first_step(const Covering& of, std::size_t column, double height) const {
     const Column& here = columns_[column];
-    const Vec2 uv = uv_of(of.direction, here.along, here.across);
+    const Vec2 uv = place_with_normal(of.patch, of.outline, uv_of(of.direction, here.along, here.across));
     const geometry::SurfaceDerivatives d = of.patch.derivatives(uv.x(), uv.y());
     const Vec3 way = here.normal.cross(here.before + here.after).normalized();
     const double radius = here.curvature > 0.0 ? 1.0 / here.curvature : infinity;

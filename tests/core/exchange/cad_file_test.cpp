@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 #include <regex>
 #include <string>
@@ -22,6 +23,7 @@ using geometry::BezierPatch;
 using geometry::ControlNet;
 using geometry::PatchId;
 using geometry::Surface;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class CadFile : public ::testing::Test {
@@ -35,6 +37,15 @@ protected:
     [[nodiscard]] CadModel read_text(const std::string& text, const char* name) const {
         write_file(folder_ / name, text);
         return read_cad(folder_ / name, {});
+    }
+
+    /// The dome with another unit of length in place of its millimetre, the entity UNIT_HERE.
+    [[nodiscard]] std::string dome_in(const std::string& unit) const {
+        write_step(geometry::surface_preset("dome").make(), folder_ / "dome.step", {});
+        const std::regex millimetre(
+            R"((#[0-9]+) = \( LENGTH_UNIT\(\) NAMED_UNIT\(\*\) SI_UNIT\(\.MILLI\.,\.METRE\.\) \);)");
+        const std::string named = std::regex_replace(unit, std::regex("UNIT_HERE"), "$$1");
+        return std::regex_replace(read_file(folder_ / "dome.step"), millimetre, named);
     }
 
     [[nodiscard]] std::string refusal(const std::string& text, const char* name) const {
@@ -140,6 +151,75 @@ TEST_F(CadFile, FacesThatTheLibraryLeavesOutAreNamed) {
     EXPECT_THAT(refusal(with_broken_faces(text, 0), "all.step"),
                 HasSubstr("4 of 4 faces of the file could not"));
     EXPECT_TRUE(read_text(with_broken_faces(text, 4), "whole.step").left_out.empty());
+}
+
+std::string conversion(const std::string& name, const std::string& factor, const std::string& rest = "") {
+    return fmt::format("UNIT_HERE = ( CONVERSION_BASED_UNIT('{}',#9002) LENGTH_UNIT() NAMED_UNIT(#9001) );\n"
+                       "#9001 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n"
+                       "#9002 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),#9003);\n{}",
+                       name,
+                       factor,
+                       rest.empty() ? "#9003 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );"
+                                    : rest);
+}
+
+double width(const CadModel& model) {
+    return model.faces.front().box.sizes().x();
+}
+
+TEST_F(CadFile, AUnitThatTheFileConvertsItselfIsTaken) {
+    const CadModel model = read_text(dome_in(conversion("CUBIT", "3.5")), "cubit.step");
+    EXPECT_NEAR(width(model), 80.0 * 3.5, 1e-6);
+    EXPECT_THAT(model.notes, ::testing::IsEmpty());
+    EXPECT_EQ(model.unit, "cubit");
+}
+
+// It had come in millimetres.
+TEST_F(CadFile, AUnitThatIsConvertedInSeveralStepsIsTaken) {
+    const std::string inch =
+        "#9003 = ( CONVERSION_BASED_UNIT('INCH',#9004) LENGTH_UNIT() NAMED_UNIT(#9001) );\n"
+        "#9004 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.54),#9005);\n"
+        "#9005 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) );";
+    const CadModel model = read_text(dome_in(conversion("HAND", "4.", inch)), "hand.step");
+    EXPECT_NEAR(width(model), 80.0 * 4.0 * 25.4, 1e-6);
+    EXPECT_EQ(model.unit, "hand");
+    EXPECT_THAT(model.notes, ::testing::IsEmpty());
+    const std::string circle =
+        "#9003 = ( CONVERSION_BASED_UNIT('INCH',#9002) LENGTH_UNIT() NAMED_UNIT(#9001) );";
+    EXPECT_THAT(read_text(dome_in(conversion("HAND", "1.", circle)), "circle.step").notes,
+                ElementsAre(HasSubstr("its factor has no unit")));
+}
+
+// They had come as millimetres or metres without a word.
+TEST_F(CadFile, AUnitThatIsNotUnderstoodIsToldWithItsPlace) {
+    const auto told = [&](const std::string& unit) {
+        const CadModel model = read_text(dome_in(unit), "unit.step");
+        return fmt::format("{:.0f} mm: {}", width(model), fmt::join(model.notes, "; "));
+    };
+    EXPECT_EQ(told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.DECI.,.METRE.) );"), "8000 mm: ");
+    EXPECT_EQ(
+        told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) );"),
+        "80000 mm: the unit of length #106 in line 137 is not understood (Enumeration si_prefix has not an "
+        "allowed value): one of 1000 mm is taken");
+    EXPECT_EQ(told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.GRAM.) );"),
+              "80 mm: the unit of length #106 in line 137 is not understood (it is no metre): one of 1 mm is "
+              "taken");
+    const std::string exponents = "\n#9001 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);";
+    EXPECT_EQ(
+        told("UNIT_HERE = ( CONVERSION_BASED_UNIT('CUBIT',$) LENGTH_UNIT() NAMED_UNIT(#9001) );" + exponents),
+        "80 mm: the unit of length #106 in line 137 is not understood (it has no factor): one of 1 mm is "
+        "taken");
+    EXPECT_EQ(
+        told("UNIT_HERE = ( CONTEXT_DEPENDENT_UNIT('CUBIT') LENGTH_UNIT() NAMED_UNIT(#9001) );" + exponents),
+        "80 mm: #105 in line 133 has no unit of length that is understood: mm are taken");
+    EXPECT_EQ(told(""), "80 mm: #105 in line 133 has no unit of length that is understood: mm are taken");
+}
+
+TEST_F(CadFile, AUnitOfNoLengthIsRefusedWithItsLine) {
+    for (const char* const factor : {"0.", "-25.4"}) {
+        EXPECT_THAT(refusal(dome_in(conversion("INCH", factor)), "none.step"),
+                    HasSubstr("a unit of length of"));
+    }
 }
 
 // Given one by one, each face costs the library a look at all that came before, and makes a part of its own.

@@ -18,6 +18,7 @@
 namespace millwright::exchange {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr std::string_view two_triangles = R"(solid plate
@@ -92,6 +93,49 @@ TEST(MeshFile, BinaryStlIsTheSame) {
     const MeshFile read = parsed(binary_stl(plate));
     EXPECT_EQ(read.mesh.points, parsed(two_triangles).mesh.points);
     EXPECT_EQ(read.mesh.triangles, parsed(two_triangles).mesh.triangles);
+}
+
+// They were left out without a word.
+TEST(MeshFile, TrianglesBehindThoseThatAStlHeaderCountsAreTold) {
+    EXPECT_TRUE(parsed(binary_stl(plate)).notes.empty());
+    std::string one = binary_stl(plate);
+    one[80] = 1;
+    const MeshFile read = parsed(one);
+    EXPECT_EQ(read.mesh.triangles.size(), 1u);
+    EXPECT_THAT(
+        read.notes,
+        ElementsAre("50 bytes behind the triangle that the header counts are not read: room for 1 more"));
+    EXPECT_THAT(
+        parsed(binary_stl(plate) + "end").notes,
+        ElementsAre("3 bytes behind the 2 triangles that the header counts are not read: room for 0 more"));
+}
+
+// It was taken for text.
+TEST(MeshFile, ABinaryStlThatBeginsWithSolidMayHoldMoreThanItCounts) {
+    std::string bytes = binary_stl(plate) + "end";
+    bytes.replace(0, 5, "solid");
+    EXPECT_EQ(parsed(bytes).mesh.triangles.size(), 2u);
+    EXPECT_EQ(parsed(bytes).notes.size(), 1u);
+}
+
+TEST(MeshFile, WhatFollowsTheElementsOfAPlyIsTold) {
+    const std::string head = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string text = "ply\nformat ascii 1.0\n" + head + "0 0 0\n4 0 0\n0 3 0\n3 0 1 2\n";
+    EXPECT_TRUE(parsed(text + " \n\n", "part.ply").notes.empty());
+    EXPECT_THAT(parsed(text + "\n3 0 2 1\n", "part.ply").notes,
+                ElementsAre("what follows the elements that the head counts, from line 15 on, is not read"));
+    std::string binary = "ply\nformat binary_little_endian 1.0\n" + head;
+    for (const float value : {0.0F, 0.0F, 0.0F, 4.0F, 0.0F, 0.0F, 0.0F, 3.0F, 0.0F}) {
+        append(binary, &value, sizeof value);
+    }
+    binary += '\3';
+    for (const std::int32_t corner : {0, 1, 2}) {
+        append(binary, &corner, sizeof corner);
+    }
+    EXPECT_TRUE(parsed(binary + "\n", "part.ply").notes.empty());
+    EXPECT_THAT(parsed(binary + "more", "part.ply").notes,
+                ElementsAre("4 bytes behind the elements that the head counts are not read"));
 }
 
 TEST(MeshFile, FacesOfManyCornersAreCutUp) {

@@ -115,7 +115,7 @@ TEST(ReferenceMesh, OfATrimmedFaceEndsAtItsOutline) {
     face.outline = {{0.13, 0.0}, {1.71, 0.21}, {1.37, 0.93}, {0.29, 0.77}};
     face.holes = {{{0.8, 0.4}, {1.23, 0.41}, {1.04, 0.59}}};
     ImportSource source;
-    source.model = exchange::CadModel{.faces = {face}, .left_out = {}, .unit = "mm"};
+    source.model = exchange::CadModel{.faces = {face}, .left_out = {}, .notes = {}, .unit = "mm"};
     const exchange::TriangleMesh mesh = reference_mesh(source, {}, nullptr, Progress()).rest;
     double area = 0.0;
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
@@ -149,7 +149,7 @@ exchange::CadFace plate(const std::vector<Vec2>& holes, int corners) {
 
 exchange::TriangleMesh reference_of(std::vector<exchange::CadFace> faces) {
     ImportSource source;
-    source.model = exchange::CadModel{.faces = std::move(faces), .left_out = {}, .unit = "mm"};
+    source.model = exchange::CadModel{.faces = std::move(faces), .left_out = {}, .notes = {}, .unit = "mm"};
     return reference_mesh(source, {}, nullptr, Progress()).rest;
 }
 

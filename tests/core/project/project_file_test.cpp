@@ -206,8 +206,19 @@ TEST(ProjectFile, ARegionOfAdaptationComesBackAndAFaultyOneIsRefused) {
     };
     EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1]]})")), HasSubstr("3 to 200 corners"));
     EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1], [2, 0]]})")), HasSubstr("outline[2]"));
+    EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1], [0.5, 0.5]]})")),
+                HasSubstr("grid/elliptic/region/outline: the outline encloses no area"));
     EXPECT_THAT(fault_in(with(R"({"outline": [[0, 0], [1, 1], [1, 0]], "border_mm": -1})")),
                 HasSubstr("border_mm"));
+}
+
+TEST(ProjectFile, APartOfNanometresIsRefusedAtItsPatch) {
+    const std::string text =
+        R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
+        "surface": {"patches": [{"points": [[[0, 0, 0], [0, 5e-6, 0]], [[5e-6, 0, 0], [5e-6, 5e-6, 0]]]}]}})";
+    EXPECT_THAT(
+        fault_in(text),
+        HasSubstr("part.json:2:33: surface/patches[0]: the part is 5e-06 mm large, less than 0.001 mm"));
 }
 
 TEST(ProjectFile, AMissingFileIsNamed) {

@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace millwright::project {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -75,6 +77,42 @@ TEST(Project, ASurfaceNeedsItsPatches) {
     project.surface.patches.clear();
     project.surface.machined_patch = 0;
     EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("at least one patch")));
+}
+
+/// The dome, smaller.
+Project shrunk(double factor) {
+    Project project = project_from_preset("dome");
+    project.surface.preset.clear();
+    for (Vec3& point : project.surface.patches.front().points) {
+        point *= factor;
+    }
+    return project;
+}
+
+// It was planned without a word.
+TEST(Project, APartBelowAMicrometreIsAFaultWithItsSize) {
+    EXPECT_THAT(faults_of(shrunk(1e-4)), ElementsAre());
+    EXPECT_THAT(
+        faults_of(shrunk(1e-5)),
+        ElementsAre(AllOf(HasSubstr("surface/patches[0]: the part is 0.00089 mm large, less than 0.001 mm"),
+                          HasSubstr("In inches it would be 0.0226 mm large, in metres 0.89 mm"))));
+}
+
+TEST(Project, ARegionWithoutAreaIsAFault) {
+    Project project = project_from_preset("dome");
+    using Outline = std::vector<Vec2>;
+    for (const Outline& none : {Outline{{0.1, 0.1}, {0.5, 0.5}, {0.9, 0.9}},
+                                Outline{{0.3, 0.3}, {0.3, 0.3}, {0.3, 0.3}},
+                                Outline{{0.1, 0.1}, {0.5, 0.5}, {0.9, 0.1}, {0.5, 0.5}}}) {
+        project.grid.elliptic.region.outline = none;
+        EXPECT_THAT(faults_of(project), ElementsAre("grid/elliptic/region: the outline encloses no area"));
+    }
+    for (const Outline& some : {Outline{{0.1, 0.1}, {0.5, 0.5}, {0.9, 0.8}},
+                                Outline{{0.1, 0.1}, {0.9, 0.9}, {0.9, 0.1}, {0.1, 0.9}}, // crosses itself
+                                Outline{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}}) {
+        project.grid.elliptic.region.outline = some;
+        EXPECT_THAT(faults_of(project), ElementsAre());
+    }
 }
 
 TEST(Project, AnUnknownPresetOrNoMachineIsAFault) {

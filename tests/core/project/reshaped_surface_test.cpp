@@ -71,6 +71,9 @@ TEST(ReshapedSurface, PaintAndRegionStayWhereTheyAreInSpace) {
     EXPECT_EQ(half.grid.elliptic.region.outline, outline);
     EXPECT_EQ(half.grid.elliptic.region.border_mm, project.grid.elliptic.region.border_mm);
     EXPECT_TRUE(with_split(project, 0, Parameter::u, 0.15).grid.elliptic.region.everywhere());
+    project.grid.elliptic.region.outline = {{0.5, 0.2}, {0.8, 0.2}, {0.8, 0.6}, {0.5, 0.6}};
+    EXPECT_TRUE(with_split(project, 0, Parameter::u, 0.5).grid.elliptic.region.everywhere())
+        << "a side alone";
 
     project.surface.patches.push_back(project.surface.patches.front());
     const Project other = with_split(project, 1, Parameter::v, 0.5);

@@ -4,6 +4,7 @@
 #include "core/toolpath/spiral.h"
 #include "core/toolpath/strategy.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -120,7 +121,7 @@ TEST(TrimmedPath, NodesWithoutANormalAreNoHarmWhereNothingIsCut) {
     EXPECT_THROW((void)zigzag(patch, grid, TrackDirection::along_u, false), Error);
     const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
                      {{0.625, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.625, 1.0}}}}; // through nodes
-    const OutlineTree outline(ends);
+    const geometry::OutlineTree outline(ends);
     for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
         const Toolpath path = trimmed(patch, ends, zigzag(patch, grid, direction, false, &outline), false);
         for (const PathPoint& point : path.points) {
@@ -128,6 +129,81 @@ TEST(TrimmedPath, NodesWithoutANormalAreNoHarmWhereNothingIsCut) {
             EXPECT_NE(point.origin.uv.x(), 0.5);
         }
     }
+}
+
+/// A flat triangle, whose side u = 0 is one point.
+geometry::BezierPatch triangle() {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    for (int j = 0; j < 2; ++j) {
+        net.point(0, j) = Vec3::Zero();
+        net.point(1, j) = {60.0, 60.0 * j - 30.0, 0.0};
+    }
+    return geometry::BezierPatch(net);
+}
+
+Toolpath covered(const geometry::BezierPatch& patch,
+                 const Trim& trim,
+                 StrategyKind kind,
+                 TrackDirection direction,
+                 bool knows_outline = true) {
+    const auto machine = test::machine("ac-table");
+    const Tool tool =
+        kind == StrategyKind::constant_scallop ? Tool{.cutter = test::body(test::ball)} : Tool{};
+    const Grid grid = Grid::uniform(9, 5); // with a row on u = 0.5
+    const geometry::OutlineTree outline(trim);
+    const Covering all{patch, machine, tool, grid, direction, false, knows_outline ? &outline : nullptr};
+    const auto strategy = make_strategy({.kind = kind, .scallop = 0.2, .tolerance = 0.5});
+    return trimmed(patch, trim, strategy->contacts(all, Progress()), false);
+}
+
+// All but the zigzag refused it.
+TEST(TrimmedPath, NoStrategyNeedsANormalWhereNothingIsCut) {
+    const auto patch = triangle();
+    const Trim far_side{{{{0.25, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.25, 1.0}}}};
+    for (const auto kind : {StrategyKind::zigzag,
+                            StrategyKind::spiral,
+                            StrategyKind::constant_scallop,
+                            StrategyKind::fewest_points}) {
+        for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            if (kind != StrategyKind::fewest_points) { // which refuses after a long search
+                EXPECT_THROW((void)covered(patch, far_side, kind, direction, false), Error);
+            }
+            const Toolpath path = covered(patch, far_side, kind, direction);
+            double low = 1.0, high = 0.0;
+            for (const PathPoint& point : path.points) {
+                EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12) << point.origin.uv.transpose();
+                low = std::min(low, point.origin.uv.x());
+                high = std::max(high, point.origin.uv.x());
+            }
+            EXPECT_GE(low, 0.25 - 1e-9) << static_cast<int>(kind);
+            EXPECT_LE(low, 0.375) << static_cast<int>(kind);
+            EXPECT_EQ(high, 1.0) << static_cast<int>(kind);
+        }
+    }
+}
+
+TEST(TrimmedPath, AHoleInWhichTheSurfaceTurnsOverIsNoHarm) {
+    const auto patch = bow_tie();
+    const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
+                     {{0.625, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.625, 1.0}}}};
+    for (const auto kind : {StrategyKind::spiral, StrategyKind::constant_scallop}) {
+        for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+            for (const PathPoint& point : covered(patch, ends, kind, direction).points) {
+                EXPECT_GE(std::abs(point.origin.uv.x() - 0.5), 0.125 - 1e-9);
+                EXPECT_NEAR(std::abs(point.normal.z()), 1.0, 1e-12);
+            }
+        }
+    }
+}
+
+/// The pieces of a track beside a hole begin and end at it, each with as few points as it needs.
+TEST(TrimmedPath, FewestPointsAreThoseOfThePiecesThatAreCut) {
+    const auto patch = test::patch("dome");
+    const Toolpath path = covered(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v);
+    const Toolpath whole =
+        covered(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v, false);
+    EXPECT_LT(path.points.size(), whole.points.size());
+    EXPECT_NEAR(cut_length(path), cut_length(whole), 1e-9);
 }
 
 TEST(TrimmedPath, NothingLeftIsToldWithAHint) {

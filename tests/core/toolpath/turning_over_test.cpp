@@ -71,7 +71,7 @@ Trim::Loop square(double low, double high) {
 
 void look(const BezierPatch& patch, const Trim& trim, int nodes, TrackDirection direction) {
     const Grid grid = Grid::uniform(nodes, nodes);
-    const OutlineTree outline(trim);
+    const geometry::OutlineTree outline(trim);
     refuse_turning_over(patch, trim, grid, zigzag(patch, grid, direction, false, &outline));
 }
 

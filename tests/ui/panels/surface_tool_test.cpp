@@ -66,6 +66,23 @@ TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMade
     person_.keep("grid-paint-raised");
 }
 
+// The grid stayed uniform, unsaid.
+TEST_F(SurfaceTools, AMixWithoutAnyShareIsTold) {
+    person_.workshop().edit("Weigh by a mix",
+                            [](project::Project& p) {
+                                p.grid.elliptic.weight = project::WeightSource::mixed;
+                                p.grid.elliptic.mix = {.error = 0.0, .painted = 1.0};
+                            },
+                            {});
+    person_.wait_idle();
+    EXPECT_FALSE(person_.sees("inspector/elliptic/mix/no_share"));
+    person_.fill_in("inspector/elliptic/mix/painted", "0");
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/elliptic/mix/no_share"));
+    EXPECT_FALSE(person_.workshop().look().plan->failure);
+    person_.keep("grid-no-share");
+}
+
 // T20.
 TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.click("inspector/surface_tool/tool/brush");
@@ -136,6 +153,19 @@ TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
     EXPECT_NE(person_.workshop().look().plan->plan.weight->values, everywhere->values);
     person_.click("inspector/surface_tool/clear_outline");
     EXPECT_TRUE(region().everywhere());
+}
+
+TEST_F(SurfaceTools, AnOutlineWithoutAreaIsToldAndItsCornersStay) {
+    person_.click("inspector/surface_tool/tool/outline");
+    const std::vector<Vec2> line{{0.4, 0.5}, {0.6, 0.5}, {0.5, 0.5}};
+    person_.workshop().session().surface_tool.draft = line;
+    person_.wait_idle();
+    person_.click("view/corner(0)");
+    person_.wait_idle();
+    EXPECT_TRUE(region().everywhere());
+    EXPECT_EQ(person_.workshop().session().surface_tool.draft, line);
+    EXPECT_TRUE(person_.sees("notices/1"));
+    person_.keep("grid-outline-in-a-line");
 }
 
 TEST_F(SurfaceTools, EscDropsAnOutlineInTheMaking) {

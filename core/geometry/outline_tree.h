@@ -5,18 +5,18 @@
 
 #include <vector>
 
-namespace millwright::toolpath {
+namespace millwright::geometry {
 
 /// Answers as the Trim does, in the time of the edges that a place or a way comes near and the logarithm of
 /// their number: stretches of a loop are halved down to single edges, each in the box that holds it.
 class OutlineTree {
 public:
-    explicit OutlineTree(const geometry::Trim& trim);
+    explicit OutlineTree(const Trim& trim);
 
     /// As Trim::contains.
     [[nodiscard]] bool contains(const Vec2& uv) const;
-    /// As geometry::parts_inside.
-    [[nodiscard]] std::vector<geometry::WayPart> parts_inside(const Vec2& a, const Vec2& b) const;
+    /// As parts_inside.
+    [[nodiscard]] std::vector<WayPart> parts_inside(const Vec2& a, const Vec2& b) const;
 
 private:
     /// A stretch of a loop: the edges from corner `first` to corner `last`, which follow each other. Its
@@ -36,4 +36,4 @@ private:
     std::vector<std::size_t> loops_; ///< the stretch of each whole loop
 };
 
-} // namespace millwright::toolpath
+} // namespace millwright::geometry

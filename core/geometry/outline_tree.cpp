@@ -1,4 +1,4 @@
-#include "core/toolpath/outline_tree.h"
+#include "core/geometry/outline_tree.h"
 
 #include "core/geometry/outline_edges.h"
 
@@ -6,12 +6,9 @@
 #include <cmath>
 #include <utility>
 
-namespace millwright::toolpath {
+namespace millwright::geometry {
 
 namespace {
-
-using geometry::cross;
-using geometry::WayPart;
 
 constexpr std::size_t few_edges = 4; // looked at one by one
 /// Of the patch's side: what is nearer to a box is not decided by the box, but as the single edges have it.
@@ -29,8 +26,8 @@ bool may_meet(const Vec2& low, const Vec2& high, const Vec2& a, const Vec2& b) {
 
 } // namespace
 
-OutlineTree::OutlineTree(const geometry::Trim& trim) {
-    for (const geometry::Trim::Loop& loop : trim.loops) {
+OutlineTree::OutlineTree(const Trim& trim) {
+    for (const Trim::Loop& loop : trim.loops) {
         const std::size_t first = corners_.size();
         corners_.insert(corners_.end(), loop.begin(), loop.end());
         corners_.push_back(loop.front());
@@ -56,7 +53,7 @@ void OutlineTree::add(std::size_t first, std::size_t last) {
 }
 
 bool OutlineTree::contains(const Vec2& uv) const {
-    const Vec2 at = geometry::off_the_border(uv);
+    const Vec2 at = off_the_border(uv);
     bool odd = loops_.empty();
     for (const std::size_t loop : loops_) {
         odd = odd != odd_on_right(loop, at);
@@ -80,7 +77,7 @@ bool OutlineTree::odd_on_right(std::size_t number, const Vec2& at) const {
     }
     bool odd = false;
     for (std::size_t n = stretch.first; n < stretch.last; ++n) {
-        odd = odd != geometry::crosses_ray(corners_[n], corners_[n + 1], at);
+        odd = odd != crosses_ray(corners_[n], corners_[n + 1], at);
     }
     return odd;
 }
@@ -99,7 +96,7 @@ void OutlineTree::add_crossings(std::size_t number,
         return;
     }
     for (std::size_t n = stretch.first; n < stretch.last; ++n) {
-        if (const auto share = geometry::crossing(a, b - a, corners_[n], corners_[n + 1])) {
+        if (const auto share = crossing(a, b - a, corners_[n], corners_[n + 1])) {
             shares.push_back(*share);
         }
     }
@@ -113,8 +110,7 @@ std::vector<WayPart> OutlineTree::parts_inside(const Vec2& a, const Vec2& b) con
     for (const std::size_t loop : loops_) {
         add_crossings(loop, a, b, shares);
     }
-    return geometry::parts_between(std::move(shares),
-                                   [&](double share) { return contains(a + share * (b - a)); });
+    return parts_between(std::move(shares), [&](double share) { return contains(a + share * (b - a)); });
 }
 
-} // namespace millwright::toolpath
+} // namespace millwright::geometry

@@ -1,15 +1,12 @@
-#include "core/toolpath/outline_tree.h"
+#include "core/geometry/outline_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace millwright::toolpath {
+namespace millwright::geometry {
 namespace {
-
-using geometry::Trim;
-using geometry::WayPart;
 
 /// Loops of any shape: they cross themselves and each other, leave the patch, and have corners on its border,
 /// on each other's heights and twice at one place.
@@ -100,10 +97,10 @@ TEST(OutlineTree, WithoutOutlinesThereIsEverything) {
 }
 
 TEST(OutlineTree, EveryCornerOfAHundredThousandIsAskedAbout) {
-    const Trim trim = saw(geometry::most_trim_corners - 2); // 20 s where each part looks at every edge
+    const Trim trim = saw(most_trim_corners - 2); // 20 s where each part looks at every edge
     const auto parts = OutlineTree(trim).parts_inside({0.0, 0.5}, {1.0, 0.5});
     EXPECT_EQ(parts.size(), 49'999U);
 }
 
 } // namespace
-} // namespace millwright::toolpath
+} // namespace millwright::geometry

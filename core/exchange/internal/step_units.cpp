@@ -1,0 +1,181 @@
+#include "core/exchange/internal/step_units.h"
+
+#include "core/base/error.h"
+
+#include <Interface_Check.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <StepBasic_ConversionBasedUnitAndLengthUnit.hxx>
+#include <StepBasic_LengthMeasureWithUnit.hxx>
+#include <StepBasic_MeasureValueMember.hxx>
+#include <StepBasic_MeasureWithUnit.hxx>
+#include <StepBasic_NamedUnit.hxx>
+#include <StepBasic_SiUnitAndLengthUnit.hxx>
+#include <StepBasic_Unit.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::exchange {
+
+namespace {
+
+using LengthConversion = StepBasic_ConversionBasedUnitAndLengthUnit;
+using ContextWithUnits = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
+using ContextWithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
+
+class StepUnits {
+public:
+    StepUnits(const StepData_StepModel& model, const std::string& text, const std::filesystem::path& file)
+        : model_(model), text_(text), file_(file) {}
+
+    [[nodiscard]] std::vector<std::string> settled() {
+        for (int n = 1; n <= model_.NbEntities(); ++n) {
+            unfold(Handle(LengthConversion)::DownCast(model_.Value(n)));
+        }
+        for (int n = 1; n <= model_.NbEntities(); ++n) {
+            look_at_context(model_.Value(n));
+        }
+        if (contexts_ == 0) {
+            notes_.emplace_back("the file names no unit of length: mm are taken");
+        }
+        return std::move(notes_);
+    }
+
+private:
+    [[nodiscard]] std::string label(const Handle(Standard_Transient) & entity) const {
+        return model_.StringLabel(entity)->ToCString();
+    }
+
+    /// Where the entity begins; 0 if that is not found.
+    [[nodiscard]] int line_of(const std::string& entity) const {
+        for (std::size_t at = text_.find(entity); at != std::string::npos; at = text_.find(entity, at + 1)) {
+            const std::size_t next = text_.find_first_not_of(" \t\r\n", at + entity.size());
+            if (next != std::string::npos && text_[next] == '=') {
+                return 1 + static_cast<int>(std::count(
+                               text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            }
+        }
+        return 0;
+    }
+
+    /// "#106 in line 137"
+    [[nodiscard]] std::string place(const Handle(Standard_Transient) & entity) const {
+        return fmt::format("{} in line {}", label(entity), line_of(label(entity)));
+    }
+
+    /// Gives the unit the factor to what stands at the end of its conversions.
+    void unfold(const Handle(LengthConversion) & unit) const {
+        if (unit.IsNull() || unit->ConversionFactor().IsNull()) {
+            return;
+        }
+        constexpr int most_steps = 16; // a file may go round in a circle
+        double factor = 1.0;
+        Handle(StepBasic_MeasureWithUnit) measure = unit->ConversionFactor();
+        for (int step = 0; step < most_steps; ++step) {
+            factor *= measure->ValueComponent();
+            const auto next = Handle(LengthConversion)::DownCast(measure->UnitComponent().NamedUnit());
+            if (next.IsNull() || next->ConversionFactor().IsNull()) {
+                break;
+            }
+            measure = next->ConversionFactor();
+        }
+        if (measure != unit->ConversionFactor()) {
+            const Handle(StepBasic_MeasureValueMember) value = new StepBasic_MeasureValueMember;
+            value->SetName("LENGTH_MEASURE");
+            value->SetReal(factor);
+            const Handle(StepBasic_LengthMeasureWithUnit) whole = new StepBasic_LengthMeasureWithUnit;
+            whole->Init(value, measure->UnitComponent());
+            unit->SetConversionFactor(whole);
+        }
+    }
+
+    void look_at_context(const Handle(Standard_Transient) & entity) {
+        const auto with_units = Handle(ContextWithUnits)::DownCast(entity);
+        const auto with_uncertainty = Handle(ContextWithUncertainty)::DownCast(entity);
+        if (!with_units.IsNull()) {
+            look_at_units(entity, with_units->GlobalUnitAssignedContext());
+        } else if (!with_uncertainty.IsNull()) {
+            look_at_units(entity, with_uncertainty->GlobalUnitAssignedContext());
+        }
+    }
+
+    void look_at_units(const Handle(Standard_Transient) & context,
+                       const Handle(StepRepr_GlobalUnitAssignedContext) & units) {
+        ++contexts_;
+        STEPConstruct_UnitContext taken;
+        (void)taken.ComputeFactors(units);
+        const int count = units.IsNull() || units->Units().IsNull() ? 0 : units->NbUnits();
+        bool told = false;
+        for (int n = 1; n <= count; ++n) {
+            told = look_at_unit(units->UnitsValue(n)) || told;
+        }
+        if (!taken.LengthDone() && !told) {
+            notes_.push_back(
+                fmt::format("{} has no unit of length that is understood: mm are taken", place(context)));
+        }
+    }
+
+    /// Whether something is said of it.
+    bool look_at_unit(const Handle(StepBasic_NamedUnit) & unit) {
+        if (unit.IsNull() || !(unit->IsKind(STANDARD_TYPE(LengthConversion)) ||
+                               unit->IsKind(STANDARD_TYPE(StepBasic_SiUnitAndLengthUnit)))) {
+            return false;
+        }
+        STEPConstruct_UnitContext taken;
+        (void)taken.ComputeFactors(unit);
+        const double mm = taken.LengthDone() ? taken.LengthFactor() : 1.0;
+        if (!(std::isfinite(mm) && mm > 0.0)) {
+            throw Error(Diagnostic{{file_, line_of(label(unit))},
+                                   fmt::format("{}: a unit of length of {:g} mm", label(unit), mm),
+                                   "write the file anew with the program that made it"});
+        }
+        const std::string fault = fault_of(unit);
+        if (!fault.empty()) {
+            notes_.push_back(
+                fmt::format("the unit of length {} is not understood ({}): one of {:g} mm is taken",
+                            place(unit),
+                            fault,
+                            mm));
+        }
+        return !fault.empty();
+    }
+
+    /// What the library found wrong as it read the unit or one that it is converted to.
+    [[nodiscard]] std::string fault_of(const Handle(StepBasic_NamedUnit) & unit) const {
+        if (const auto conversion = Handle(LengthConversion)::DownCast(unit); !conversion.IsNull()) {
+            const Handle(StepBasic_MeasureWithUnit) measure = conversion->ConversionFactor();
+            if (measure.IsNull()) {
+                return "it has no factor";
+            }
+            const Handle(StepBasic_NamedUnit) base = measure->UnitComponent().NamedUnit();
+            return base.IsNull() || base->IsKind(STANDARD_TYPE(LengthConversion)) ? "its factor has no unit"
+                                                                                  : fault_of(base);
+        }
+        const auto si = Handle(StepBasic_SiUnit)::DownCast(unit);
+        const int number = model_.Number(unit);
+        if (number > 0 && model_.Check(number, Standard_True)->HasFailed()) {
+            return model_.Check(number, Standard_True)->CFail(1);
+        }
+        return si.IsNull() || si->Name() != StepBasic_sunMetre ? "it is no metre" : "";
+    }
+
+    const StepData_StepModel& model_;
+    const std::string& text_;
+    const std::filesystem::path& file_;
+    int contexts_ = 0;
+    std::vector<std::string> notes_;
+};
+
+} // namespace
+
+std::vector<std::string>
+settled_units(const StepData_StepModel& model, const std::string& text, const std::filesystem::path& file) {
+    return StepUnits(model, text, file).settled();
+}
+
+} // namespace millwright::exchange
