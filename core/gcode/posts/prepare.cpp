@@ -4,6 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/internal/written.h"
+#include "core/gcode/reader/inverse_time.h"
 #include "core/gcode/retract.h"
 #include "core/kinematics/forward.h"
 
@@ -83,6 +84,7 @@ public:
                 keep_speed(block, meant_from);
             } else {
                 keep_to_digits(block);
+                keep_time_of_turn(block);
             }
         }
         moved_ = true;
@@ -128,6 +130,27 @@ private:
         const double steps = std::max(1.0, std::floor(digits + same));
         if (std::abs(digits - steps) > same) {
             block.duration = seconds_a_minute / (steps * format_.numbers.feed.digit());
+        }
+    }
+
+    /// While axes turn by much and the tool goes by next to nothing, a control that takes the feed of the
+    /// latter for too small would make the turn too fast: it is written as a turn alone, the rest of the way
+    /// with the next move.
+    void keep_time_of_turn(Block& block) const {
+        constexpr double next_to_nothing = 1e-3; // mm
+        constexpr double seconds_a_minute = 60.0;
+        const FeedWay way = feed_way(result_.program.axes, here(), block.target);
+        const double a_minute = way.length / format_.length_unit() / block.duration * seconds_a_minute;
+        if (format_.positions != PositionsOf::axes || way.angular || way.length > next_to_nothing ||
+            !(a_minute < least_inverse_time_feed)) {
+            return;
+        }
+        AxisPositions turned = here();
+        for (const int n : machine_.rotary_axes()) {
+            turned[n] = block.target[n];
+        }
+        if ((turned - here()).cwiseAbs().maxCoeff() > 0.0) {
+            block.target = turned;
         }
     }
 

@@ -28,7 +28,9 @@ struct PreparedProgram {
 ///   `tip_tolerance` (mm, more than 0), for programs that mean the swing, they are cut until it stays so
 ///   near.
 /// Durations of feeds become those that inverse time can say; with feeds a minute they keep their speed in
-/// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out.
+/// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out; in
+/// inverse time and axis positions one whose linear way is less than 0.1 mm a minute, and than 0.001 mm in
+/// all, is a turn alone, since LinuxCNC would make it faster.
 /// Throws Error naming the axes that the control lacks, the block whose rounded position the machine cannot
 /// reach, or the line that no number of pieces keeps within the tolerance. Throws Defect unless `program` is
 /// for `machine`.

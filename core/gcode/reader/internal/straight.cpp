@@ -4,6 +4,7 @@
 #include "core/gcode/reader/internal/motions.h"
 #include "core/gcode/reader/internal/refusal.h"
 #include "core/gcode/reader/internal/targets.h"
+#include "core/gcode/reader/inverse_time.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +14,6 @@
 namespace millwright::gcode::internal {
 
 namespace {
-
-/// A move of no length would else get a feed of 0 (LinuxCNC), units a minute.
-constexpr double least_inverse_time_feed = 0.1;
 
 void send_straight(Run& run, MoveKind kind, const AxisValues& end) {
     Move move = run.out.new_move(kind);

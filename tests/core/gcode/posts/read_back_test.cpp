@@ -2,6 +2,7 @@
 #include "core/gcode/posts/read_back.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/gcode/posts/arc_fit.h"
 #include "core/gcode/posts/post_file.h"
 #include "core/gcode/posts/prepare.h"
@@ -101,6 +102,33 @@ std::vector<Written> all_written() {
     }
     all.push_back(written_with_arcs());
     return all;
+}
+
+// Near a singular point on the edge of a face: LinuxCNC makes no feed slower than 0.1 mm a minute, and by
+// that would make the turn in 0.06 s. The text was refused, and with it the whole program.
+TEST(ReadBack, PassesATurnBesideNextToNothingOfAWay) {
+    const auto machine = test::machine("ac-table");
+    const int y = machine.axis_index('Y'), c = machine.axis_index('C');
+    Program program = test::empty_program(machine);
+    kinematics::AxisPositions at = program.start;
+    test::add_move(program, at);
+    const auto go = [&](double mm, double degrees) {
+        at[y] += mm;
+        at[c] += to_radians(degrees);
+        test::add_move(program, at, 0.1557);
+    };
+    go(0.5, 2.0);
+    go(1e-4, 2.2334);
+    go(-0.07, 2.2);
+    test::add_block(program, BlockKind::end);
+    Written now;
+    now.ready = prepare(program, machine, now.format);
+    now.listing = write_text(now.ready.program, now.ready.wording, now.format, {});
+    EXPECT_EQ(now.verdict(now.lines()), "");
+    const auto& blocks = now.ready.program.blocks;
+    EXPECT_EQ(blocks[2].target[y], blocks[1].target[y]);
+    EXPECT_NEAR(blocks[2].target[c], to_radians(4.2334), 1e-6);
+    EXPECT_NEAR(blocks[3].target[y], 0.5 + 1e-4 - 0.07, 1e-9);
 }
 
 TEST(ReadBack, PassesWhatWasWritten) {
