@@ -98,9 +98,9 @@ ordered_json face_json(const exchange::CadFace& face) {
         {"size_mm", {size.x(), size.y(), size.z()}}};
 }
 
-/// The notes of a file, and one if all of it is so small that the unit is doubtful.
-std::vector<std::string> with_doubt(std::vector<std::string> notes, const Box3& box, double mm_per_unit) {
-    if (std::string doubt = project::doubt_of_size(box.sizes().maxCoeff(), mm_per_unit); !doubt.empty()) {
+/// The notes of a file, and whether all of it is so small that the unit is doubtful.
+std::vector<std::string> with_doubt(std::vector<std::string> notes, std::string doubt) {
+    if (!doubt.empty()) {
         notes.push_back(std::move(doubt));
     }
     return notes;
@@ -108,15 +108,13 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const Box3& 
 
 ordered_json model_json(const exchange::CadModel& model) {
     ordered_json faces = ordered_json::array();
-    Box3 box;
     for (const exchange::CadFace& face : model.faces) {
         faces.push_back(face_json(face));
-        box.extend(face.box);
     }
     return {{"unit", model.unit},
             {"faces", std::move(faces)},
             {"left_out", model.left_out},
-            {"notes", with_doubt(model.notes, box, 1.0)}};
+            {"notes", with_doubt(model.notes, project::doubt_of_size(model))}};
 }
 
 void print_notes(const std::vector<std::string>& notes) {
@@ -159,7 +157,7 @@ ordered_json mesh_json(const exchange::MeshFile& read, double mm_per_unit) {
             {"triangles", read.mesh.triangles.size()},
             {"without_area", read.without_area},
             {"size_mm", {size.x(), size.y(), size.z()}},
-            {"notes", with_doubt(read.notes, box, mm_per_unit)}};
+            {"notes", with_doubt(read.notes, project::doubt_of_size(size.maxCoeff(), mm_per_unit))}};
 }
 
 void print_mesh(const ordered_json& mesh) {

@@ -16,6 +16,7 @@ namespace millwright::project {
 namespace {
 
 using exchange::CadFace;
+using exchange::CadModel;
 using exchange::TriangleMesh;
 
 exchange::FitSettings fit_settings(const ImportChoice& choice) {
@@ -156,20 +157,28 @@ void check_size(const exchange::TriangleMesh& mesh, double mm_per_unit, const st
     }
 }
 
-/// Throws Error about what is too small, and tells what hardly anyone cuts.
-void look_at_size(ImportedSurface& imported, double mm_per_unit, const std::filesystem::path& file) {
+/// Throws Error with `hint` about what is too small.
+void check_size(const ImportedSurface& imported, const std::string& hint, const std::filesystem::path& file) {
     std::vector<Vec3> points;
     for (const geometry::ControlNet& net : imported.surface.patches) {
         points.insert(points.end(), net.points.begin(), net.points.end());
     }
-    const double size = size_of(points);
-    if (const std::string fault = fault_of_size(size); !fault.empty()) {
-        throw Error("the surface " + fault, file, question_of_unit(size / mm_per_unit));
+    if (const std::string fault = fault_of_size(size_of(points)); !fault.empty()) {
+        throw Error("the surface " + fault, file, hint);
     }
-    if (std::string doubt = doubt_of_size(size, mm_per_unit); !doubt.empty()) {
+}
+
+void tell(ImportedSurface& imported, std::string doubt) {
+    if (!doubt.empty()) {
         imported.notes.push_back(std::move(doubt));
     }
 }
+
+std::string question_of_unit(const CadModel& model) {
+    return fmt::format("is the unit that the file names, {}, right?", model.unit);
+}
+
+constexpr double doubtful_mm = 1.0; // hardly anyone cuts what is smaller
 
 void check_reach(const ImportedSurface& imported, const std::filesystem::path& file) {
     for (const geometry::ControlNet& net : imported.surface.patches) {
@@ -205,11 +214,21 @@ bool is_importable(const std::filesystem::path& file) {
 }
 
 std::string doubt_of_size(double size_mm, double mm_per_unit) {
-    constexpr double doubtful_mm = 1.0;
     return size_mm < doubtful_mm ? fmt::format("all of it is only {:.3g} mm large: {}",
                                                size_mm,
                                                question_of_unit(size_mm / mm_per_unit))
                                  : std::string();
+}
+
+std::string doubt_of_size(const CadModel& model) {
+    Box3 box;
+    for (const CadFace& face : model.faces) {
+        box.extend(face.box);
+    }
+    const double size = box.isEmpty() ? doubtful_mm : box.sizes().maxCoeff();
+    return size < doubtful_mm
+               ? fmt::format("all of it is only {:.3g} mm large: {}", size, question_of_unit(model))
+               : std::string();
 }
 
 ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
@@ -236,14 +255,17 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         check_reach(source.mesh->mesh, choice.mm_per_unit, source.file);
         check_size(source.mesh->mesh, choice.mm_per_unit, source.file);
         imported = import_mesh(*source.mesh, choice, progress);
+        const double unit = choice.mm_per_unit;
+        tell(imported, doubt_of_size(unit * size_of(source.mesh->mesh.points), unit));
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
         const exchange::CadModel& model = *source.model;
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
         imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());
+        check_size(imported, question_of_unit(model), source.file);
+        tell(imported, doubt_of_size(model));
     }
     check_reach(imported, source.file);
-    look_at_size(imported, source.mesh ? choice.mm_per_unit : 1.0, source.file);
     return imported;
 }
 

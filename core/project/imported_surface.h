@@ -48,8 +48,11 @@ struct ImportedSurface {
 /// Whether the name ends like that of a file that can be imported.
 [[nodiscard]] bool is_importable(const std::filesystem::path& file);
 
-/// Of something so small that its unit is doubtful, a sentence with its size in others; else empty.
+/// Of a mesh so small that its unit, which no such file names, is doubtful: a sentence with its size in
+/// others; else empty.
 [[nodiscard]] std::string doubt_of_size(double size_mm, double mm_per_unit);
+/// The same of all faces of a model, whose file names its unit.
+[[nodiscard]] std::string doubt_of_size(const exchange::CadModel& model);
 
 /// Throws Error, naming the file, for one that cannot be read; Cancelled.
 [[nodiscard]] ImportSource read_source(const std::filesystem::path& file, const Progress& progress);

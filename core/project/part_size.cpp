@@ -14,7 +14,7 @@ double size_of(const std::vector<Vec3>& points) {
 
 std::string fault_of_size(double size_mm) {
     return size_mm > 0.0 && size_mm < smallest_part_mm
-               ? fmt::format("is {:.3g} mm large, less than {} mm", size_mm, smallest_part_mm)
+               ? fmt::format("is {:.6g} mm large, less than {} mm", size_mm, smallest_part_mm)
                : std::string();
 }
 

@@ -144,6 +144,19 @@ TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
     EXPECT_FALSE(std::filesystem::exists(path("s.json")));
 }
 
+// A file that names its unit was asked whether it was in inches, of each of its faces for itself.
+TEST_F(ImportCommand, ASmallModelOfCadIsAskedAboutTheUnitThatItsFileNames) {
+    (void)run({"export", "assets/projects/dome.json", "--out", path("dome.step")});
+    std::string text = read_file(path("dome.step"));
+    const std::string milli = "SI_UNIT(.MILLI.,.METRE.)";
+    ASSERT_NE(text.find(milli), std::string::npos);
+    text.replace(text.find(milli), milli.size(), "SI_UNIT(.MICRO.,.METRE.)");
+    write_file(path("small.step"), text);
+    const auto doubt = HasSubstr("mm large: is the unit that the file names, micron, right?");
+    EXPECT_THAT(run({"import", path("small.step")}).err, doubt);
+    EXPECT_THAT(run({"import", path("small.step"), "--out", path("p.json")}).err, doubt);
+}
+
 TEST_F(ImportCommand, SaysWhatIsWrong) {
     const auto refusal = [&](const std::vector<std::string>& arguments) {
         const Ended ended = run(arguments);

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace millwright::exchange {
 
@@ -43,6 +44,9 @@ public:
         if (contexts_ == 0) {
             notes_.emplace_back("the file names no unit of length: mm are taken");
         }
+        if (told_.size() > notes_.size()) {
+            notes_.push_back(fmt::format("and {} more like these", told_.size() - notes_.size()));
+        }
         return std::move(notes_);
     }
 
@@ -51,7 +55,7 @@ private:
         return model_.StringLabel(entity)->ToCString();
     }
 
-    /// Where the entity begins; 0 if that is not found.
+    /// Where the entity begins; 0 if that is not found, as of one that is written otherwise (#0106).
     [[nodiscard]] int line_of(const std::string& entity) const {
         for (std::size_t at = text_.find(entity); at != std::string::npos; at = text_.find(entity, at + 1)) {
             const std::size_t next = text_.find_first_not_of(" \t\r\n", at + entity.size());
@@ -65,7 +69,14 @@ private:
 
     /// "#106 in line 137"
     [[nodiscard]] std::string place(const Handle(Standard_Transient) & entity) const {
-        return fmt::format("{} in line {}", label(entity), line_of(label(entity)));
+        const int line = line_of(label(entity));
+        return line > 0 ? fmt::format("{} in line {}", label(entity), line) : label(entity);
+    }
+
+    /// Whether there is something to say of `entity` that was not said: each is told once, of many a few.
+    bool is_to_be_told(const Handle(Standard_Transient) & entity) {
+        constexpr std::size_t few = 20;
+        return told_.insert(model_.Number(entity)).second && told_.size() <= few;
     }
 
     /// Gives the unit the factor to what stands at the end of its conversions.
@@ -114,7 +125,7 @@ private:
         for (int n = 1; n <= count; ++n) {
             told = look_at_unit(units->UnitsValue(n)) || told;
         }
-        if (!taken.LengthDone() && !told) {
+        if (!taken.LengthDone() && !told && is_to_be_told(context)) {
             notes_.push_back(
                 fmt::format("{} has no unit of length that is understood: mm are taken", place(context)));
         }
@@ -135,7 +146,7 @@ private:
                                    "write the file anew with the program that made it"});
         }
         const std::string fault = fault_of(unit);
-        if (!fault.empty()) {
+        if (!fault.empty() && is_to_be_told(unit)) {
             notes_.push_back(
                 fmt::format("the unit of length {} is not understood ({}): one of {:g} mm is taken",
                             place(unit),
@@ -153,8 +164,11 @@ private:
                 return "it has no factor";
             }
             const Handle(StepBasic_NamedUnit) base = measure->UnitComponent().NamedUnit();
-            return base.IsNull() || base->IsKind(STANDARD_TYPE(LengthConversion)) ? "its factor has no unit"
-                                                                                  : fault_of(base);
+            if (base.IsNull()) {
+                return "its factor has no unit";
+            }
+            return base->IsKind(STANDARD_TYPE(LengthConversion)) ? "its conversions come to no unit"
+                                                                 : fault_of(base);
         }
         const auto si = Handle(StepBasic_SiUnit)::DownCast(unit);
         const int number = model_.Number(unit);
@@ -168,6 +182,7 @@ private:
     const std::string& text_;
     const std::filesystem::path& file_;
     int contexts_ = 0;
+    std::set<int> told_; ///< entities that something was to be said of
     std::vector<std::string> notes_;
 };
 

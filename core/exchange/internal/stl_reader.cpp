@@ -43,6 +43,10 @@ void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
     if (bytes.size() < wanted) {
         soup.fail(fmt::format("{} triangles take {} bytes, the file has {}", count, wanted, bytes.size()));
     }
+    if (count == 0 && bytes.size() >= head_size + facet_size) {
+        soup.fail(fmt::format("the header counts no triangle, and there is room for {}",
+                              (bytes.size() - head_size) / facet_size));
+    }
     if (bytes.size() > wanted) {
         soup.note(left_over_text(count, bytes.size() - wanted));
     }

@@ -187,7 +187,7 @@ TEST_F(CadFile, AUnitThatIsConvertedInSeveralStepsIsTaken) {
     const std::string circle =
         "#9003 = ( CONVERSION_BASED_UNIT('INCH',#9002) LENGTH_UNIT() NAMED_UNIT(#9001) );";
     EXPECT_THAT(read_text(dome_in(conversion("HAND", "1.", circle)), "circle.step").notes,
-                ElementsAre(HasSubstr("its factor has no unit")));
+                ElementsAre(HasSubstr("its conversions come to no unit")));
 }
 
 // They had come as millimetres or metres without a word.
@@ -215,11 +215,48 @@ TEST_F(CadFile, AUnitThatIsNotUnderstoodIsToldWithItsPlace) {
     EXPECT_EQ(told(""), "80 mm: #105 in line 133 has no unit of length that is understood: mm are taken");
 }
 
+// An assembly has a context for each of its parts.
+TEST_F(CadFile, AUnitThatManyContextsHaveIsToldOnceAndOfManyUnitsAFew) {
+    constexpr const char* myriametre = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) )";
+    const auto with_contexts = [&](int count, bool shared) {
+        std::string more;
+        for (int n = 0; n < count; ++n) {
+            const int unit = shared ? 9000 : 9000 + n;
+            if (!shared || n == 0) {
+                more += fmt::format("#{} = {};\n", unit, myriametre);
+            }
+            more += fmt::format("#{} = ( GEOMETRIC_REPRESENTATION_CONTEXT(3) "
+                                "GLOBAL_UNIT_ASSIGNED_CONTEXT((#{})) REPRESENTATION_CONTEXT('','') );\n",
+                                9500 + n,
+                                unit);
+        }
+        write_step(geometry::surface_preset("dome").make(), folder_ / "dome.step", {});
+        std::string text = read_file(folder_ / "dome.step");
+        text.insert(text.rfind("ENDSEC;"), more);
+        return read_text(text, "contexts.step").notes;
+    };
+    EXPECT_THAT(with_contexts(30, true), ElementsAre(HasSubstr("#9000 in line")));
+    const std::vector<std::string> notes = with_contexts(30, false);
+    ASSERT_EQ(notes.size(), 21u);
+    EXPECT_EQ(notes.back(), "and 10 more like these");
+}
+
 TEST_F(CadFile, AUnitOfNoLengthIsRefusedWithItsLine) {
     for (const char* const factor : {"0.", "-25.4"}) {
-        EXPECT_THAT(refusal(dome_in(conversion("INCH", factor)), "none.step"),
-                    HasSubstr("a unit of length of"));
+        try {
+            (void)read_text(dome_in(conversion("INCH", factor)), "none.step");
+            FAIL() << "a unit of " << factor;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.diagnostic().message, HasSubstr("a unit of length of"));
+            EXPECT_EQ(error.diagnostic().place.line, 137);
+        }
     }
+}
+
+TEST_F(CadFile, AUnitThatIsWrittenOtherwiseIsToldWithoutALine) {
+    std::string text = dome_in("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) );");
+    text = std::regex_replace(text, std::regex("#106 ="), "#0106 =");
+    EXPECT_THAT(read_text(text, "zero.step").notes, ElementsAre(HasSubstr("unit of length #106 is not")));
 }
 
 // Given one by one, each face costs the library a look at all that came before, and makes a part of its own.
