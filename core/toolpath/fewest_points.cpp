@@ -1,6 +1,7 @@
 #include "core/toolpath/fewest_points.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/grid/fewest_nodes.h"
 #include "core/toolpath/internal/contact_point.h"
@@ -89,15 +90,19 @@ struct Models {
     }
 };
 
-/// The pieces of one track, to or fro, numbered through.
+/// The pieces of one track, to or fro, numbered through. From track to track it goes along the surface where
+/// both have their own ends there, else over it, as between pieces.
 class Writer {
 public:
     explicit Writer(const Covering& of) : of_(of) { path_.direction = of.direction; }
 
     void add(std::vector<grid::PlacedTrack> pieces, std::size_t track) {
         const bool backwards = track % 2 == 1;
+        const double first = backwards ? 1.0 : 0.0, last = 1.0 - first;
         int number = 0;
-        bool fresh = true;
+        if (pieces.empty()) {
+            at_end_of_track_ = false;
+        }
         if (backwards) {
             std::ranges::reverse(pieces);
         }
@@ -105,16 +110,17 @@ public:
             if (backwards) {
                 std::ranges::reverse(piece.places);
             }
+            const bool links = at_end_of_track_ && exactly_equal(piece.places.front(), first);
             for (std::size_t k = 0; k < piece.places.size(); ++k) {
                 PathPoint point = contact_point(of_.patch, piece.track.at(piece.places[k]), of_.flipped);
                 point.origin = origin_at(of_.direction, static_cast<int>(track), number++, point.origin.uv);
                 point.reached_by = path_.points.empty() ? MoveKind::start
                                    : k > 0              ? MoveKind::track
-                                   : fresh              ? MoveKind::cross
+                                   : links              ? MoveKind::cross
                                                         : MoveKind::over;
-                fresh = false;
                 path_.points.push_back(point);
             }
+            at_end_of_track_ = exactly_equal(piece.places.back(), last);
         }
     }
     [[nodiscard]] Toolpath take() && { return std::move(path_); }
@@ -122,6 +128,7 @@ public:
 private:
     const Covering& of_;
     Toolpath path_;
+    bool at_end_of_track_ = false;
 };
 
 [[noreturn]] void refuse(const grid::Track& track, double tolerance) {

@@ -90,6 +90,8 @@ int descend(const SetUpCost& cost,
     constexpr double out_of_reach = 1e30; // a simplex compares numbers
     constexpr double settled = 1e-3;      // mm, and a thousandth of a degree or so
     const int dimensions = turns(settings) ? 4 : 3;
+    constexpr const char* downhill = "Going downhill from the best place";
+    progress.report(0.0, downhill);
     int evaluations = 0;
     nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(dimensions));
     const nlopt::vfunc value = [](const std::vector<double>& at, std::vector<double>&, void* data) {
@@ -103,8 +105,7 @@ int descend(const SetUpCost& cost,
         std::copy(at.begin(), at.end(), place.begin());
         const PlaceFigures found = cost.figures_at(place, Progress());
         ++evaluations;
-        progress.report(static_cast<double>(evaluations) / settings.descent,
-                        "Going downhill from the best place");
+        progress.report(static_cast<double>(evaluations) / settings.descent, downhill);
         if (found.cost < best.cost) {
             best = {place, found.cost};
         }

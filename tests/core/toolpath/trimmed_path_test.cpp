@@ -1,6 +1,7 @@
 #include "core/toolpath/trimmed_path.h"
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/toolpath/spiral.h"
 #include "core/toolpath/strategy.h"
 #include "core/toolpath/zigzag.h"
@@ -204,6 +205,31 @@ TEST(TrimmedPath, FewestPointsAreThoseOfThePiecesThatAreCut) {
         covered(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v, false);
     EXPECT_LT(path.points.size(), whole.points.size());
     EXPECT_NEAR(cut_length(path), cut_length(whole), 1e-9);
+}
+
+int count_of(const Toolpath& path, MoveKind kind) {
+    return static_cast<int>(std::ranges::count(path.points, kind, &PathPoint::reached_by));
+}
+
+/// A chord along an outline is no way over the surface, however the ends of pieces are rounded.
+TEST(TrimmedPath, FewestPointsGoFromTrackToTrackAlongTheSurfaceAtTheirOwnEndsAlone) {
+    const auto patch = test::patch("dome");
+    Trim::Loop round;
+    for (int n = 0; n < 64; ++n) {
+        const double angle = 2.0 * pi * n / 64.0;
+        round.emplace_back(0.5 + 0.45 * std::cos(angle), 0.5 + 0.45 * std::sin(angle));
+    }
+    for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
+        for (const Trim& trim : {Trim{{round}}, frame()}) {
+            const Toolpath path = covered(patch, trim, StrategyKind::fewest_points, direction);
+            EXPECT_EQ(count_of(path, MoveKind::cross), 0);
+            EXPECT_GT(count_of(path, MoveKind::over), 2);
+        }
+    }
+    const Trim beside{{{{0.25, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.25, 1.0}}}};
+    const Toolpath path = covered(patch, beside, StrategyKind::fewest_points, TrackDirection::along_v);
+    EXPECT_EQ(count_of(path, MoveKind::over), 0);
+    EXPECT_GT(count_of(path, MoveKind::cross), 2);
 }
 
 TEST(TrimmedPath, NothingLeftIsToldWithAHint) {
