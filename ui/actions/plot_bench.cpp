@@ -90,6 +90,7 @@ void PlotBench::play_table() {
     }
     const auto model = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
+    played_ = file();
     if (!now->strokes) {
         return table_->play(table_choice_, *now->path, model);
     }
@@ -100,8 +101,8 @@ void PlotBench::play_table() {
 
 std::optional<Vec3> PlotBench::table_tip() const {
     const TableView now = table_->view();
-    return now.status.state == machine::PlayState::playing ? std::optional(now.status.position)
-                                                           : std::nullopt;
+    const bool moves = now.status.state == machine::PlayState::playing && played_ == file();
+    return moves ? std::optional(now.status.position) : std::nullopt;
 }
 
 namespace {

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] const TableChoice& table_choice() const { return table_choice_; }
     [[nodiscard]] TablePlayer& table() { return *table_; }
     [[nodiscard]] const TablePlayer& table() const { return *table_; }
-    /// Where the tool of the table is that is played to, mm; nothing while none is.
+    /// Where the tool of the table is that what is open is played to, mm; nothing while it is not.
     [[nodiscard]] std::optional<Vec3> table_tip() const;
     /// Of a path that is too long to get its program by itself.
     void make_program() { worker_.request_program(); }
@@ -77,6 +77,7 @@ private:
     TableChoice table_choice_;
     project::PlotWorker worker_;
     std::unique_ptr<TablePlayer> table_;
+    std::filesystem::path played_; ///< file of what the table was last played
 };
 
 } // namespace millwright::actions

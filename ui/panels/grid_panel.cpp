@@ -130,7 +130,11 @@ void draw_note(Ui& ui, const Workbench& now) {
     for (const std::string& note : no_gain_notes(now)) {
         ui.note(note);
     }
-    if (const std::string left_out = project::left_out_sentence(now.project); !left_out.empty()) {
+    const bool is_there = std::ranges::any_of(project::compared_methods, [&](GridMethod method) {
+        return project::is_left_out(now.project, method) && now.evaluation(method); // of before, and still so
+    });
+    if (const std::string left_out = project::left_out_sentence(now.project);
+        !left_out.empty() && !is_there) {
         ui.note(left_out);
     }
     if (!project::follows_nodes(now.project.toolpath.strategy)) {
@@ -240,12 +244,12 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         ui.value("best", labels.best, length_text(state->of_best.mean), "mm");
         ui.value("gain", labels.change, change_text(state->start.mean, state->of_best.mean));
         if (turns_the_tool(now)) {
-            ui.value(
-                "axis",
-                labels.axis,
-                angle_text(state->start.axis_max) + " > " + angle_text(state->of_best.axis_max),
-                "deg",
-                "Largest angle between tool axis and normal on the way: of the start > of the best grid");
+            ui.value("axis",
+                     labels.axis,
+                     angle_text(state->start.axis_max) + " \u2192 " + angle_text(state->of_best.axis_max),
+                     "deg",
+                     "Largest angle between tool axis and normal on the way: of the start \u2192 of the best "
+                     "grid");
         }
         if (const std::string note = watched_note(*state); !note.empty()) {
             ui.note(note);

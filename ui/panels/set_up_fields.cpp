@@ -202,11 +202,12 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project
                       : std::string()),
              "mm");
     if (by_error) {
-        ui.value("axis",
-                 "Axis deviation",
-                 axis_text(search.start.axis_max) + " > " + axis_text(search.best.axis_max),
-                 "deg",
-                 "Largest angle between tool axis and normal on the way, where it stood > at the best place");
+        ui.value(
+            "axis",
+            "Axis deviation",
+            axis_text(search.start.axis_max) + " \u2192 " + axis_text(search.best.axis_max),
+            "deg",
+            "Largest angle between tool axis and normal on the way, where it stood \u2192 at the best place");
     }
     const std::string edge = edge_text(now, found);
     if (!edge.empty()) {

@@ -71,8 +71,8 @@ void gain_text(Ui& ui, const Workbench& now) {
         return;
     }
     const project::Evaluation& before = *plan.unsequenced;
-    const auto both = [](const std::string& from, const std::string& to) { return from + " > " + to; };
-    ui.note("The program with the nearest angles and no point added > as chosen here:");
+    const auto both = [](const std::string& from, const std::string& to) { return from + " \u2192 " + to; };
+    ui.note("The program with the nearest angles and no point added \u2192 as chosen here:");
     ui.value("both_points",
              "Points",
              both(fmt::format("{}", before.toolpath.points.size()),

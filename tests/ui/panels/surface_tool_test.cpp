@@ -71,14 +71,16 @@ TEST_F(SurfaceTools, AMixWithoutAnyShareIsTold) {
     person_.workshop().edit("Weigh by a mix",
                             [](project::Project& p) {
                                 p.grid.elliptic.weight = project::WeightSource::mixed;
-                                p.grid.elliptic.mix = {.error = 0.0, .painted = 1.0};
+                                p.grid.elliptic.mix = {.error = 0.0, .curvature = 1.0};
                             },
                             {});
     person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/elliptic/mix/no_share"));
-    person_.fill_in("inspector/elliptic/mix/painted", "0");
-    person_.wait_idle();
-    EXPECT_TRUE(person_.sees("inspector/elliptic/mix/no_share"));
+    for (const auto& [share, value] : {std::pair("curvature", "0"), std::pair("painted", "1")}) {
+        person_.fill_in(std::string("inspector/elliptic/mix/") + share, value);
+        person_.wait_idle();
+        EXPECT_TRUE(person_.sees("inspector/elliptic/mix/no_share")) << share; // nothing is painted
+    }
     EXPECT_FALSE(person_.workshop().look().plan->failure);
     person_.keep("grid-no-share");
 }

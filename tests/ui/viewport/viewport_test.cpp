@@ -62,6 +62,13 @@ TEST_F(ViewportTest, LabelsOfOnePlaceDoNotCoverEachOther) {
         words.push_back(*at);
     }
     test::keep(picture(), "labels-of-one-place");
+    for (const bool in_sight : {true, false}) { // what is beside the picture has no words at its border
+        render::CameraPose pose = viewport().camera().pose();
+        pose.target = render::to_glm(place) + glm::dvec3(in_sight ? 0.0 : pose.distance, 0.0, 0.0);
+        viewport().set_camera(render::Camera(pose));
+        frame();
+        EXPECT_EQ(ui().place("view/label_0").has_value(), in_sight);
+    }
 }
 
 gcode::PreviewPath line(const Vec3& from, const Vec3& to) {

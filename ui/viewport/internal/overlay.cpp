@@ -85,12 +85,16 @@ bool overlap(const Rect& a, const Rect& b) {
     return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-/// The middle of words of `place`, above it or below it, as near as `taken` and the picture leave room.
+/// The middle of words of `place`, above it or below it, as near as `taken` and the picture leave room. None
+/// of a place out of the picture.
 std::optional<Point> free_place(const widgets::Ui& ui,
                                 const Rect& picture,
                                 Point place,
                                 const std::string& text,
                                 std::span<const Rect> taken) {
+    if (!picture.contains(place)) {
+        return std::nullopt;
+    }
     const float row = widgets::label_box(ui, place, text).h + ui.px(label_space);
     for (int n = 0; n < label_rows; ++n) {
         const float away = ui.px(label_above) + static_cast<float>(n) * row;
