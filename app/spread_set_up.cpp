@@ -172,10 +172,15 @@ private:
         if (places_.empty()) {
             return "it had not been asked for any place yet";
         }
-        if (const std::vector<std::size_t> without = from(next_); !without.empty()) {
-            return without_places(places_, without);
-        }
         const std::vector<std::size_t> own = from(static_cast<std::size_t>(ranks_.rank()));
+        if (const std::vector<std::size_t> without = from(next_); !without.empty()) {
+            const std::size_t measured = own.size() - without.size();
+            return without_places(places_, without) +
+                   (measured > 0
+                        ? fmt::format("; the {} before them, which it had measured, are lost with rank 0",
+                                      measured)
+                        : std::string());
+        }
         return own.empty()
                    ? fmt::format("none of the {} places was its own", places_.size())
                    : fmt::format(

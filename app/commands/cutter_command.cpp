@@ -110,7 +110,7 @@ int cut(const Options& options) {
     write_outputs(options.out,
                   {{"program." + text.format.extension, text.text.listing.text},
                    {"cut.json", project::cut_report_text(project, plan)},
-                   {"surface.csv", project::surface_csv(plan.workpiece->patch, plan.cut->swept)}},
+                   {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}},
                   opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));

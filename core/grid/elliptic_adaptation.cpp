@@ -107,8 +107,8 @@ std::string refusals(const std::vector<double>& too_wide,
             least = std::min(least, mean);
         }
     }
-    return ". Grids with less, down to " + fixed(least, shown_decimals) + " mm, were refused: " + wide +
-           (wide.empty() || worse.empty() ? "" : ", ") + worse;
+    return ". Grids with a smaller mean distance to the curve, down to " + fixed(least, shown_decimals) +
+           " mm, were refused: " + wide + (wide.empty() || worse.empty() ? "" : ", ") + worse;
 }
 
 /// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.

@@ -71,20 +71,25 @@ std::string why_higher(const Project& project, const Plan& plan) {
     }
     const Evaluation& path = *plan.program_path(project);
     const double off = path.closest.max;
+    // Half a step from a track the height is what is wanted, and it grows with the square of the way.
+    constexpr const char* at_outline = "beside an outline that goes along the tracks the last of them may be "
+                                       "a whole step away, which leaves "
+                                       "four times the height; ";
+    const bool trimmed = !plan.workpiece->trim.everything();
+    const std::string found =
+        fmt::format("{} mm are left where {} mm are wanted", fixed(left, 4), shortest(wanted));
+    constexpr const char* where =
+        "the map of what is left shows where, as does surface.csv of 'millwright cutter'";
     if (off < (much - 1.0) * wanted) {
-        return fmt::format(
-            "{} mm are left where {} mm are wanted: the map of what is left shows where, as does surface.csv "
-            "of 'millwright cutter'",
-            fixed(left, 4),
-            shortest(wanted));
+        return fmt::format("{}: {}{}", found, trimmed ? at_outline : "", where);
     }
+    const bool explains = off >= left - much * wanted;
     return fmt::format(
-        "{} mm are left where {} mm are wanted: between the points of a track the tool alone is "
-        "up to {} mm off the surface; {}",
-        fixed(left, 4),
-        shortest(wanted),
+        "{}: between the points of a track the tool alone is up to {} mm off the surface; {}{}",
+        found,
         fixed(off, 4),
-        way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
+        way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted),
+        explains ? "" : fmt::format("; that is not all of it: {}{}", trimmed ? at_outline : "", where));
 }
 
 std::string why_not_kept(const Project& project, const Evaluation& path) {
@@ -140,12 +145,15 @@ std::string sequencing_remark(const Project& project, const Plan& plan) {
 
 std::string weight_remark(const EllipticInput& input) {
     const grid::MixSettings& mix = input.mix;
-    const bool pulls = mix.error > 0.0 || mix.curvature > 0.0 || mix.painted > 0.0 || mix.expression > 0.0;
-    return input.weight == WeightSource::mixed && !pulls
-               ? "all shares of the mixed weight are 0 (grid/elliptic/mix): it is the same everywhere, and "
-                 "the "
-                 "grid adapts to nothing"
-               : std::string();
+    const bool pulls = mix.error > 0.0 || mix.curvature > 0.0 || mix.expression > 0.0 ||
+                       (mix.painted > 0.0 && input.painted);
+    if (input.weight != WeightSource::mixed || pulls) {
+        return {};
+    }
+    return fmt::format("{}: it is the same everywhere, and the grid adapts to nothing",
+                       mix.painted > 0.0 ? "only what is painted has a share in the mixed weight "
+                                           "(grid/elliptic/mix), and nothing is painted"
+                                         : "all shares of the mixed weight are 0 (grid/elliptic/mix)");
 }
 
 std::vector<std::string> path_remarks(const Project& project, const Plan& plan) {

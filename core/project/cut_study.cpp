@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/geometry/outline_tree.h"
 #include "core/project/internal/cut_reach.h"
 #include "core/toolpath/contact_shape.h"
 #include "core/toolpath/tool_poses.h"
@@ -336,12 +337,16 @@ void add_compared_cuts(Plan& plan, const Project& project, const Progress& progr
     }
 }
 
-std::string surface_csv(const geometry::BezierPatch& patch, const toolpath::SweptCut& swept) {
+std::string surface_csv(const Workpiece& workpiece, const toolpath::SweptCut& swept) {
+    const geometry::OutlineTree outline(workpiece.trim);
     std::string text = "u,v,x_mm,y_mm,z_mm,height_mm\n";
     for (int i = 0; i < swept.nu; ++i) {
         for (int j = 0; j < swept.nv; ++j) {
             const Vec2 uv(static_cast<double>(i) / (swept.nu - 1), static_cast<double>(j) / (swept.nv - 1));
-            const Vec3 at = patch.position(uv.x(), uv.y());
+            if (!outline.contains(uv)) {
+                continue;
+            }
+            const Vec3 at = workpiece.patch.position(uv.x(), uv.y());
             const double height = swept.height(i, j);
             for (const double value : {uv.x(), uv.y(), at.x(), at.y(), at.z()}) {
                 text += fixed(value, 6) + ",";

@@ -61,7 +61,8 @@ void add_compared_cuts(Plan& plan, const Project& project, const Progress& progr
 /// cut.json: docs/reference/cutter.md. `plan` has its study.
 [[nodiscard]] std::string cut_report_text(const Project& project, const Plan& plan);
 
-/// surface.csv: u, v, x, y, z and the height that is left, a point a line; nothing where it was not cut.
-[[nodiscard]] std::string surface_csv(const geometry::BezierPatch& patch, const toolpath::SweptCut& swept);
+/// surface.csv: u, v, x, y, z and the height that is left, a point of the raster a line; nothing where it was
+/// not cut. Points outside of the outline are not in it.
+[[nodiscard]] std::string surface_csv(const Workpiece& workpiece, const toolpath::SweptCut& swept);
 
 } // namespace millwright::project

@@ -236,8 +236,9 @@ void add_estimated_times(Plan& plan, const Project& project, const Progress& pro
 
 std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
     constexpr std::int64_t many_nodes = 10'000;
+    const std::int64_t nodes = std::int64_t{project.grid.nu} * project.grid.nv;
     std::vector<std::string> sentences;
-    if (std::int64_t{project.grid.nu} * project.grid.nv < many_nodes) {
+    if (nodes < many_nodes) {
         return sentences;
     }
     std::set<GridMethod> methods{program_grid(project)};
@@ -250,6 +251,13 @@ std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
         if (!sentence.empty()) {
             sentences.push_back(with_full_stop(sentence));
         }
+    }
+    constexpr std::int64_t many_points = 100'000;
+    if (nodes >= many_points && scope == Scope::everything) {
+        constexpr double gigabytes_a_point = 3.9e-6; // plan of the dome with a million: path, program, motion
+        sentences.push_back(fmt::format("Path, program and motion of {} points take about {:.1f} GB.",
+                                        nodes,
+                                        gigabytes_a_point * static_cast<double>(nodes)));
     }
     return sentences;
 }

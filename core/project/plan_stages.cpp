@@ -292,7 +292,9 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
     measure_uniform(coarse_sampling(input()), progress.part(0.2, 0.3));
     now_.plan.singular_points = toolpath::singular_points(workpiece().patch, workpiece().machine);
     for (const GridMethod method : compared_methods) {
-        carry_over(method, progress.part(0.3, 0.4));
+        if (!is_left_out(project(), method)) {
+            carry_over(method, progress.part(0.3, 0.4));
+        }
     }
     publish(now_.plan, std::nullopt, false);
     if (chosen == GridMethod::tracks && quick_enough(input())) {

@@ -106,7 +106,7 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     const Plan plan = studied(plane(5, 3), narrow);
     const CutStudy& found = *plan.cut;
     EXPECT_GT(found.scallops.not_cut, 0.5);
-    std::istringstream lines(surface_csv(plan.workpiece->patch, found.swept));
+    std::istringstream lines(surface_csv(*plan.workpiece, found.swept));
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "u,v,x_mm,y_mm,z_mm,height_mm");
@@ -119,6 +119,22 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     }
     EXPECT_EQ(count, found.swept.nu * found.swept.nv);
     EXPECT_NEAR(found.scallops.not_cut, static_cast<double>(empty) / count, 1e-12);
+}
+
+// What lies in a hole is not cut, and had heights as if it were left.
+TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
+    Project project = plane(5, 11);
+    project.surface.trims = {{{{{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}}}}};
+    const Plan plan = studied(project, ball);
+    std::istringstream lines(surface_csv(*plan.workpiece, plan.cut->swept));
+    std::string line;
+    std::getline(lines, line);
+    int count = 0;
+    while (std::getline(lines, line)) {
+        ++count;
+        EXPECT_LE(std::stod(line), 0.5) << line;
+    }
+    EXPECT_NEAR(count, plan.cut->swept.nu * plan.cut->swept.nv / 2.0, plan.cut->swept.nv);
 }
 
 TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
