@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -21,12 +22,13 @@ namespace millwright::project {
 
 namespace {
 
+constexpr double little = 0.1; // of a height, beside it
+
 /// What helps against moves of a track of `points` that are `off`: the error falls with the square of their
-/// number, and a tenth of `height` is little beside it.
+/// number, and has to become little beside `height`.
 std::string way_out(int points, double off, double height) {
-    constexpr double share = 0.1;
     const double most = most_nodes_a_side - 1;
-    const double moves = std::ceil((points - 1) * std::sqrt(off / (share * height)));
+    const double moves = std::ceil((points - 1) * std::sqrt(off / (little * height)));
     if (moves <= most) {
         return fmt::format("{} points a track are too few, about {} would do", points, moves + 1.0);
     }
@@ -72,24 +74,22 @@ std::string why_higher(const Project& project, const Plan& plan) {
     const Evaluation& path = *plan.program_path(project);
     const double off = path.closest.max;
     // Half a step from a track the height is what is wanted, and it grows with the square of the way.
-    constexpr const char* at_outline = "beside an outline that goes along the tracks the last of them may be "
-                                       "a whole step away, which leaves "
-                                       "four times the height; ";
+    constexpr const char* at_outline =
+        "beside an outline that goes along the tracks the last of them may be a whole step away, which "
+        "leaves four times the height; ";
     const bool trimmed = !plan.workpiece->trim.everything();
     const std::string found =
         fmt::format("{} mm are left where {} mm are wanted", fixed(left, 4), shortest(wanted));
     constexpr const char* where =
         "the map of what is left shows where, as does surface.csv of 'millwright cutter'";
-    if (off < (much - 1.0) * wanted) {
+    constexpr double to_blame = 0.5; // of what is too much
+    if (off < std::max(to_blame * (left - wanted), little * wanted)) {
         return fmt::format("{}: {}{}", found, trimmed ? at_outline : "", where);
     }
-    const bool explains = off >= left - much * wanted;
-    return fmt::format(
-        "{}: between the points of a track the tool alone is up to {} mm off the surface; {}{}",
-        found,
-        fixed(off, 4),
-        way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted),
-        explains ? "" : fmt::format("; that is not all of it: {}{}", trimmed ? at_outline : "", where));
+    return fmt::format("{}: between the points of a track the tool alone is up to {} mm off the surface; {}",
+                       found,
+                       fixed(off, 4),
+                       way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
 }
 
 std::string why_not_kept(const Project& project, const Evaluation& path) {

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -147,14 +149,16 @@ TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
 // A file that names its unit was asked whether it was in inches, of each of its faces for itself.
 TEST_F(ImportCommand, ASmallModelOfCadIsAskedAboutTheUnitThatItsFileNames) {
     (void)run({"export", "assets/projects/dome.json", "--out", path("dome.step")});
-    std::string text = read_file(path("dome.step"));
+    std::ostringstream read;
+    read << std::ifstream(path("dome.step")).rdbuf();
+    std::string text = read.str();
     const std::string milli = "SI_UNIT(.MILLI.,.METRE.)";
     ASSERT_NE(text.find(milli), std::string::npos);
     text.replace(text.find(milli), milli.size(), "SI_UNIT(.MICRO.,.METRE.)");
-    write_file(path("small.step"), text);
-    const auto doubt = HasSubstr("mm large: is the unit that the file names, micron, right?");
-    EXPECT_THAT(run({"import", path("small.step")}).err, doubt);
-    EXPECT_THAT(run({"import", path("small.step"), "--out", path("p.json")}).err, doubt);
+    const std::string small = written("small.step", text);
+    const auto doubt = HasSubstr("mm large: is the unit that the file names, micrometre, right?");
+    EXPECT_THAT(run({"import", small}).err, doubt);
+    EXPECT_THAT(run({"import", small, "--out", path("p.json")}).err, doubt);
 }
 
 TEST_F(ImportCommand, SaysWhatIsWrong) {

@@ -137,7 +137,7 @@ private:
     /// latter for too small would make the turn too fast: it is written as a turn alone, the rest of the way
     /// with the next move.
     void keep_time_of_turn(Block& block) const {
-        constexpr double next_to_nothing = 1e-3; // mm
+        constexpr double next_to_nothing = 2e-3; // mm
         constexpr double seconds_a_minute = 60.0;
         const FeedWay way = feed_way(result_.program.axes, here(), block.target);
         const double a_minute = way.length / format_.length_unit() / block.duration * seconds_a_minute;

@@ -114,7 +114,7 @@ TEST(ReadBack, PassesATurnBesideNextToNothingOfAWay) {
     test::add_move(program, at);
     const auto go = [&](double mm, double degrees) {
         at[y] += mm;
-        at[c] += to_radians(degrees);
+        at[c] += from_degrees(degrees);
         test::add_move(program, at, 0.1557);
     };
     go(0.5, 2.0);
@@ -127,7 +127,7 @@ TEST(ReadBack, PassesATurnBesideNextToNothingOfAWay) {
     EXPECT_EQ(now.verdict(now.lines()), "");
     const auto& blocks = now.ready.program.blocks;
     EXPECT_EQ(blocks[2].target[y], blocks[1].target[y]);
-    EXPECT_NEAR(blocks[2].target[c], to_radians(4.2334), 1e-6);
+    EXPECT_NEAR(blocks[2].target[c], from_degrees(4.2334), 1e-6);
     EXPECT_NEAR(blocks[3].target[y], 0.5 + 1e-4 - 0.07, 1e-9);
 }
 
