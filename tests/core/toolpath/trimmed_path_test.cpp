@@ -223,7 +223,7 @@ TEST(TrimmedPath, FewestPointsGoFromTrackToTrackAlongTheSurfaceAtTheirOwnEndsAlo
         for (const Trim& trim : {Trim{{round}}, frame()}) {
             const Toolpath path = covered(patch, trim, StrategyKind::fewest_points, direction);
             EXPECT_EQ(count_of(path, MoveKind::cross), 0);
-            EXPECT_GT(count_of(path, MoveKind::over), 2);
+            EXPECT_GE(count_of(path, MoveKind::over), 2);
         }
     }
     const Trim beside{{{{0.25, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.25, 1.0}}}};
