@@ -252,9 +252,8 @@ std::vector<std::string> memory_sentences(const Project& project, Scope scope) {
             sentences.push_back(with_full_stop(sentence));
         }
     }
-    constexpr std::int64_t many_points = 100'000;
-    if (nodes >= many_points && scope == Scope::everything) {
-        constexpr double gigabytes_a_point = 3.9e-6; // plan of the dome with a million: path, program, motion
+    if (nodes > most_compared_nodes && scope == Scope::everything) {
+        constexpr double gigabytes_a_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
         sentences.push_back(fmt::format("Path, program and motion of {} points take about {:.1f} GB.",
                                         nodes,
                                         gigabytes_a_point * static_cast<double>(nodes)));
