@@ -16,6 +16,8 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 set(MILLWRIGHT_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them; empty for none")
+option(MILLWRIGHT_WARNINGS_AS_ERRORS "For developers: the next compiler warns of something new" OFF)
+set(MILLWRIGHT_UNIT_KB 100 CACHE STRING "Compile sources in units of so many kilobytes; 0: each file alone")
 option(MILLWRIGHT_CHECKED "Checked standard library and floating-point traps in core tests" OFF)
 option(MILLWRIGHT_PLAIN_THREADS "Parallel loops on std::jthread instead of oneTBB (for ThreadSanitizer)" OFF)
 
@@ -25,7 +27,8 @@ target_include_directories(millwright_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(millwright_options INTERFACE
     -ffp-contract=off
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
-    -Wdouble-promotion -Wnull-dereference -Wformat=2 -Wcast-align -Wfloat-equal -Wundef -Werror)
+    -Wdouble-promotion -Wnull-dereference -Wformat=2 -Wcast-align -Wfloat-equal -Wundef
+    $<$<BOOL:${MILLWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(millwright_options INTERFACE -fpch-preprocess) # or ccache gives up where headers are precompiled
 endif()
