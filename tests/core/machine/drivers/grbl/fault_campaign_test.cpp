@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <random>
 
 namespace millwright::machine::grbl {
 namespace {

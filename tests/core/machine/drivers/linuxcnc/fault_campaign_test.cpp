@@ -15,7 +15,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 
 namespace millwright::machine::linuxcnc {
 namespace {

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <random>
 
 namespace millwright::machine::pmac {
 namespace {

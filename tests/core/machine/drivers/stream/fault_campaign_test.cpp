@@ -21,7 +21,6 @@
 #include <array>
 #include <atomic>
 #include <mutex>
-#include <random>
 #include <thread>
 
 namespace millwright::machine {
