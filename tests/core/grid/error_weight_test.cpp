@@ -1,6 +1,7 @@
 #include "core/grid/error_weight.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/spike_error_model.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -66,7 +66,6 @@ TEST(ErrorDensity, IsTheLargerOfTheTwoMovesAtANode) {
 
 TEST(ErrorDensity, TakesAMoveOutOfReachForTheWorstAndRoundingForNothing) {
     const Grid grid = Grid::uniform(2, 3);
-    const double infinity = std::numeric_limits<double>::infinity();
     const std::vector<MoveError> moves{{infinity, infinity, 1}, {5.0, 0, 1}, {1e-12, 0, 1}, {2.0, 0, 1}};
     const auto density = error_density(grid, TrackDirection::along_v, moves);
     EXPECT_EQ(density, (std::vector<double>{5.0, 5.0, 5.0, 0.0, 2.0, 2.0}));
