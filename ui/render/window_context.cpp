@@ -74,7 +74,6 @@ GLFWwindow* opened_window(const WindowOptions& options) {
 struct Happened {
     std::atomic<bool> redraw = true; // a new window shows nothing yet
     std::vector<std::filesystem::path> dropped;
-    std::vector<KeyPress> presses;
     std::vector<TypedEvent> typing;
     std::function<void()> on_display_lost;
 };
@@ -92,17 +91,6 @@ void dropped(GLFWwindow* window, int count, const char** files) {
     Happened& happened = happened_in(window);
     happened.dropped.insert(happened.dropped.end(), files, files + count);
     happened.redraw = true;
-}
-
-void key_changed(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
-    Happened& happened = happened_in(window);
-    happened.redraw = true;
-    if (action == GLFW_PRESS && key != GLFW_KEY_UNKNOWN) {
-        happened.presses.push_back({.key = key,
-                                    .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
-                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                    .alt = (mods & GLFW_MOD_ALT) != 0});
-    }
 }
 
 void keep_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
@@ -128,7 +116,7 @@ void keep_button(GLFWwindow* window, int button, int action, int /*mods*/) {
 
 void listen(GLFWwindow* window, Happened& happened) {
     glfwSetWindowUserPointer(window, &happened);
-    glfwSetKeyCallback(window, key_changed);
+    glfwSetKeyCallback(window, redraw<int, int, int, int>);
     glfwSetCharCallback(window, redraw<unsigned int>);
     glfwSetMouseButtonCallback(window, redraw<int, int, int>);
     glfwSetCursorPosCallback(window, redraw<double, double>);
@@ -282,11 +270,6 @@ void WindowContext::on_drop(DropListener listener) {
 void WindowContext::on_display_lost(std::function<void()> listener) {
     parts_->happened.on_display_lost = std::move(listener);
     watch_display();
-}
-
-// NOLINTNEXTLINE(readability-make-member-function-const): it changes what the window remembers
-std::vector<KeyPress> WindowContext::take_key_presses() {
-    return std::exchange(parts_->happened.presses, {});
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes the window

@@ -30,6 +30,15 @@ void keep_wheel() {
     ImGui::SetItemUsingMouseWheel();
 }
 
+bool keypad_enter_pressed() {
+#if IMGUI_VERSION_NUM >= 18700
+    constexpr ImGuiKey key = ImGuiKey_KeypadEnter;
+#else
+    constexpr ImGuiKey key = ImGuiKey_KeyPadEnter;
+#endif
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key));
+}
+
 std::optional<Rect> dialog_place() {
     const ImGuiWindow* dialog = ImGui::GetTopMostPopupModal();
     if (dialog == nullptr) {

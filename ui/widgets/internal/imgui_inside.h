@@ -1,5 +1,5 @@
-// The little for which ImGui 1.86's public interface is not enough. Newer versions do some of it by
-// themselves; whoever moves to one looks here.
+// The little for which ImGui's public interface is not enough, and what differs between 1.86 (Debian 12) and
+// 1.90 (Debian 13) inside it.
 #pragma once
 
 #include "ui/widgets/places.h"
@@ -19,6 +19,8 @@ public:
 
 /// Once a frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
 void show_keyboard_on_tab();
+
+[[nodiscard]] bool keypad_enter_pressed();
 
 /// A text field has the keyboard now. (WantTextInput says what was so a frame ago.)
 [[nodiscard]] bool text_field_active();
