@@ -95,8 +95,8 @@ int imgui_key(Key key) {
 /// ImGui's mouse: far away when it is not over the window.
 ImVec2 mouse_place(const InputState& input) {
     constexpr float elsewhere = -std::numeric_limits<float>::max();
-    const bool inside = input.mouse_x >= 0.0F && input.mouse_y >= 0.0F;
-    return inside ? ImVec2(input.mouse_x, input.mouse_y) : ImVec2(elsewhere, elsewhere);
+    const bool known = input.mouse_x >= 0.0F || input.mouse_y >= 0.0F; // a drag goes on beyond the window
+    return known ? ImVec2(input.mouse_x, input.mouse_y) : ImVec2(elsewhere, elsewhere);
 }
 
 } // namespace

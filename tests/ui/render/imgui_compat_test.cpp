@@ -120,6 +120,12 @@ TEST_F(BareImGui, TakesMouseWheelKeysAndTextOfOneFrameTogether) {
     });
 }
 
+TEST_F(BareImGui, FollowsADragBeyondTheWindow) {
+    frame({.mouse_x = 30.0F, .mouse_y = 40.0F, .buttons = {true}}, [] {});
+    frame({.mouse_x = -70.0F, .mouse_y = 40.0F, .buttons = {true}},
+          [] { EXPECT_FLOAT_EQ(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F).x, -100.0F); });
+}
+
 TEST_F(BareImGui, PutsInputInPlaceOfWhatWasReadBefore) {
     put_keys(ImGui::GetIO(), {Key::q}, {.ctrl = true});
     put_button(ImGui::GetIO(), 0, true);
