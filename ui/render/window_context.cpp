@@ -41,6 +41,9 @@ public:
         if (display == nullptr || *display == '\0') {
             no_window("there is no display (DISPLAY is not set)", hint);
         }
+#ifdef GLFW_PLATFORM_X11 // since 3.4 GLFW also knows Wayland, where the loss of the display is not noticed
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() == GLFW_FALSE) {
             no_window("the display " + std::string(display) + " cannot be used: " + glfw_reason(), hint);
         }

@@ -5,10 +5,11 @@
 #include "ui/widgets/places.h"
 
 #include <optional>
+#include <string>
 
 namespace millwright::widgets {
 
-/// Whether Tab stops at the item submitted while this lives. (1.86 stops at text fields alone.)
+/// Whether Tab stops at the item submitted while this lives.
 class TabStop {
 public:
     explicit TabStop(bool is_one);
@@ -27,6 +28,9 @@ void show_keyboard_on_tab();
 
 /// Where the dialog stands that is open, as far as it is known a frame after it opened; nothing without one.
 [[nodiscard]] std::optional<Rect> dialog_place();
+
+/// An invisible button for these of ImGui's mouse buttons; items over it that come later win.
+void overlaid_button(const std::string& id, const Rect& place, int buttons);
 
 /// The wheel over the last item is the item's own: the pane behind does not scroll.
 void keep_wheel();
