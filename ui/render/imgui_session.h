@@ -8,7 +8,7 @@
 #include "ui/render/typing.h"
 #include "ui/render/window_context.h"
 
-#include <vector>
+#include <set>
 
 struct ImGuiContext;
 
@@ -37,14 +37,14 @@ public:
 private:
     ImGuiSession(Context& context, GLFWwindow* window);
     void begin_back_ends();
-    void tell_typing();
-    void show_quick_keys();
+    void put_window_input();
 
     Context& context_;
     GLFWwindow* window_;
     WindowContext* keyboard_ = nullptr; ///< null in memory
     Typing typing_;
-    std::vector<int> quick_keys_; ///< shown down in the last frame although they were up again
+    std::set<int> keys_down_;  ///< GLFW's numbers
+    std::set<int> shown_keys_; ///< down as ImGui saw it in the last frame: also those that were up again
     ImGuiContext* imgui_;
 };
 
