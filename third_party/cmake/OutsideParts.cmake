@@ -46,7 +46,6 @@ if(MILLWRIGHT_UI)
     # Debian's libimgui.a holds the FreeType builder, its imgui.pc does not say so.
     target_link_libraries(PkgConfig::imgui INTERFACE Freetype::Freetype)
     pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
-    pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
     find_package(MPI COMPONENTS CXX) # optional: without it a study is done by one process
 endif()
 

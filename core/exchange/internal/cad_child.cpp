@@ -1,6 +1,7 @@
 #include "core/exchange/internal/cad_child.h"
 
 #include "core/base/error.h"
+#include "core/base/program_files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,17 +19,19 @@ namespace millwright::exchange {
 
 namespace {
 
-/// Beside the running program, or where it was built.
-std::string program() {
-    std::error_code unknown;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    const auto beside = own.parent_path() / "millwright-cad";
-    return !unknown && std::filesystem::exists(beside, unknown) ? beside.string() : MILLWRIGHT_CAD_PROCESS;
+/// In the build folder or where it is installed.
+std::string cad_program(const std::filesystem::path& file) {
+    const auto found = find_above(executable(), {"millwright-cad", "libexec/millwright/millwright-cad"});
+    if (!found) {
+        throw Error("millwright-cad, which reads STEP and IGES files, is not installed", file);
+    }
+    return found->string();
 }
 
 } // namespace
 
 CadChild::CadChild(const std::filesystem::path& file) {
+    std::string path = cad_program(file);
     std::array<int, 2> said{};
     if (::pipe2(said.data(), O_CLOEXEC) != 0) {
         throw Error("no pipe can be made", file);
@@ -38,7 +41,6 @@ CadChild::CadChild(const std::filesystem::path& file) {
     posix_spawn_file_actions_adddup2(&files, said[1], STDOUT_FILENO);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::string path = program();
     std::string argument = file.string();
     std::array<char*, 3> argv{path.data(), argument.data(), nullptr};
     const int fault = ::posix_spawn(&child_, path.c_str(), &files, nullptr, argv.data(), environ);
