@@ -38,7 +38,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct PlanOptions {
     std::string project;
     std::string out;
     std::string tool; ///< a tool file; empty: the project's tool
@@ -73,7 +73,7 @@ void print_warnings(const project::Plan& plan) {
 }
 
 /// Why the uniform grid is kept, whose figures stand there then, and whose grid the whole chain took.
-void print_notes(const project::Plan& plan) {
+void print_plan_notes(const project::Plan& plan) {
     for (const project::GridMethod method : project::every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
         const bool kept = evaluation && project::keeps_grid(*evaluation, *plan.uniform);
@@ -121,7 +121,7 @@ void print_links(const project::Plan& plan) {
     }
 }
 
-void print_summary(const project::Plan& plan, const project::Project& project) {
+void print_plan_summary(const project::Plan& plan, const project::Project& project) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "grid",
                "max mm",
@@ -142,7 +142,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
     if (project::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
-    print_notes(plan);
+    print_plan_notes(plan);
     if (const std::string left_out = project::left_out_sentence(project); !left_out.empty()) {
         fmt::print("{}\n", left_out);
     }
@@ -159,7 +159,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
 }
 
 /// With what the command line says of the tool and the rotary axes.
-project::Project changed(project::Project project, const Options& options) {
+project::Project changed(project::Project project, const PlanOptions& options) {
     if (!options.tool.empty()) {
         project.tool = project::read_tool(options.tool);
     }
@@ -245,7 +245,7 @@ std::optional<render::Picture> preview_of(const project::Project& project, const
     }
 }
 
-int plan(const Options& options) {
+int plan(const PlanOptions& options) {
     const Interrupt interrupt;
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
@@ -255,16 +255,18 @@ int plan(const Options& options) {
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     std::vector<OutputFile> files = {{"program." + text.format.extension, text.text.listing.text},
                                      {"report.json", project::report_text(opened.project, plan)}};
-    if (const std::optional<render::Picture> preview = preview_of(opened.project, plan)) {
+    const std::optional<render::Picture> preview = preview_of(opened.project, plan);
+    if (preview) {
         files.push_back({"preview.png", render::to_png(*preview)});
-    } else { // an older one would show another path
+    }
+    write_outputs(options.out, files, opened.file);
+    if (!preview) { // an older one would show another path
         std::error_code failure;
         std::filesystem::remove(std::filesystem::path(options.out) / "preview.png", failure);
     }
-    write_outputs(options.out, files, opened.file);
     print_notes(text);
     print_warnings(plan);
-    print_summary(plan, opened.project);
+    print_plan_summary(plan, opened.project);
     print_sequencing(plan, opened.project);
     for (const std::string& remark : project::path_remarks(opened.project, plan)) {
         fmt::print(stderr, "warning: {}\n", remark);
@@ -278,7 +280,7 @@ int plan(const Options& options) {
 } // namespace
 
 void add_plan_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlanOptions>();
     CLI::App& command =
         *app.add_subcommand("plan", "Make the program of a project, with a report and a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();

@@ -56,9 +56,9 @@ function(millwright_unit target number text)
 endfunction()
 
 # millwright_module(NAME HEADERS ... SOURCES ... [APART ...] PUBLIC ... PRIVATE ...)
-#   One folder = one target millwright_NAME, alias millwright::NAME. Headers form a file set, so that
-#   all_verify_interface_header_sets compiles each of them alone. Headers of the folder that nobody else may
-#   include live in internal/ and are not listed.
+#   One folder = one target millwright_NAME, alias millwright::NAME. The target `headers` compiles each of HEADERS
+#   alone. Headers of the folder that nobody else may include live in internal/ and are not listed.
+#   APART: sources with options of their own or with outside headers that define macros; each is compiled alone.
 function(millwright_module name)
     cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
     add_library(millwright_${name} STATIC)
@@ -71,19 +71,38 @@ function(millwright_module name)
     target_link_libraries(millwright_${name}
         PUBLIC ${ARG_PUBLIC}
         PRIVATE $<BUILD_INTERFACE:millwright_options> ${ARG_PRIVATE})
+    millwright_headers_alone(${name} ${ARG_HEADERS})
 endfunction()
 
-# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [ALONE pattern])
+# The precompiled header hides which standard headers are missing: the architecture test looks for those.
+add_custom_target(headers)
+function(millwright_headers_alone name)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    set(sources "")
+    foreach(header IN LISTS ARGN)
+        string(MAKE_C_IDENTIFIER ${header} file)
+        set(file ${CMAKE_CURRENT_BINARY_DIR}/headers/${file}.cpp)
+        file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${folder}/${header}\"\n" @ONLY)
+        list(APPEND sources ${file})
+    endforeach()
+    add_library(millwright_${name}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+    target_link_libraries(millwright_${name}_headers PRIVATE millwright_options millwright_${name})
+    target_precompile_headers(millwright_${name}_headers REUSE_FROM millwright_precompiled)
+    add_dependencies(headers millwright_${name}_headers)
+endfunction()
+
+# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [ALONE pattern] [LONG pattern])
 #   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
-#   Those that match ALONE run while no other test runs.
+#   Those that match ALONE run while no other test runs. Those that match LONG take minutes to look at what a test of the
+#   same program looks at in small; they have the label `long`, which scripts/test leaves out and .ci/run runs last.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE" "SOURCES;APART;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE;LONG" "SOURCES;APART;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
@@ -112,6 +131,13 @@ function(millwright_test name)
             TEST_LIST ${name}_test_alone
             PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
         string(APPEND others ":${ARG_ALONE}")
+    endif()
+    if(ARG_LONG)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "${ARG_LONG}"
+            TEST_LIST ${name}_test_long
+            PROPERTIES TIMEOUT 1800 LABELS long)
+        string(APPEND others ":${ARG_LONG}")
     endif()
     string(REGEX REPLACE "^:" "-" others "${others}")
     gtest_discover_tests(${name}_test ${discovery} TEST_FILTER "${others}" PROPERTIES TIMEOUT 600)

@@ -40,7 +40,7 @@ std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
     return rows;
 }
 
-std::vector<ReadingBlock> about() {
+std::vector<ReadingBlock> about_page() {
     return {{ReadingKind::heading, {"Millwright " + std::string(project::version())}},
             {ReadingKind::paragraph,
              {"From a surface, a plot or a picture to a machine at work: toolpaths with the error that the "
@@ -60,7 +60,7 @@ std::vector<ReadingBlock> page(HelpPage wanted, actions::Workspace workspace, co
     case HelpPage::commands:
         return manual_of_commands();
     case HelpPage::about:
-        return about();
+        return about_page();
     default:
         return manual_of(workspace);
     }

@@ -76,7 +76,10 @@ EGLContext new_context(EGLDisplay display) {
     return context;
 }
 
-/// A context of EGL without a surface.
+} // namespace
+
+/// A context of EGL without a surface. Outside of the anonymous namespace as a member of
+/// OffscreenContext::Parts.
 class SurfacelessContext {
 public:
     SurfacelessContext() : display_(opened_display()), context_(new_context(display_)) {}
@@ -99,8 +102,6 @@ private:
     EGLDisplay display_;
     EGLContext context_;
 };
-
-} // namespace
 
 struct OffscreenContext::Parts {
     SurfacelessContext context;
