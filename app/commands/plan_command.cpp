@@ -234,7 +234,7 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
 }
 
 /// Nullopt, with a warning, on a computer without OpenGL: the program is worth having without its picture.
-std::optional<render::Picture> preview_of(const project::Project& project, const project::Plan& plan) {
+std::optional<render::Picture> preview_of_plan(const project::Project& project, const project::Plan& plan) {
     constexpr render::PixelSize preview_size{1280, 800};
     try {
         return viewport::render_view(
@@ -255,7 +255,7 @@ int plan(const PlanOptions& options) {
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     std::vector<OutputFile> files = {{"program." + text.format.extension, text.text.listing.text},
                                      {"report.json", project::report_text(opened.project, plan)}};
-    const std::optional<render::Picture> preview = preview_of(opened.project, plan);
+    const std::optional<render::Picture> preview = preview_of_plan(opened.project, plan);
     if (preview) {
         files.push_back({"preview.png", render::to_png(*preview)});
     }
