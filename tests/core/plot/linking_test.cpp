@@ -217,7 +217,7 @@ constexpr const char* holed_star = "IN;SP1;PU7575,6000;PD9153,7519,6982,7231,677
                                    "5845,5595,5706,5706,5595,5845,5524,"
                                    "6000,5500,6155,5524,6294,5595,6405,5706,6476,5845,6500,6000;PU;SP0;";
 
-double distance_to(const Vec2& a, const Vec2& b, const Vec2& p) {
+double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
     const Vec2 way = b - a;
     const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
     return (a + t * way - p).norm();
@@ -232,7 +232,8 @@ double least_distance(const Strokes& cut, const Strokes& drawn) {
                 const Vec2 p = stroke.points[n - 1] + k / 16.0 * (stroke.points[n] - stroke.points[n - 1]);
                 for (const Stroke& outline : drawn) {
                     for (std::size_t m = 1; m < outline.points.size(); ++m) {
-                        least = std::min(least, distance_to(outline.points[m - 1], outline.points[m], p));
+                        least =
+                            std::min(least, distance_to_segment(outline.points[m - 1], outline.points[m], p));
                     }
                 }
             }

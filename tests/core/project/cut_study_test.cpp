@@ -48,10 +48,10 @@ Plan studied(Project project, const ToolInput& tool) {
     return plan;
 }
 
-const ToolInput ball{.cutter = CutterKind::ball, .diameter_mm = 8.0};
+const ToolInput ball_tool{.cutter = CutterKind::ball, .diameter_mm = 8.0};
 
 TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
-    const Plan plan = studied(plane(5, 11), ball); // tracks 4 mm apart
+    const Plan plan = studied(plane(5, 11), ball_tool); // tracks 4 mm apart
     const CutStudy& found = *plan.cut;
     const double exact = 4.0 - std::sqrt(16.0 - 4.0);
     EXPECT_NEAR(found.scallops.max, exact, 2e-3);
@@ -74,7 +74,7 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
     project.grid.nu = 6;
     project.grid.nv = 30;
     project.grid.method = GridMethod::uniform;
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
     tool.length_mm = 100.0;
     const Plan plan = studied(project, tool);
@@ -101,7 +101,7 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
 }
 
 TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
-    ToolInput narrow = ball;
+    ToolInput narrow = ball_tool;
     narrow.diameter_mm = 1.0; // tracks 20 mm apart leave most of the plane as it is
     const Plan plan = studied(plane(5, 3), narrow);
     const CutStudy& found = *plan.cut;
@@ -125,7 +125,7 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
 TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
     Project project = plane(5, 11);
     project.surface.trims = {{{{{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}}}}};
-    const Plan plan = studied(project, ball);
+    const Plan plan = studied(project, ball_tool);
     std::istringstream lines(surface_csv(*plan.workpiece, plan.cut->swept));
     std::string line;
     std::getline(lines, line);
@@ -140,7 +140,7 @@ TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
 TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
     Project project = plane(5, 11);
     project.toolpath.strategy = StrategyInput::constant_scallop;
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.scallop_mm = 0.1;
     const Plan flat = studied(project, tool);
     project.tool = tool;
@@ -173,7 +173,7 @@ std::set<std::string> members_of(const nlohmann::json& json) {
 TEST(CutStudy, EveryMemberOfItsFileIsInTheReference) {
     Project project = plane(5, 11);
     project.surface = project_from_preset("two-bell").surface; // where the ball gouges
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
     const Plan plan = studied(project, tool);
     project.tool = tool;
@@ -190,7 +190,7 @@ TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {
     project.toolpath.strategy = StrategyInput::constant_scallop;
     project.surface = project_from_preset("two-bell").surface;
     project.machine.file = "ac-table"; // its moves swing
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.scallop_mm = 1.0;
     Plan plan = studied(project, tool);
     tool.scallop_mm = project.tool.scallop_mm = 1e-3; // the tracks for it would take minutes
@@ -207,7 +207,7 @@ TEST(CutStudy, FormulaKnowsPartedTracks) {
     project.toolpath.strategy = StrategyInput::constant_scallop;
     for (const auto direction : {grid::TrackDirection::along_u, grid::TrackDirection::along_v}) {
         project.grid.direction = direction;
-        ToolInput tool = ball;
+        ToolInput tool = ball_tool;
         tool.scallop_mm = 0.1;
         const Plan plan = studied(project, tool);
         const toolpath::Toolpath& path = plan.path->toolpath;
@@ -226,7 +226,7 @@ TEST(CutStudy, FormulaKnowsPartedTracks) {
 TEST(CutStudy, FormulaKnowsTheRoundsOfASpiral) {
     Project project = plane(5, 11);
     project.toolpath.strategy = StrategyInput::spiral;
-    const CutStudy& found = *studied(project, ball).cut;
+    const CutStudy& found = *studied(project, ball_tool).cut;
     EXPECT_NEAR(found.scallops.by_formula, 100.0 / (8.0 * 4.0), 1e-9);
     EXPECT_GT(found.scallops.max, 1.0) << "what is left between them is no surface that was never cut";
 }
@@ -240,7 +240,7 @@ TEST(CutStudy, OfAPointIsNone) {
 
 /// The formula says 100 mm of tracks 40 mm apart, where nothing was cut: no ridge is higher than the ball.
 TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
-    ToolInput narrow = ball;
+    ToolInput narrow = ball_tool;
     narrow.diameter_mm = 4.0;
     Project project = plane(5, 2);
     const Plan plan = studied(project, narrow);
@@ -259,7 +259,7 @@ TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
 
 TEST(CutStudy, WhereAllIsCutTheHighestThatIsLeftIsTold) {
     const Project project = plane(5, 11);
-    const Plan plan = studied(project, ball);
+    const Plan plan = studied(project, ball_tool);
     ASSERT_EQ(plan.cut->scallops.not_cut, 0.0);
     EXPECT_FALSE(left_at_least(plan));
     EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at most "));
@@ -272,7 +272,7 @@ TEST(CutStudy, MeasuresTheGapBetweenTracksOfDifferentPoints) {
     project.surface = project_from_preset("two-bell").surface;
     project.machine.file = "ac-table";
     project.grid.nu = 20;
-    project.tool = ball;
+    project.tool = ball_tool;
     project.tool.diameter_mm = 2.0;
     const auto highest = [&](double largest_step_deg) {
         project.sequencing.largest_step_deg = largest_step_deg;

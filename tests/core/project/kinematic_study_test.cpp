@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,10 +15,10 @@
 namespace millwright::project {
 namespace {
 
+using test::asset_folders;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const Folders folders{{}, "assets"};
 constexpr double rounded_up = 1.0 + 1e-9; // of sums whose order differs
 
 const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
@@ -26,7 +27,7 @@ const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
 
 TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
     for (const char* machine : {"rotary-tilt-listing", "bc-table-head", "ca-head"}) {
-        const auto rows = studied({"two-bell", machine, 8, 6}, folders, Progress());
+        const auto rows = studied({"two-bell", machine, 8, 6}, asset_folders, Progress());
         ASSERT_EQ(rows.size(), every_study_method.size());
         for (std::size_t n = 0; n < rows.size(); ++n) {
             EXPECT_EQ(rows[n].method, every_study_method[n]);
@@ -62,7 +63,7 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
 
 /// By the surface curve the chain's own grid is the best there, on the finished part it is not.
 TEST(KinematicStudy, TheChainEndsWithTheBestGridOfAll) {
-    const auto rows = studied({"saddle", "bc-table-head", 12, 8}, folders, Progress());
+    const auto rows = studied({"saddle", "bc-table-head", 12, 8}, asset_folders, Progress());
     const StudyFigures& chain = *row_of(rows, StudyMethod::chain).figures;
     const StudyFigures& uniform = *row_of(rows, StudyMethod::uniform).figures;
     EXPECT_LE(chain.error.lmean, uniform.error.lmean);
@@ -81,7 +82,7 @@ TEST(KinematicStudy, TheChainEndsWithTheBestGridOfAll) {
 }
 
 TEST(KinematicStudy, TheDomeFarFromTheAxisGainsByItsSetUp) {
-    const auto rows = studied({"dome", "rotary-tilt-listing", 10, 6}, folders, Progress());
+    const auto rows = studied({"dome", "rotary-tilt-listing", 10, 6}, asset_folders, Progress());
     EXPECT_LT(row_of(rows, StudyMethod::set_up).figures->error.mean,
               0.7 * row_of(rows, StudyMethod::uniform).figures->error.mean);
 }
@@ -101,14 +102,14 @@ TEST(KinematicStudy, ItsProgressGoesWithItsWork) {
             }
         },
         {});
-    (void)studied({"dome", "ca-head", 6, 4}, folders, progress);
+    (void)studied({"dome", "ca-head", 6, 4}, asset_folders, progress);
     ASSERT_TRUE(at_the_chain.has_value());
     EXPECT_LT(*at_the_chain, 0.3);
 }
 
 TEST(KinematicStudy, RefusesWhatItDoesNotKnow) {
-    EXPECT_THROW((void)studied({"dune", "ca-head", 8, 6}, folders, Progress()), Error);
-    EXPECT_THROW((void)studied({"dome", "no-machine", 8, 6}, folders, Progress()), Error);
+    EXPECT_THROW((void)studied({"dune", "ca-head", 8, 6}, asset_folders, Progress()), Error);
+    EXPECT_THROW((void)studied({"dome", "no-machine", 8, 6}, asset_folders, Progress()), Error);
 }
 
 std::vector<StudyRow> two_rows() {

@@ -15,6 +15,8 @@
 
 namespace millwright::test {
 
+inline constexpr const char* dome_project = "assets/projects/dome.json";
+
 class Person {
 public:
     /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty. `jobs`: folder of the

@@ -12,17 +12,17 @@
 namespace millwright::panels {
 namespace {
 
+using test::dome_project;
 using test::Person;
 using toolpath::CutterKind;
 
-constexpr const char* dome = "assets/projects/dome.json";
 constexpr render::PixelSize tall{1600, 1400}; // so that the whole inspector is in sight
 
 /// At the Toolpath workspace of a small dome.
 class ToolpathWorkspace : public ::testing::Test {
 protected:
     ToolpathWorkspace() {
-        person_.open(dome);
+        person_.open(dome_project);
         person_.workshop().edit("Change the grid",
                                 [](project::Project& p) {
                                     p.grid.nu = 6;

@@ -1,6 +1,7 @@
 #include "ui/render/imgui_session.h"
 
 #include "core/base/error.h"
+#include "tests/ui/render/clear_screen.h"
 #include "ui/render/camera.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/render/painter.h"
@@ -17,11 +18,6 @@
 namespace millwright::render {
 namespace {
 
-void clear(float red, float green, float blue) {
-    glClearColor(red, green, blue, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
-}
-
 /// A red rectangle from (10, 10) to (30, 20).
 void draw_rectangle() {
     ImGui::GetForegroundDrawList()->AddRectFilled(
@@ -32,7 +28,7 @@ TEST(ImGuiSession, DrawsIntoAContextWithoutDisplay) {
     OffscreenContext context({64, 48});
     ImGuiSession session(context);
     context.begin();
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     session.begin_frame();
     draw_rectangle();
     session.end_frame();
@@ -67,10 +63,10 @@ TEST(ImGuiSession, ShowsAViewUprightInsideAPane) {
     ImGuiSession session(context);
     ViewTarget view(1);
     view.begin({100, 80});
-    clear(0.0F, 0.0F, 1.0F);
+    clear_screen(0.0F, 0.0F, 1.0F);
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 60, 100, 20); // the top quarter
-    clear(1.0F, 0.0F, 0.0F);
+    clear_screen(1.0F, 0.0F, 0.0F);
     view.end();
     ImVec2 corner;
     session.begin_frame();
@@ -131,7 +127,7 @@ TEST(ImGuiSession, DrawsTheSameInAWindow) {
     ImGuiSession session(window);
     static_cast<void>(window.wait(0.0));
     window.begin();
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     session.begin_frame({});
     draw_rectangle();
     session.end_frame();
