@@ -250,7 +250,7 @@ int run_cordic_program(const CordicRunOptions& options) {
         warnings.insert(warnings.end(), remarks.begin(), remarks.end());
         answer.add_each("warnings", warnings, json_of_warning);
         if (motion) {
-            answer.add("motion", clocks_json(*motion));
+            answer.add("motion", json_of(*motion));
         }
         if (supervised) {
             answer.add("logic", app::json_of(*supervised));

@@ -78,7 +78,7 @@ CutProgram read_cut_program_to_use(const std::string& file, const ProgramReading
     return program;
 }
 
-std::string counted_plural(std::size_t count, std::string_view one) {
+std::string count_and_noun(std::size_t count, std::string_view one) {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
@@ -92,11 +92,11 @@ std::size_t tool_count(const CutProgram& program) {
 
 std::string strokes_of_levels(const CutProgram& program) {
     const std::string heights =
-        program.uneven ? "heights that change" : counted_plural(program.levels.size(), "level");
+        program.uneven ? "heights that change" : count_and_noun(program.levels.size(), "level");
     return fmt::format("{} at {}, {}",
-                       counted_plural(program.strokes.size(), "stroke"),
+                       count_and_noun(program.strokes.size(), "stroke"),
                        heights,
-                       counted_plural(tool_count(program), "tool"));
+                       count_and_noun(tool_count(program), "tool"));
 }
 
 /// As fast as programmed; rapids as fast as the machine of the thesis travels.
@@ -269,7 +269,7 @@ int program_info(const std::string& file, const ProgramReading& reading, bool js
     const auto box = plot::extents(program.strokes);
     const auto [low, high] = heights_of(program);
     fmt::print("{}, {}\n",
-               counted_plural(static_cast<std::size_t>(program.lines), "line"),
+               count_and_noun(static_cast<std::size_t>(program.lines), "line"),
                strokes_of_levels(program));
     fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm, z {:.3f} to {:.3f} mm\n",
                box->lower.x(),

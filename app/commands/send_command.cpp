@@ -125,7 +125,7 @@ machine::Job ready(machine::Job job, const SendOptions& options, int from_line) 
 }
 
 /// Of a PMAC in its own language, else G-code.
-machine::Job file_job(const SendOptions& options, const std::string& file) {
+machine::Job job_from_file(const SendOptions& options, const std::string& file) {
     return options.machine.driver == "pmac" ? machine::motion_program_job(read_file(file), file)
                                             : machine::text_job(read_file(file), file);
 }
@@ -136,7 +136,7 @@ int send_text(const SendOptions& options) {
     Controller controller(options.machine.controller, options.series.log);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job = ready(file_job(options, file), options, from_line);
+        machine::Job job = ready(job_from_file(options, file), options, from_line);
         controller.check(job);
         return job;
     };

@@ -180,7 +180,7 @@ Handle(Geom_BezierSurface) bezier_of(const geometry::BezierPatch& patch) {
     return patch.rational() ? new Geom_BezierSurface(points, weights) : new Geom_BezierSurface(points);
 }
 
-TopoDS_Face face_of(const geometry::BezierPatch& patch, const std::filesystem::path& file) {
+TopoDS_Face occt_face(const geometry::BezierPatch& patch, const std::filesystem::path& file) {
     if (std::max(patch.degree_u(), patch.degree_v()) > Geom_BezierSurface::MaxDegree()) {
         throw Error(fmt::format("a patch of degree {} x {} cannot be written, {} is the highest",
                                 patch.degree_u(),
@@ -196,15 +196,16 @@ TopoDS_Face face_of(const geometry::BezierPatch& patch, const std::filesystem::p
 }
 
 /// All of them together: the library's writer looks through its whole model for each shape it is given.
-TopoDS_Compound
-faces_of(const geometry::Surface& surface, const std::filesystem::path& file, const Progress& progress) {
+TopoDS_Compound shape_of_surface(const geometry::Surface& surface,
+                                 const std::filesystem::path& file,
+                                 const Progress& progress) {
     TopoDS_Compound all;
     const BRep_Builder builder;
     builder.MakeCompound(all);
     double done = 0.0;
     for (const geometry::BezierPatch& patch : surface.patches()) {
         progress.check();
-        builder.Add(all, face_of(patch, file));
+        builder.Add(all, occt_face(patch, file));
         progress.report(++done / surface.patch_count());
     }
     return all;
@@ -240,7 +241,7 @@ void write_step_here(const geometry::Surface& surface,
         STEPControl_Writer writer;
         constexpr int one_part = 0; // else each face is a part of an assembly
         Interface_Static::SetIVal("write.step.assembly", one_part);
-        const TopoDS_Compound faces = faces_of(surface, file, progress.part(0.0, 0.1));
+        const TopoDS_Compound faces = shape_of_surface(surface, file, progress.part(0.0, 0.1));
         const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
         const bool taken =
             writer.Transfer(faces, STEPControl_AsIs, Standard_True, indicator->Start()) == IFSelect_RetDone;

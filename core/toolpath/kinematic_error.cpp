@@ -1,6 +1,7 @@
 #include "core/toolpath/kinematic_error.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/geometry/surface_point.h"
 #include "core/kinematics/branch.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -28,8 +28,6 @@ using geometry::BezierPatch;
 using geometry::ToolPose;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node with what the inverse kinematics says of it, next to the axes' zero.
 struct Node {
@@ -56,7 +54,7 @@ bool borrows_angle(const Node& node, const Node& neighbour) {
     return node.on_pole && !neighbour.on_pole && !neighbour.branches.empty();
 }
 
-Node off_the_pole(const MachineModel& machine, Node node, const Node& neighbour) {
+Node node_off_pole(const MachineModel& machine, Node node, const Node& neighbour) {
     node.branches = kinematics::inverse_branches(machine, node.pose, neighbour.branches.front());
     node.on_pole = false;
     return node;
@@ -139,10 +137,10 @@ template <class Curve>
 grid::MoveError
 judge(const MachineModel& machine, const Node& a, const Node& b, const Curve& curve, int tip_samples) {
     if (borrows_angle(a, b)) {
-        return judge(machine, off_the_pole(machine, a, b), b, curve, tip_samples);
+        return judge(machine, node_off_pole(machine, a, b), b, curve, tip_samples);
     }
     if (borrows_angle(b, a)) {
-        return judge(machine, a, off_the_pole(machine, b, a), curve, tip_samples);
+        return judge(machine, a, node_off_pole(machine, b, a), curve, tip_samples);
     }
     if (a.branches.empty() || b.branches.empty()) {
         return {infinity, infinity, curve.length(), infinity, infinity};

@@ -12,9 +12,9 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr int surface_samples = 7;   // of the surface, in each direction
-constexpr int tried_directions = 24; // directions that are tried
-constexpr double enough = 0.8;       // of the most that can be seen
+constexpr int surface_samples = 7; // in each direction
+constexpr int tried_directions = 24;
+constexpr double enough = 0.8; // of the most that can be seen
 
 /// Whether the ray from `origin` meets the box (slabs; Kay and Kajiya 1986).
 bool meets(const Box3& box, const Vec3& origin, const Vec3& direction) {

@@ -1,6 +1,7 @@
 #include "core/grid/error_weight.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "tests/core/grid/short_names.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/spike_error_model.h"

@@ -14,7 +14,7 @@ namespace {
 constexpr float handle_px = 9.0F;
 constexpr float selected_px = 12.0F;
 constexpr float hovered_px = 14.0F;
-constexpr float hidden_net_opacity = 0.35F; // opacity of what shows through
+constexpr float hidden_net_opacity = 0.35F; // where the surface is in front
 
 void append_net(const geometry::ControlNet& net, std::vector<render::LineVertex>& vertices) {
     for (int i = 0; i < net.rows; ++i) {

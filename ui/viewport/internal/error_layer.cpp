@@ -13,7 +13,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float remaining_error_opacity = 0.6F; // opacity
+constexpr float remaining_error_opacity = 0.6F;
 constexpr double deepest_share = 0.05; // of the content's radius: deeper under the surface, the way is hidden
 
 using toolpath::MoveKind;

@@ -15,7 +15,7 @@ namespace millwright::viewport {
 namespace {
 
 // The grid has its own unit: the distance of its lines. Each tenth line is a major one.
-constexpr int lines_per_side = 30;   // lines to each side of the middle
+constexpr int lines_per_side = 30;   // of the middle
 constexpr double full_to = 0.2;      // of the reach: full strength up to here, nothing at the border
 constexpr double lines_across = 6.0; // of the content's radius
 constexpr double gap_share = 0.02;   // of the content's radius: how far below the content

@@ -10,7 +10,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float remaining_path_opacity = 0.5F; // opacity
+constexpr float remaining_path_opacity = 0.5F;
 constexpr std::ptrdiff_t most_arrows = 10;
 constexpr double arrow_share = 0.45; // of the move's length
 constexpr double hair_share = 0.05;  // of the part's diagonal
