@@ -30,10 +30,13 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Loaded or read at run time, so that shlibdeps does not see them.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, fonts-font-awesome, fonts-inter, libegl1, libgl1")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "On a 5-axis machine the tool does not go straight between two points of a path: the
-axes turn while they move, and the tool swings off the surface. Millwright shows where and by how much, moves the
-points of the path to where they are needed, writes the G-code and runs it on a virtual or a real machine.
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "On a 5-axis machine the tool does not go straight between two points
+of a path: the axes turn while they move, and the tool swings off the
+surface. Millwright shows where and by how much, moves the points of the
+path to where they are needed, writes the G-code and runs it on a virtual
+or a real machine.
 .
-It reads surfaces from STEP, IGES and mesh files, G-code of other programs, HPGL plots and pictures, and talks to
-LinuxCNC, Grbl and a few other controllers.")
+It reads surfaces from STEP, IGES and mesh files, G-code of other programs,
+HPGL plots and pictures, and talks to LinuxCNC, Grbl and a few other
+controllers.")
 include(CPack)
