@@ -1,5 +1,7 @@
 #include "core/base/program_files.h"
 
+#include <sys/auxv.h>
+
 #include <system_error>
 
 namespace millwright {
@@ -8,7 +10,12 @@ namespace fs = std::filesystem;
 
 fs::path executable() {
     std::error_code unknown;
-    return fs::read_symlink("/proc/self/exe", unknown);
+    const fs::path file = fs::read_symlink("/proc/self/exe", unknown);
+    if (!unknown) {
+        return file;
+    }
+    const auto called = ::getauxval(AT_EXECFN); // without /proc: the path that it was started by
+    return called == 0 ? fs::path() : fs::canonical(reinterpret_cast<const char*>(called), unknown);
 }
 
 std::optional<fs::path> find_above(const fs::path& executable, std::initializer_list<const char*> names) {
