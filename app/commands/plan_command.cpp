@@ -24,11 +24,13 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -231,6 +233,18 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
     }
 }
 
+/// Nullopt, with a warning, on a computer without OpenGL: the program is worth having without its picture.
+std::optional<render::Picture> preview_of_plan(const project::Project& project, const project::Plan& plan) {
+    constexpr render::PixelSize preview_size{1280, 800};
+    try {
+        return viewport::render_view(
+            project, plan, viewport::ViewKind::error, preview_size, render::Theme::dark);
+    } catch (const Error& error) {
+        fmt::print(stderr, "warning: no preview.png: {}\n", to_text(error.diagnostic()));
+        return std::nullopt;
+    }
+}
+
 int plan(const PlanOptions& options) {
     const Interrupt interrupt;
     OpenedProject opened = open_project(options.project);
@@ -239,14 +253,17 @@ int plan(const PlanOptions& options) {
     const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
-    constexpr render::PixelSize preview_size{1280, 800};
-    const render::Picture preview = viewport::render_view(
-        opened.project, plan, viewport::ViewKind::error, preview_size, render::Theme::dark);
-    write_outputs(options.out,
-                  {{"program." + text.format.extension, text.text.listing.text},
-                   {"report.json", project::report_text(opened.project, plan)},
-                   {"preview.png", render::to_png(preview)}},
-                  opened.file);
+    std::vector<OutputFile> files = {{"program." + text.format.extension, text.text.listing.text},
+                                     {"report.json", project::report_text(opened.project, plan)}};
+    const std::optional<render::Picture> preview = preview_of_plan(opened.project, plan);
+    if (preview) {
+        files.push_back({"preview.png", render::to_png(*preview)});
+    }
+    write_outputs(options.out, files, opened.file);
+    if (!preview) { // an older one would show another path
+        std::error_code failure;
+        std::filesystem::remove(std::filesystem::path(options.out) / "preview.png", failure);
+    }
     print_notes(text);
     print_warnings(plan);
     print_plan_summary(plan, opened.project);

@@ -8,6 +8,7 @@ namespace millwright::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 void expect_wrong_usage(const std::vector<std::string>& arguments, const std::string& says) {
@@ -33,6 +34,14 @@ TEST(Usage, TheVersionIsPrinted) {
     const Ended ended = run({"--version"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, testing::MatchesRegex("millwright [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+// They take longer to load than all the rest; EGL is missing on many servers.
+TEST(Usage, TheProgramStartsWithoutOpenCascadeAndEgl) {
+    const std::string libraries = content_of(program_file());
+    EXPECT_THAT(libraries, HasSubstr("libX11.so"));
+    EXPECT_THAT(libraries, Not(HasSubstr("libTKernel.so")));
+    EXPECT_THAT(libraries, Not(HasSubstr("libEGL.so")));
 }
 
 TEST(Usage, WhatIsMissingIsNamed) {

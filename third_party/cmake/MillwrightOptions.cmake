@@ -33,6 +33,12 @@ target_compile_options(millwright_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(millwright_options INTERFACE -fpch-preprocess) # or ccache gives up where headers are precompiled
 endif()
+# Libraries that a program does not call need not be loaded when it starts.
+add_link_options(-Wl,--as-needed)
+if(MILLWRIGHT_PACKAGE)
+    # Where the source lies must not show in the bytes; ccache makes its path a relative one.
+    add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=../../=)
+endif()
 if(MILLWRIGHT_SANITIZE)
     target_compile_options(millwright_options INTERFACE
         -fsanitize=${MILLWRIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -50,7 +50,9 @@ public:
     }
     GlfwLibrary(const GlfwLibrary&) = delete;
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
-    ~GlfwLibrary() { glfwTerminate(); }
+    ~GlfwLibrary() {
+        glfwTerminate();
+    }
 };
 
 namespace {
