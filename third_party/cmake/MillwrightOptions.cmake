@@ -5,13 +5,13 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
-# ccache shares its results between checkouts: paths are made relative, the build folder is not hashed. What is
-# precompiled needs its leave to be looked at by content. The compiler is known by its content, so that another
-# installation of it counts as the same; -Werror changes nothing in what is compiled without a warning.
+# ccache shares its results between checkouts: paths are made relative, and the build folder is not hashed. A precompiled
+# header is known by the file beside it (millwright_precompile), the compiler by its content, so that another installation
+# of it counts as the same. -Werror changes nothing in what compiles without a warning.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER
-        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_PCH_EXTSUM=1
             CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_COMPILERCHECK=content CCACHE_IGNOREOPTIONS=-Werror
             ${CCACHE_PROGRAM})
 endif()

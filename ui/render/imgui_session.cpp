@@ -140,6 +140,10 @@ void ImGuiSession::begin_frame(const InputState& input) {
     ImGui::NewFrame();
 }
 
+void ImGuiSession::drop_frame() {
+    ImGui::Render();
+}
+
 void ImGuiSession::end_frame() {
     ImGui::Render();
     context_.begin();

@@ -30,6 +30,8 @@ public:
     void begin_frame(const InputState& input);
     /// Draws the frame over what the context's framebuffer shows.
     void end_frame();
+    /// Ends the frame without drawing it.
+    void drop_frame();
 
     /// Makes the texture anew after fonts were changed. Not inside a frame.
     void rebuild_fonts();
