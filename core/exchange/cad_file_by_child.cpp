@@ -97,7 +97,8 @@ void write_step(const geometry::Surface& surface,
                     file,
                     "the surface cannot be written as STEP",
                     progress.part(0.0, 0.9));
-    progress.check();
+    progress.report(0.9);
+    progress.check(); // from here on the old file is gone
     write_file(file, read_file(scratch.path()));
     progress.report(1.0);
 }

@@ -3,6 +3,7 @@
 #include "ui/widgets/fuzzy.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/letters.h"
 
 #include <imgui_stdlib.h>
@@ -161,7 +162,7 @@ void Search::type_letters(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0F, 0.0F});
     ImGui::PushStyleColor(ImGuiCol_FrameBg, 0U);
     if (std::exchange(takes_keyboard_, false)) {
-        ImGui::SetKeyboardFocusHere();
+        focus_next_item();
     }
     const std::string before = letters_;
     entered_ = ImGui::InputTextWithHint(

@@ -1,5 +1,7 @@
 #include "ui/widgets/internal/edit.h"
 
+#include "ui/widgets/internal/imgui_inside.h"
+
 #include <imgui_stdlib.h>
 
 #include <cmath>
@@ -87,7 +89,7 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
                 .initial = text,
                 .called = false,
                 .kept_until = ImGui::GetFrameCount() + frames_to_refocus};
-        ImGui::SetKeyboardFocusHere();
+        focus_next_item();
     }
     const std::string id = "##" + box.path;
     typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &answering);

@@ -34,6 +34,14 @@ void show_keyboard_on_tab() {
     imgui.NavDisableHighlight = false;
 }
 
+void focus_next_item() {
+#if IMGUI_VERSION_NUM >= 18700
+    ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    imgui.NavFocusScopeId = imgui.CurrentFocusScopeId; // 1.90.1 looks for the item only where the keyboard is
+#endif
+    ImGui::SetKeyboardFocusHere();
+}
+
 void overlaid_button(const std::string& id, const Rect& place, int buttons) {
     const TabStop none(false);
     const ImVec2 size(std::max(place.w, 1.0F), std::max(place.h, 1.0F));

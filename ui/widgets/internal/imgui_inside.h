@@ -29,6 +29,9 @@ void show_keyboard_on_tab();
 /// Where the dialog stands that is open, as far as it is known a frame after it opened; nothing without one.
 [[nodiscard]] std::optional<Rect> dialog_place();
 
+/// Gives the keyboard to the next item, whichever pane has it now.
+void focus_next_item();
+
 /// An invisible button for these of ImGui's mouse buttons; items over it that come later win.
 void overlaid_button(const std::string& id, const Rect& place, int buttons);
 
