@@ -96,7 +96,8 @@ void write_step(const geometry::Surface& surface,
     (void)answer_of(CadChild({"write", scratch.path(), file.stem().string()}, packed(model), file),
                     file,
                     "the surface cannot be written as STEP",
-                    progress.part(0.0, 0.9));
+                    progress);
+    progress.report(0.9, "writing the file");
     progress.check();
     write_file(file, read_file(scratch.path()));
     progress.report(1.0);
