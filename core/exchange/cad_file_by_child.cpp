@@ -91,7 +91,7 @@ void write_step(const geometry::Surface& surface,
                 const Progress& progress) {
     const ScratchFile scratch;
     CadModel model;
-    model.faces.push_back({.patches = surface.patches()});
+    model.faces.emplace_back().patches = surface.patches();
     progress.report(0.0, "making the faces");
     (void)answer_of(CadChild({"write", scratch.path(), file.stem().string()}, packed(model), file),
                     file,

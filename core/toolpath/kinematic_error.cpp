@@ -221,13 +221,20 @@ private:
 template <class Seen>
 grid::MoveError move_of(
     const Seen& seen, const MachineModel& machine, const Vec2& a, const Vec2& b, grid::Sampling sampling) {
-    std::vector<typename Seen::Place> places(static_cast<std::size_t>(sampling.curve) + 1);
-    for (std::size_t c = 0; c < places.size(); ++c) {
-        const double t = static_cast<double>(c) / sampling.curve;
-        places[c] = seen.at(blend(a, b, t), b - a);
+    const auto place_at = [&](int c) {
+        return seen.at(blend(a, b, static_cast<double>(c) / sampling.curve), b - a);
+    };
+    const typename Seen::Place begin = place_at(0);
+    const typename Seen::Place end = place_at(sampling.curve);
+    std::vector<typename Seen::Place> places;
+    places.reserve(static_cast<std::size_t>(sampling.curve) + 1);
+    places.push_back(begin);
+    for (int c = 1; c < sampling.curve; ++c) {
+        places.push_back(place_at(c));
     }
-    const Node first = node_at(machine, seen.pose(places.front()));
-    const Node second = node_at(machine, seen.pose(places.back()));
+    places.push_back(end);
+    const Node first = node_at(machine, seen.pose(begin));
+    const Node second = node_at(machine, seen.pose(end));
     return judge(machine, first, second, seen.curve(std::move(places)), sampling.tip);
 }
 

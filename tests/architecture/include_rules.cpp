@@ -135,7 +135,7 @@ constexpr std::array<std::string_view, 5> window = {"imgui", "backends/imgui", "
 constexpr std::array<std::string_view, 6> opengl = {"GL/", "GLES", "KHR/", "EGL/", "epoxy/", "GLX"};
 constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "bench"};
 constexpr std::array<std::string_view, 1> xlib = {"X11/"};
-constexpr std::array<std::string_view, 2> xlib_home = {"ui/render", "tests/ui/render"};
+constexpr std::array<std::string_view, 3> xlib_home = {"ui/render", "tests/ui/render", "bench"};
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
 constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};

@@ -41,13 +41,18 @@ public:
         if (display == nullptr || *display == '\0') {
             no_window("there is no display (DISPLAY is not set)", hint);
         }
+#ifdef GLFW_PLATFORM_X11 // since 3.4 GLFW also knows Wayland, where the loss of the display is not noticed
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() == GLFW_FALSE) {
             no_window("the display " + std::string(display) + " cannot be used: " + glfw_reason(), hint);
         }
     }
     GlfwLibrary(const GlfwLibrary&) = delete;
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
-    ~GlfwLibrary() { glfwTerminate(); }
+    ~GlfwLibrary() {
+        glfwTerminate();
+    }
 };
 
 namespace {
@@ -81,7 +86,6 @@ GLFWwindow* opened_window(const WindowOptions& options) {
 struct PendingEvents {
     std::atomic<bool> redraw = true; // a new window shows nothing yet
     std::vector<std::filesystem::path> dropped;
-    std::vector<KeyPress> presses;
     std::vector<TypedEvent> typing;
     std::function<void()> on_display_lost;
 };
@@ -101,17 +105,6 @@ void dropped(GLFWwindow* window, int count, const char** files) {
     PendingEvents& happened = happened_in(window);
     happened.dropped.insert(happened.dropped.end(), files, files + count);
     happened.redraw = true;
-}
-
-void key_changed(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
-    PendingEvents& happened = happened_in(window);
-    happened.redraw = true;
-    if (action == GLFW_PRESS && key != GLFW_KEY_UNKNOWN) {
-        happened.presses.push_back({.key = key,
-                                    .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
-                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                    .alt = (mods & GLFW_MOD_ALT) != 0});
-    }
 }
 
 void keep_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
@@ -137,7 +130,7 @@ void keep_button(GLFWwindow* window, int button, int action, int /*mods*/) {
 
 void listen(GLFWwindow* window, PendingEvents& happened) {
     glfwSetWindowUserPointer(window, &happened);
-    glfwSetKeyCallback(window, key_changed);
+    glfwSetKeyCallback(window, redraw<int, int, int, int>);
     glfwSetCharCallback(window, redraw<unsigned int>);
     glfwSetMouseButtonCallback(window, redraw<int, int, int>);
     glfwSetCursorPosCallback(window, redraw<double, double>);
@@ -291,11 +284,6 @@ void WindowContext::on_drop(DropListener listener) {
 void WindowContext::on_display_lost(std::function<void()> listener) {
     parts_->happened.on_display_lost = std::move(listener);
     watch_display();
-}
-
-// NOLINTNEXTLINE(readability-make-member-function-const): it changes what the window remembers
-std::vector<KeyPress> WindowContext::take_key_presses() {
-    return std::exchange(parts_->happened.presses, {});
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes the window

@@ -240,7 +240,7 @@ TEST(RecoveryDialog, DiscardRemovesTheCopy) {
     person.click("dialogs/recovery/recovery_discard");
     EXPECT_FALSE(person.workshop().look().asks());
     EXPECT_TRUE(is_empty_of_copies(scratch.path()));
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
 }
 
 TEST(RecoveryDialog, LaterAsksAgainAtTheNextStart) {

@@ -74,13 +74,19 @@ TEST(PlotFiles, NothingOfTheFileBeforeIsShownOrSentForThisOne) {
 }
 
 TEST(PlotFiles, FiguresOfOtherSettingsAreNotShownForThese) {
-    PlotPerson bench("assets/samples/plot/everyday.plt");
-    bench.person.workshop().edit(
-        "Change depth", [](project::Project& draft) { draft.plot.settings.safe_height = 7.0; }, {});
-    bench.plot().cancel();
-    bench.plot().wait_idle();
-    ASSERT_TRUE(bench.plot().latest());
-    EXPECT_FALSE(bench.plot().is_current(*bench.plot().latest()));
+    PlotPerson bench("assets/samples/plot/thesis-sign.plt");
+    // The figures may be there before they are cancelled: then once more, with another setting.
+    constexpr int tries = 100;
+    bool cancelled = false;
+    for (int n = 0; n < tries && !cancelled; ++n) {
+        bench.person.workshop().edit(
+            "Change depth", [n](project::Project& draft) { draft.plot.settings.safe_height = 7.0 + n; }, {});
+        bench.plot().cancel();
+        bench.plot().wait_idle();
+        ASSERT_TRUE(bench.plot().latest());
+        cancelled = !bench.plot().is_current(*bench.plot().latest());
+    }
+    ASSERT_TRUE(cancelled);
     bench.person.frames(3);
     EXPECT_THAT(bench.person.refusal("inspector/plot_write_path"), HasSubstr("was cancelled"));
     EXPECT_TRUE(bench.person.sees("inspector/given_up"));

@@ -177,6 +177,7 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     EXPECT_EQ(person_.refusal(accept), "The part stands there already.");
     person_.keep("toolpath-set-up-accepted");
     person_.press_key(render::Key::z, true);
+    person_.wait_idle();
     EXPECT_TRUE(person_.refusal(accept).empty());
     EXPECT_NE(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
 }

@@ -168,7 +168,7 @@ TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
     person.wait_idle();
     EXPECT_EQ(person.workshop().look().evaluation(GridMethod::uniform)->outcome.grid.nu(), 10);
     person.press_key(render::Key::z, true);
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
     person.press_key(render::Key::y, true);
     EXPECT_EQ(person.project().grid.nu, 10);
 }
@@ -214,7 +214,7 @@ TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
     Person person;
     person.click("menu/workspaces/grid");
     person.fill_in("inspector/grid/nu", "1");
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
     const auto* seen = person.desktop().ui().places().find("inspector/grid/nu");
     ASSERT_NE(seen, nullptr);
     EXPECT_FALSE(seen->reason.empty());

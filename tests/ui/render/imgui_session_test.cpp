@@ -143,6 +143,11 @@ public:
         glfwSetKeyCallback(window, changed_);
     }
     void change(int key, int action, int mods = 0) const { changed_(window_, key, 0, action, mods); }
+    /// Down and up again.
+    void strike(int key) const {
+        change(key, GLFW_PRESS);
+        change(key, GLFW_RELEASE);
+    }
 
 private:
     GLFWwindow* window_;
@@ -175,6 +180,40 @@ TEST(ImGuiSession, TakesAKeyWithTheModifiersOfItsPressInAWindow) {
     keyboard.change(GLFW_KEY_K, GLFW_PRESS);
     keyboard.change(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
     EXPECT_FALSE(frame_has_ctrl_k());
+}
+
+// A slow frame: the key or button is up again before ImGui looks.
+TEST(ImGuiSession, SeesWhatWentDownAndUpBetweenTwoFramesInAWindow) {
+    if (std::getenv("DISPLAY") == nullptr) {
+        GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
+    }
+    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    ImGuiSession session(window);
+    const Keyboard keyboard(window.handle());
+    const GLFWmousebuttonfun button_changed = glfwSetMouseButtonCallback(window.handle(), nullptr);
+    glfwSetMouseButtonCallback(window.handle(), button_changed);
+    struct Seen {
+        bool key, enter, click;
+        bool operator==(const Seen&) const = default;
+    };
+    const auto seen_in_frame = [&session] {
+        session.begin_frame();
+        const Seen seen{key_pressed(Key::f5),
+                        key_pressed(Key::keypad_enter),
+                        ImGui::IsMouseClicked(ImGuiMouseButton_Right)};
+        session.end_frame();
+        return seen;
+    };
+    EXPECT_EQ(seen_in_frame(), (Seen{false, false, false}));
+    keyboard.strike(GLFW_KEY_F5);
+    keyboard.strike(GLFW_KEY_KP_ENTER);
+    button_changed(window.handle(), GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, 0);
+    button_changed(window.handle(), GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, 0);
+    EXPECT_EQ(seen_in_frame(), (Seen{true, true, true}));
+    EXPECT_TRUE(window.wait(0.0)); // for the frame that shows them up
+    EXPECT_EQ(seen_in_frame(), (Seen{false, false, false}));
+    keyboard.strike(GLFW_KEY_F5);
+    EXPECT_EQ(seen_in_frame(), (Seen{true, false, false}));
 }
 
 } // namespace

@@ -250,7 +250,7 @@ void campaign(std::uint64_t first, int runs) {
 }
 
 TEST(PmacFaultCampaign, NeverMovesAfterAFault) {
-    campaign(1, 40 * kinds);
+    campaign(1, 40 * pmac_fault_count);
 }
 
 TEST(PmacFaultCampaignInFull, NeverMovesAfterAFaultInRuns1To5000) {
