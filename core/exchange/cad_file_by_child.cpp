@@ -97,7 +97,7 @@ void write_step(const geometry::Surface& surface,
                     file,
                     "the surface cannot be written as STEP",
                     progress.part(0.0, 0.9));
-    progress.report(0.9);
+    progress.report(0.9, "writing the file");
     progress.check(); // from here on the old file is gone
     write_file(file, read_file(scratch.path()));
     progress.report(1.0);
